@@ -1,0 +1,100 @@
+"""Every error that Silverball raises on purpose: what can go wrong, and whose turn it is to act.
+
+    SilverballError
+    ├── TableError        a table cannot be used; `problems` lists every mistake with its path
+    │   └── UnknownTable  no built-in table and no file has that name
+    ├── BoardFull         the board already holds as many balls as the table allows
+    ├── NoRoom            there is no free place for a ball, or the asked place overlaps something
+    ├── StateError        saved bytes belong to another table, are damaged or describe an impossible state
+    ├── FaultError        a world has stopped at an impossible state; `fault` names it
+    ├── NoDisplay         there is no screen to open a window on
+    ├── MissingExtra      an optional package is needed; the message says which extra to install
+    └── OutputError       a file cannot be written (unknown ending, no such folder, no permission)
+
+A message says where, what was expected, what was given and what to do. The command line prints the
+message alone and ends with exit code 2; nothing half-written stays behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+
+class SilverballError(Exception):
+    """The root of every error that Silverball raises on purpose."""
+
+
+class Problem(NamedTuple):
+    """One mistake in a table: where it is and what to do about it.
+
+    Attributes:
+        path: The place in the file, for example ``triangular_prism[2].vertices``.
+        message: What was expected, what was given and how to mend it, as one sentence.
+    """
+
+    path: str
+    message: str
+
+    def __str__(self) -> str:
+        """The problem on one line."""
+        return f"{self.path}: {self.message}" if self.path else self.message
+
+
+class TableError(SilverballError):
+    """A table cannot be used; every problem is reported, not only the first."""
+
+    def __init__(self, source: str, problems: Sequence[Problem]) -> None:
+        self.source = source
+        self.problems = tuple(problems)
+        count = len(self.problems)
+        head = f"{source}: {count} problem{'' if count == 1 else 's'}"
+        super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems)]))
+
+
+class UnknownTable(TableError):
+    """No built-in table and no file has that name."""
+
+    def __init__(self, name: str, message: str) -> None:
+        super().__init__(name, [Problem("", message)])
+
+
+class BoardFull(SilverballError):
+    """The board already holds as many balls as the table allows."""
+
+
+class NoRoom(SilverballError):
+    """There is no free place for a ball, or the place asked for overlaps something."""
+
+
+class StateError(SilverballError):
+    """Saved bytes belong to another table, are damaged, or describe an impossible state."""
+
+
+class FaultError(SilverballError):
+    """A world has stopped because its state became impossible.
+
+    Attributes:
+        fault: The name of the fault.
+        state: The bytes of the world at the fault, for `World.restore` and a report.
+    """
+
+    def __init__(self, message: str, fault: str, state: bytes) -> None:
+        super().__init__(message)
+        self.fault = fault
+        self.state = state
+
+
+class NoDisplay(SilverballError):
+    """There is no screen to open a window on."""
+
+
+class MissingExtra(SilverballError):
+    """An optional package is needed for this."""
+
+    def __init__(self, what: str, extra: str) -> None:
+        super().__init__(f"{what} needs an optional package: install it with  pip install 'silverball[{extra}]'")
+
+
+class OutputError(SilverballError):
+    """A file cannot be written."""
