@@ -1,3 +1,71 @@
-"""Silverball: a pinball table in Python."""
+"""Silverball: a pinball table in Python, exact, fast and deterministic.
+
+    import silverball as sb
+
+    world = sb.World("classic", seed=7)
+    world.create_ball()
+    world.step(left=True, ticks=24)
+
+Everything public is reachable from here and loaded when it is first used, so that `import silverball` costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from silverball.errors import (
+        BoardFull as BoardFull,
+        FaultError as FaultError,
+        MissingExtra as MissingExtra,
+        NoDisplay as NoDisplay,
+        NoRoom as NoRoom,
+        OutputError as OutputError,
+        SilverballError as SilverballError,
+        StateError as StateError,
+        TableError as TableError,
+        UnknownTable as UnknownTable,
+    )
+    from silverball.table import (
+        Table as Table,
+        check_table as check_table,
+        generate_table as generate_table,
+        load_table as load_table,
+        save_table as save_table,
+        table_names as table_names,
+    )
+    from silverball.world import (
+        Ball as Ball,
+        Event as Event,
+        Paddle as Paddle,
+        World as World,
+        WorldBatch as WorldBatch,
+    )
 
 __version__ = "0.1.0"
+
+_HOME = {
+    "silverball.errors": (
+        "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError", "StateError",
+        "TableError", "UnknownTable",
+    ),
+    "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
+    "silverball.world": ("Ball", "Event", "Paddle", "World", "WorldBatch"),
+}  # fmt: skip
+_MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
+
+__all__ = ["__version__", *_MODULE_OF]  # noqa: PLE0604  (the names are strings)
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name when it is first asked for."""
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module 'silverball' has no attribute {name!r}")
+    value = getattr(import_module(_MODULE_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

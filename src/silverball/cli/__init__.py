@@ -1,0 +1,16 @@
+"""The command line: `silverball <command>`, thin, one file a command.
+
+Every command turns what a person typed into one call of the library. A mistake of a person ends here: its message is
+printed alone and the exit code is 2, without a traceback.
+"""
+
+from __future__ import annotations
+
+import sys
+
+
+def main() -> None:
+    """The entry point of `silverball` and `python -m silverball`."""
+    from silverball.cli.app import run
+
+    sys.exit(run(sys.argv[1:]))

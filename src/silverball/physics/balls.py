@@ -1,0 +1,175 @@
+"""How do balls come onto the board, get shoved, and part when they overlap?
+
+Creating tries random places first (as the original did), then the origin, then searches every place systematically; if nothing is
+free it refuses and nothing changes, the random generator included. A place is a square of the board from which the gutter can
+be reached (worked out once per table), so a ball never appears behind a corner wall.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+from silverball.physics.kernel import kernel
+from silverball.physics.layout import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
+from silverball.physics.log import record
+from silverball.physics.paddle import paddle_distance
+from silverball.physics.random import uniform
+from silverball.physics.shapes import distance
+from silverball.physics.tolerances import CAP_MARGIN, CREATE_TRIES, FREE_GAP, PLACE_STEPS
+from silverball.physics.trigonometry import sine_cosine
+
+TWO_PI = 6.283185307179586
+
+
+@kernel
+def clearance(world: Any, board: Any, colliders: Any, x: float, z: float) -> tuple[float, int]:
+    """The smallest gap [u] between a ball at (x, z) and any part, paddles as they stand now, and that part."""
+    first = board.collider_first
+    left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
+    least, part = z - left.z, Part.LEFT_WALL + 0
+    if right.z - z < least:
+        least, part = right.z - z, Part.RIGHT_WALL + 0
+    if top.x - x < least:
+        least, part = top.x - x, Part.TOP_WALL + 0
+    for index in range(first + Part.LEFT_PADDLE, board.collider_end):
+        c = colliders[index]
+        if c.kind == Kind.ABSENT:
+            continue
+        if c.kind == Kind.PADDLE:
+            gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.LEFT_PADDLE].angle, x, z)
+        else:
+            gap, _, _ = distance(c, x, z)
+        if gap < least:
+            least, part = gap, index - first
+    return least - board.ball_radius, part
+
+
+@kernel
+def clearance_of_balls(world: Any, board: Any, x: float, z: float) -> float:
+    """The smallest gap [u] between a ball at (x, z) and the balls on the board."""
+    least = 1e300
+    for index in range(BALL_COUNT):
+        ball = world.ball[index]
+        if ball.id != 0:
+            gap = sqrt((ball.x - x) ** 2 + (ball.z - z) ** 2) - 2.0 * board.ball_radius
+            least = min(least, gap)
+    return least
+
+
+@kernel
+def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
+    """Whether a ball at (x, z) would overlap nothing."""
+    if x <= board.gutter + board.ball_radius:
+        return False
+    gap, _ = clearance(world, board, colliders, x, z)
+    return gap >= FREE_GAP and clearance_of_balls(world, board, x, z) >= FREE_GAP
+
+
+@kernel
+def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[bool, float, float, int]:
+    """A free place for a ball, and how many random numbers it took to find it."""
+    count = board.place_end - board.place_first
+    size = board.place_size
+    draws = world.draws
+    if count > 0:
+        for _ in range(CREATE_TRIES):
+            which = board.place_first + int(uniform(world.seed, draws) * count)
+            x = places[which, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
+            z = places[which, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
+            draws += 3
+            if is_free(world, board, colliders, x, z):
+                return True, x, z, draws
+    if board.place_lowest < 0.0 and is_free(world, board, colliders, 0.0, 0.0):
+        return True, 0.0, 0.0, draws
+    for which in range(board.place_first, board.place_end):
+        for step in range(PLACE_STEPS * PLACE_STEPS):
+            x = places[which, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            z = places[which, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            if is_free(world, board, colliders, x, z):
+                return True, x, z, draws
+    return False, 0.0, 0.0, world.draws
+
+
+@kernel
+def put_ball(world: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
+    """A new ball at (x, z) in an empty slot of the world."""
+    world.created += 1
+    ball = world.ball[slot]
+    ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
+    ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
+    ball.id = world.created
+    record(log, EventKind.CREATED, NOTHING, ball.id, world.tick, 0.0, x, z, 0.0, 0.0, 0.0)
+
+
+@kernel
+def empty_slot(world: Any, board: Any) -> int:
+    """The first slot without a ball, or −1 when the board holds as many as the table allows."""
+    for slot in range(board.max_balls):
+        if world.ball[slot].id == 0:
+            return slot
+    return -1
+
+
+@kernel
+def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -> int:
+    """One more ball at rest in a free place.
+
+    Returns:
+        An `Outcome`: CREATED, or why not (then nothing has changed).
+    """
+    slot = empty_slot(world, board)
+    if slot < 0:
+        return Outcome.BOARD_FULL + 0
+    found, x, z, draws = free_place(world, board, colliders, places)
+    if not found:
+        return Outcome.NO_ROOM + 0
+    world.draws = draws
+    put_ball(world, log, slot, x, z, 0.0, 0.0)
+    return Outcome.CREATED + 0
+
+
+@kernel
+def shove_balls(world: Any, board: Any, log: Any) -> None:
+    """Jitter: every ball on the board gets an impulse of fixed size in a random direction of its own."""
+    for slot in range(BALL_COUNT):
+        ball = world.ball[slot]
+        if ball.id == 0:
+            continue
+        sine, cosine = sine_cosine(TWO_PI * uniform(world.seed, world.draws))
+        world.draws += 1
+        ball.vx += board.jitter * sine
+        ball.vz += board.jitter * cosine
+        speed = sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
+        if speed > board.speed_cap:
+            ball.vx *= board.speed_cap / speed * CAP_MARGIN
+            ball.vz *= board.speed_cap / speed * CAP_MARGIN
+        record(
+            log, EventKind.JITTER, NOTHING, ball.id, world.tick, 0.0, ball.x, ball.z, sine, cosine, board.jitter
+        )
+
+
+@kernel
+def part_balls(world: Any, board: Any, colliders: Any) -> bool:
+    """Split an overlap of the two balls equally between them (a state from outside; an exact step never makes one).
+
+    Returns:
+        Whether the balls are apart now; False, and nothing changed, if that would press one into a part.
+    """
+    a, b = world.ball[0], world.ball[1]
+    if a.id == 0 or b.id == 0:
+        return True
+    dx, dz = a.x - b.x, a.z - b.z
+    apart = sqrt(dx * dx + dz * dz)
+    overlap = 2.0 * board.ball_radius - apart
+    if overlap <= FREE_GAP:
+        return True
+    nx, nz = (dx / apart, dz / apart) if apart > 0.0 else (0.0, 1.0)
+    push = 0.5 * (overlap + FREE_GAP)
+    ax, az, bx, bz = a.x + push * nx, a.z + push * nz, b.x - push * nx, b.z - push * nz
+    gap_a, _ = clearance(world, board, colliders, ax, az)
+    gap_b, _ = clearance(world, board, colliders, bx, bz)
+    if gap_a < 0.0 or gap_b < 0.0:
+        return False
+    a.x, a.z, b.x, b.z = ax, az, bx, bz
+    return True

@@ -1,0 +1,80 @@
+"""How every kernel is compiled: the one decorator, and where its machine code is kept.
+
+Options, and why:
+
+* ``error_model="numpy"``: a division by zero gives inf or nan instead of raising; kernels never raise.
+* ``fastmath=False``: no reordered and no fused arithmetic, so that every machine gives the same bits.
+* ``nogil=True``: slices of a batch run on threads.
+* ``forceinline=True`` for the few small helpers of the hot loop: they return tuples, which then stay in registers.
+* the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale code
+  after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
+  cache directory that is named after a hash of all sources of the package.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+import numba
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def kernel(function: F) -> F:
+    """Compile a function on its first call and keep the machine code for the next start."""
+    return _compile(function, forceinline=False)
+
+
+def inlined(function: F) -> F:
+    """Compile a small helper of the hot loop into its callers."""
+    return _compile(function, forceinline=True)
+
+
+@cache
+def cache_folder() -> Path | None:
+    """The folder for compiled code of exactly these sources; None where no folder can be written."""
+    import platformdirs
+
+    digest = hashlib.sha256()
+    package = Path(__file__).resolve().parent.parent
+    for source in sorted(package.rglob("*.py")):
+        digest.update(source.relative_to(package).as_posix().encode())
+        digest.update(source.read_bytes())
+    base = os.environ.get("SILVERBALL_CACHE") or platformdirs.user_cache_dir("silverball")
+    folder = Path(base) / "compiled" / digest.hexdigest()[:16]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
+
+
+def is_compiled() -> bool:
+    """Whether compiled code of these sources is already on disk (a first start compiles for some seconds)."""
+    folder = cache_folder()
+    return folder is not None and any(folder.rglob("run_worlds*.nbc"))
+
+
+def _compile(function: F, *, forceinline: bool) -> F:
+    folder = cache_folder()
+    before = numba.config.CACHE_DIR
+    try:
+        # Numba picks the place of the cache when the decorator runs, from this one setting.
+        if folder is not None:
+            numba.config.CACHE_DIR = str(folder)
+        compiled = numba.njit(
+            function,
+            cache=folder is not None,
+            error_model="numpy",
+            fastmath=False,
+            nogil=True,
+            forceinline=forceinline,
+        )
+    finally:
+        numba.config.CACHE_DIR = before
+    return cast(F, compiled)

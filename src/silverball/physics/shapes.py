@@ -1,0 +1,98 @@
+"""How far is a point from a shape, and which way is out?
+
+Each function returns the distance [u] of the point (x, z) from the shape's surface (negative inside) and the unit normal
+there, pointing from the nearest feature to the point. That is all the solver ever asks of a shape: corners come out
+rounded by themselves, and the tip of a paddle has no normal of its own to go wrong.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+from silverball.physics.kernel import inlined, kernel
+from silverball.physics.layout import Kind
+
+
+@inlined
+def point_distance(x: float, z: float, px: float, pz: float) -> tuple[float, float, float]:
+    """Distance of (x, z) from the point (px, pz);  n = (p − q) / |p − q|."""
+    dx = x - px
+    dz = z - pz
+    distance = sqrt(dx * dx + dz * dz)
+    if distance == 0.0:
+        return 0.0, 1.0, 0.0  # every direction is as good; up the table is the same in the mirror
+    return distance, dx / distance, dz / distance
+
+
+@inlined
+def circle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+    """Distance from a cylinder: from its centre, less its radius."""
+    distance, nx, nz = point_distance(x, z, c.x, c.z)
+    return distance - c.radius, nx, nz
+
+
+@kernel
+def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+    """Distance from a slant wall: a segment from corner 0 to corner 1, rounded by its thickness.
+
+    With t = (p − p₀)·u the foot of the point on the line, the nearest point is an end (t ≤ 0, t ≥ length) or lies between.
+    """
+    dx = x - c.x0
+    dz = z - c.z0
+    foot = dx * c.along_x0 + dz * c.along_z0
+    if foot <= 0.0:
+        distance, nx, nz = point_distance(x, z, c.x0, c.z0)
+    elif foot >= c.length0:
+        distance, nx, nz = point_distance(x, z, c.x1, c.z1)
+    else:
+        distance = dx * c.inward_x + dz * c.inward_z
+        nx, nz = c.inward_x, c.inward_z
+        if distance < 0.0:
+            distance, nx, nz = -distance, -nx, -nz
+    return distance - c.radius, nx, nz
+
+
+@kernel
+def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+    """Distance from a triangle with counter-clockwise corners.
+
+    A side with direction u has the outward normal n = (−u_z, u_x) in (x, z). The side that the point lies furthest outside
+    of holds the nearest feature: the side itself, or the corner beyond whose end the point's foot falls.
+    """
+    side, best = 0, (x - c.x0) * -c.along_z0 + (z - c.z0) * c.along_x0
+    outside = (x - c.x1) * -c.along_z1 + (z - c.z1) * c.along_x1
+    if outside > best:
+        side, best = 1, outside
+    outside = (x - c.x2) * -c.along_z2 + (z - c.z2) * c.along_x2
+    if outside > best:
+        side, best = 2, outside
+    if side == 0:
+        return _side_distance(best, x, z, c.x0, c.z0, c.x1, c.z1, c.along_x0, c.along_z0, c.length0)
+    if side == 1:
+        return _side_distance(best, x, z, c.x1, c.z1, c.x2, c.z2, c.along_x1, c.along_z1, c.length1)
+    return _side_distance(best, x, z, c.x2, c.z2, c.x0, c.z0, c.along_x2, c.along_z2, c.length2)
+
+
+@inlined
+def _side_distance(
+    outside: float, x: float, z: float, px: float, pz: float, qx: float, qz: float, ux: float, uz: float, length: float
+) -> tuple[float, float, float]:
+    """Distance from the side p → q or its ends, for a point `outside` away from the side's line."""
+    foot = (x - px) * ux + (z - pz) * uz
+    if outside > 0.0:
+        if foot < 0.0:
+            return point_distance(x, z, px, pz)
+        if foot > length:
+            return point_distance(x, z, qx, qz)
+    return outside, -uz, ux
+
+
+@kernel
+def distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+    """Distance from any shape that stands still: the one rule for every collider."""
+    if c.kind == Kind.CYLINDER:
+        return circle_distance(c, x, z)
+    if c.kind == Kind.SLANT_WALL:
+        return segment_distance(c, x, z)
+    return triangle_distance(c, x, z)

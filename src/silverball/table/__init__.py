@@ -1,0 +1,34 @@
+"""What a person writes: a pinball table as data, read, checked, generated and saved."""
+
+from silverball.table.check import check_table
+from silverball.table.file import dump_table, load_table, parse_table, save_table, table_digest, table_names
+from silverball.table.parts import (
+    Board,
+    Cylinder,
+    CylinderSurface,
+    Paddle,
+    PrismSurface,
+    RandomRecipe,
+    SlantWall,
+    Table,
+    TriangularPrism,
+)
+
+__all__ = [
+    "Board",
+    "Cylinder",
+    "CylinderSurface",
+    "Paddle",
+    "PrismSurface",
+    "RandomRecipe",
+    "SlantWall",
+    "Table",
+    "TriangularPrism",
+    "check_table",
+    "dump_table",
+    "load_table",
+    "parse_table",
+    "save_table",
+    "table_digest",
+    "table_names",
+]

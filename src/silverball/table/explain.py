@@ -1,0 +1,183 @@
+"""How does a mistake in a table file become advice that a person can follow?
+
+pydantic finds the mistakes; this module turns each into a `Problem` with its path as it stands in the
+file (``triangular_prism[2].vertices``) and a sentence that says what was expected and what was given.
+An unknown key gets the key that was probably meant: a misspelled one, the trade's word for ours, or
+one that belongs in another section.
+"""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from silverball.errors import Problem
+from silverball.table.parts import (
+    Board,
+    Cylinder,
+    CylinderSurface,
+    Paddle,
+    PrismSurface,
+    RandomRecipe,
+    SlantWall,
+    Table,
+    TriangularPrism,
+)
+from silverball.table.quantity import shown
+
+PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {
+    "slant_wall": SlantWall,
+    "paddle": Paddle,
+    "triangular_prism": TriangularPrism,
+    "cylinder": Cylinder,
+}
+"""The sections that hold a list of parts, and the model of each."""
+
+# Other people's words, and ours. The first of several that the section knows is suggested.
+SYNONYMS: dict[str, tuple[str, ...]] = {
+    "angle": ("rotation", "rest_angle", "slope"),
+    "ball": ("board",),
+    "balls": ("max_balls",),
+    "bat": ("paddle",),
+    "boost": ("speed_factor",),
+    "bounce": ("restitution", "wall_restitution"),
+    "bounciness": ("restitution", "wall_restitution"),
+    "bumper": ("cylinder",),
+    "centre": ("center",),
+    "circle": ("cylinder",),
+    "circumradius": ("size",),
+    "corners": ("vertices",),
+    "diameter": ("radius", "ball_radius"),
+    "drain": ("gutter",),
+    "elasticity": ("restitution", "wall_restitution"),
+    "file": ("mesh",),
+    "flipper": ("paddle",),
+    "from": ("start",),
+    "guide": ("slant_wall",),
+    "max_speed": ("speed_cap",),
+    "model": ("mesh",),
+    "nudge": ("jitter",),
+    "playfield": ("board",),
+    "position": ("center", "pivot", "start"),
+    "post": ("cylinder",),
+    "prism": ("triangular_prism", "triangular_prisms"),
+    "prisms": ("triangular_prisms", "triangular_prism"),
+    "pos": ("center", "pivot", "start"),
+    "radius": ("ball_radius", "size"),
+    "reduction": ("speed_factor",),
+    "score": ("points",),
+    "sling": ("triangular_prism",),
+    "slingshot": ("triangular_prism",),
+    "speed_limit": ("speed_cap",),
+    "table": ("board",),
+    "thickness": ("wall_thickness", "base"),
+    "tilt": ("slope",),
+    "title": ("name",),
+    "to": ("end",),
+    "triangle": ("triangular_prism",),
+    "value": ("points",),
+    "version": ("format",),
+    "wall": ("slant_wall",),
+    "width": ("base", "thickness"),
+}
+
+_BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}\Z")
+
+
+def path_of(location: tuple[str | int, ...]) -> str:
+    """The place in the file as people write it: ``triangular_prism[2].vertices``."""
+    path = ""
+    for step in location:
+        if isinstance(step, int):
+            path += f"[{step}]"
+        else:
+            key = step if _BARE_KEY.match(step) else json.dumps(step[:60], ensure_ascii=False)
+            path += f".{key}" if path else key
+    return path
+
+
+def explain(error: ValidationError) -> list[Problem]:
+    """Every mistake that pydantic found, as problems in the order of the file's sections."""
+    return [
+        Problem(path_of(detail["loc"]), _message(dict(detail))) for detail in error.errors(include_url=False)
+    ]
+
+
+def _message(detail: dict[str, Any]) -> str:
+    """One sentence for one of pydantic's error details."""
+    location, given, context = detail["loc"], shown(detail["input"]), detail.get("ctx", {})
+    match detail["type"]:
+        case "silverball":
+            return str(context["message"])
+        case "missing":
+            return f"must be given: {_description(location)}"
+        case "extra_forbidden":
+            return _unknown_key(location)
+        case "literal_error":
+            return f"must be {context['expected']}, got {given}"
+        case "string_type":
+            return f"must be text in quotes, got {given}"
+        case "string_too_long":
+            return f"must have at most {context['max_length']} characters, got {len(detail['input'])}"
+        case "string_too_short":
+            return "must not be empty"
+        case "bool_type":
+            return f"must be true or false, got {given}"
+        case "too_long":
+            return f"must have at most {context['max_length']} parts, got {len(detail['input'])}"
+        case "tuple_type":
+            return f"must be a list of parts, each under [[{location[-1]}]] with two brackets, got {given}"
+        case "model_type" | "model_attributes_type":
+            return f"must be a section with keys and values, got {given}"
+        case _:
+            return f"{detail['msg']}, got {given}"
+
+
+def _description(location: tuple[str | int, ...]) -> str:
+    """The description of a field, from the model that holds it."""
+    field = _model_at(location[:-1]).model_fields[str(location[-1])]
+    return field.description or str(location[-1])
+
+
+def _model_at(location: tuple[str | int, ...]) -> type[BaseModel]:
+    """The model whose keys stand at a place in the file."""
+    match location:
+        case ("board",):
+            return Board
+        case (str(kind), int()) if kind in PART_KINDS:
+            return PART_KINDS[kind]
+        case ("random",):
+            return RandomRecipe
+        case ("random", "prism"):
+            return PrismSurface
+        case ("random", "cylinder"):
+            return CylinderSurface
+        case _:
+            return Table
+
+
+def _unknown_key(location: tuple[str | int, ...]) -> str:
+    """What was probably meant by a key that is not known here."""
+    key = str(location[-1])
+    known = list(_model_at(location[:-1]).model_fields)
+    word = key.lower().replace("-", "_")
+    if word in known:
+        return f"unknown key: did you mean `{word}`?"
+    meanings = SYNONYMS.get(word) or SYNONYMS.get(word.removesuffix("s")) or ()
+    for ours in meanings:
+        if ours in known:
+            return f"unknown key: did you mean `{ours}`? That is its name here"
+    close = difflib.get_close_matches(word[:60], known, n=1)
+    if close:
+        return f"unknown key: did you mean `{close[0]}`?"
+    for section, model in (("board", Board), ("random", RandomRecipe)):
+        if word in model.model_fields and location[0] != section:
+            return f"unknown key: `{word}` belongs in [{section}]"
+    for section in PART_KINDS:
+        if word in PART_KINDS[section].model_fields and location[0] not in (section, "random"):
+            return f"unknown key: `{word}` belongs in a part, such as [[{section}]]"
+    return f"unknown key: known here are {', '.join(known)}"

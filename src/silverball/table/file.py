@@ -1,0 +1,280 @@
+"""How does a table get from a file into the program, and back?
+
+`load_table` takes the name of a built-in table or the path of a TOML file and either returns a table
+that has passed every check, or raises one `TableError` with all the problems at once. `save_table`
+writes only what differs from the defaults, so that files stay short and changes show in a diff; a
+saved table loads as an equal one. A file is data: it is parsed, bounded in size and never executed.
+
+Something is a path when it is a `Path`, ends in ``.toml`` or contains a separator; else it is a name.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import hashlib
+import json
+import os
+import stat
+import tempfile
+import tomllib
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+from pydantic import BaseModel, ValidationError
+
+from silverball.errors import OutputError, Problem, TableError, UnknownTable
+from silverball.table.check import Layout, check_layout
+from silverball.table.explain import PART_KINDS, explain
+from silverball.table.parts import Board, Cylinder, RandomRecipe, Table, TriangularPrism
+
+SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
+
+# Without these a layout cannot be measured; chosen to be what `check` needs to know of a board.
+_MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
+
+
+def table_names() -> tuple[str, ...]:
+    """The names of the built-in tables, in alphabetical order."""
+    folder = resources.files("silverball.table") / "tables"
+    return tuple(sorted(entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")))
+
+
+def load_table(name_or_path: str | os.PathLike[str]) -> Table:
+    """Load a table and check it.
+
+    Args:
+        name_or_path: A built-in name (see `table_names`) or the path of a ``.toml`` file.
+
+    Returns:
+        The table; meshes that the file names are replaced by their footprints.
+
+    Raises:
+        UnknownTable: No built-in table has this name.
+        TableError: The file cannot be read or has problems; all of them are in `problems`.
+        MissingExtra: The file names a mesh and the extra for meshes is not installed.
+    """
+    text = os.fspath(name_or_path)
+    if isinstance(name_or_path, str) and not _looks_like_path(text):
+        if text not in table_names():
+            raise UnknownTable(text, _no_such_name(text))
+        entry = resources.files("silverball.table") / "tables" / f"{text}.toml"
+        return parse_table(entry.read_text(encoding="utf-8"), text)
+    return parse_table(_read(text), text, folder=Path(text).parent)
+
+
+def parse_table(text: str, source: str = "table", *, folder: Path | None = None) -> Table:
+    """Make a table of TOML text, with every check that a file gets.
+
+    Args:
+        text: The text of a table file.
+        source: What to call it in messages: a path or a name.
+        folder: Where the meshes that it names are looked for; the current folder if not given.
+
+    Raises:
+        TableError: The text has problems; all of them are in `problems`.
+    """
+    data = _parse_toml(text, source)
+    table: Table | None = None
+    problems: list[Problem] = []
+    try:
+        table = Table.model_validate(data)
+        layout: Layout | None = Layout.of(table)
+    except ValidationError as error:
+        problems += explain(error)
+        layout = _what_is_left(data, error)
+    if layout is not None:
+        layout, footprint_problems = _with_footprints(layout, folder or Path())
+        problems += footprint_problems
+        problems += check_layout(layout)
+    if problems or table is None or layout is None:
+        raise TableError(source, problems)
+    if any(part.mesh is not None for part in (*table.triangular_prism, *table.cylinder)):
+        table = table.model_copy(
+            update={
+                "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
+                "cylinder": tuple(part for _, part in layout.cylinders),
+            }
+        )
+    return table
+
+
+def save_table(table: Table, path: str | os.PathLike[str]) -> None:
+    """Write a table to a file; what was there stays as it was if anything goes wrong.
+
+    Args:
+        table: The table to write.
+        path: Where to; it ends in ``.toml``, as a path for `load_table` does.
+
+    Raises:
+        OutputError: The file cannot be written; the message says why.
+    """
+    target = Path(os.path.realpath(path))
+    if target.suffix != ".toml":
+        raise OutputError(f"{os.fspath(path)}: a table file ends in .toml, for example {target.stem}.toml")
+    if not target.parent.is_dir():
+        raise OutputError(f"{os.fspath(path)}: there is no folder {target.parent}: make it first")
+    temporary: str | None = None
+    try:
+        mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
+        handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        with os.fdopen(handle, "wb") as file:
+            file.write(dump_table(table).encode("utf-8"))
+            file.flush()
+            os.fsync(file.fileno())
+        os.chmod(temporary, mode)
+        os.replace(temporary, target)
+    except OSError as error:
+        raise OutputError(f"{os.fspath(path)}: cannot be written ({error.strerror or error})") from error
+    finally:
+        if temporary is not None:
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(temporary)
+
+
+def dump_table(table: Table) -> str:
+    """The text of a table file: one key a line, one block a part, only what differs from the defaults."""
+    blocks = ["\n".join([f"format = {table.format}", f"name = {_literal(table.name)}"])]
+    if table.board != Board():
+        blocks.append(_block("[board]", table.board))
+    for kind in PART_KINDS:
+        blocks += [_block(f"[[{kind}]]", part) for part in getattr(table, kind)]
+    if table.random is not None:
+        blocks.append(_block("[random]", table.random))
+    return "\n\n".join(blocks) + "\n"
+
+
+def table_digest(table: Table) -> str:
+    """A stable hex string (SHA-256) of everything the table says, defaults included.
+
+    Equal tables have equal digests, on any machine and in any process; a mesh counts by its footprint.
+    """
+    prisms = [part.resolved() for part in table.triangular_prism]
+    cylinders = [part.resolved() for part in table.cylinder]
+    whole = table.model_copy(update={"triangular_prism": tuple(prisms), "cylinder": tuple(cylinders)})
+    text = json.dumps(whole.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def _looks_like_path(text: str) -> bool:
+    separators = [mark for mark in ("/", os.sep, os.altsep) if mark]
+    return text.endswith(".toml") or any(mark in text for mark in separators)
+
+
+def _no_such_name(name: str) -> str:
+    names = table_names()
+    close = difflib.get_close_matches(name.lower()[:60], names, n=1, cutoff=0.5)
+    guess = f': did you mean "{close[0]}"?' if close else "."
+    known = " and ".join(names)
+    return f"there is no built-in table of this name{guess} Built in are {known}; a file ends in .toml"
+
+
+def _read(path: str) -> str:
+    """The text of a table file, or a `TableError` that says in one sentence why there is none."""
+    try:
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            raise _unreadable(path, "is a folder: give the path of a .toml file in it")
+        if not stat.S_ISREG(status.st_mode):
+            raise _unreadable(path, "is no ordinary file: give the path of a .toml file")
+        if status.st_size > SIZE_LIMIT:
+            raise _unreadable(path, f"is {status.st_size:,} bytes long, a table has at most {SIZE_LIMIT:,}")
+        with open(path, "rb") as file:
+            content = file.read(SIZE_LIMIT + 1)
+        if len(content) > SIZE_LIMIT:
+            raise _unreadable(path, f"is longer than {SIZE_LIMIT:,} bytes, the limit for a table")
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        reason = f"is not UTF-8 text (byte {error.start + 1:,} is no part of any character): save it as UTF-8"
+        raise _unreadable(path, reason) from error
+    except FileNotFoundError as error:
+        raise _unreadable(path, "there is no such file: check the path") from error
+    except (OSError, ValueError) as error:  # ValueError: a path with a zero character in it
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _unreadable(path, f"cannot be read ({reason})") from error
+
+
+def _unreadable(path: str, reason: str) -> TableError:
+    return TableError(path, [Problem("", reason)])
+
+
+def _parse_toml(text: str, source: str) -> dict[str, Any]:
+    if not text.strip():
+        example = 'it starts with  format = 1  and  name = "..."'
+        raise _unreadable(source, f"is empty: a table file is TOML text, and {example}")
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise _unreadable(source, "is not a table file: its brackets are nested too deeply") from error
+    except ValueError as error:  # TOMLDecodeError, and numbers of more than 4,300 digits
+        raise _unreadable(source, f"is not valid TOML: {str(error)[:200]}") from error
+
+
+def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None:
+    """The parts without mistakes, under their own paths, so that they can be checked all the same.
+
+    None if the board itself cannot be measured.
+    """
+    broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
+    if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
+        return None
+    given = data.get("board", {})
+    bad_keys = {place[1] for place in broken if place[0] == "board"}
+    board = Board.model_validate({key: value for key, value in given.items() if key not in bad_keys})
+    left: dict[str, list[tuple[str, Any]]] = {}
+    for kind, model in PART_KINDS.items():
+        usable = (kind,) not in broken
+        bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
+        left[kind] = [
+            (f"{kind}[{index}]", model.model_validate(item))
+            for index, item in enumerate(data.get(kind, []) if usable else [])
+            if index not in bad
+        ]
+    recipe = None
+    if "random" in data and not any(place[0] == "random" for place in broken):
+        recipe = RandomRecipe.model_validate(data["random"])
+    return Layout(board, *(tuple(left[kind]) for kind in PART_KINDS), random=recipe)
+
+
+def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
+    """The layout with every mesh replaced by its footprint; parts whose mesh is no good are left out."""
+    problems: list[Problem] = []
+
+    def solid(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
+        kept: list[tuple[str, TriangularPrism | Cylinder]] = []
+        for path, part in parts:
+            try:
+                kept.append((path, part.resolved(folder)))
+            except TableError as error:
+                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in error.problems)
+        return tuple(kept)
+
+    resolved = layout._replace(
+        triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
+    )
+    return resolved, problems
+
+
+def _block(head: str, model: BaseModel) -> str:
+    """One section: its head, then the keys whose values differ from the defaults; places come first."""
+    values = model.model_dump(exclude_defaults=True)
+    own = type(model).__annotations__  # what a part adds to its surface says where it is
+    keys = sorted(values, key=lambda key: (key != "name", key not in own))
+    return "\n".join([head, *(f"{key} = {_literal(values[key])}" for key in keys)])
+
+
+def _literal(value: Any) -> str:
+    """A value as TOML on one line (tomli_w would give every number of a list its own)."""
+    if isinstance(value, tuple | list):
+        return "[" + ", ".join(_literal(item) for item in value) + "]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {_literal(item)}" for key, item in value.items()) + " }"
+    return tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,405 @@
+"""What is a table made of? One model per part; the attributes are the keys of the TOML file.
+
+Every field carries its unit, its range and its default, and a default stands nowhere else. Points are
+written ``[x, z]``: x runs up the table, z to the player's right, the origin is the centre of the board.
+Lengths are table units [u], times seconds, angles degrees, counter-clockwise as the player sees the
+board, from +z (right) towards +x (up). All models are frozen: change one with ``model_copy(update=...)``.
+
+A part says what it is (`Paddle`) and where its outline lies (`Paddle.corners`); whether the parts fit
+together is the question of `check.py`. The trade says flipper for paddle, bumper for cylinder, drain
+for gutter and nudge for jitter.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self, TypeAlias
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
+
+from silverball.table.quantity import COORDINATE, POINT, Count, Interval, Quantity, Several, refuse, shown
+
+FORMAT = 1  # the version of the file format that this module describes
+PARTS_LIMIT = 256  # parts of one kind in a table; chosen: ten times a rich table, checked in a second
+
+Point: TypeAlias = tuple[float, float]
+"""A place on the board, (x, z) [u]."""
+
+Triangle: TypeAlias = tuple[Point, Point, Point]
+"""Three corners, (x, z) [u] each."""
+
+_Place = Annotated[Point, POINT]
+_Corners = Annotated[Triangle, Several(POINT, 3, "[[x, z], [x, z], [x, z]]")]
+_Restitution = Annotated[float, Quantity(0.0, 1.0)]
+_Falloff = Annotated[float, Quantity(0.0, 10.0, "s/u")]
+_SpeedFactor = Annotated[float, Quantity(0.1, 3.0)]
+_Points = Annotated[int, Count(0, 1_000_000, "points")]
+_Radius = Annotated[float, Quantity(0.05, 10.0, "u")]
+_Name = Annotated[str, Field(max_length=80)]
+
+
+def _counter_clockwise(corners: Triangle) -> Triangle:
+    """The same corners, counter-clockwise: Σ(zᵢ·xᵢ₊₁ − xᵢ·zᵢ₊₁) > 0 with z to the right and x up."""
+    a, b, c = corners
+    # The sum, taken from corner a: the same value, without the cancellation far from the origin.
+    turn = (b[1] - a[1]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[1] - a[1])
+    return (a, b, c) if turn >= 0.0 else (a, c, b)
+
+
+class _Model(BaseModel):
+    """What all models share: frozen, and no key that is not known."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+
+class _Part(_Model):
+    """What everything that a ball can hit has in common."""
+
+    name: _Name = ""
+    """A name for people; it changes nothing."""
+
+
+class Board(_Model):
+    """The board itself, its borders (left, right, top) and what holds for every ball on it."""
+
+    length: Annotated[float, Quantity(4.0, 50.0, "u")] = 20.0
+    """[u] along x: the board spans x = −length/2 … length/2."""
+    width: Annotated[float, Quantity(2.0, 50.0, "u")] = 10.0
+    """[u] along z: the board spans z = −width/2 … width/2."""
+    height: Annotated[float, Quantity(0.0, 10.0, "u")] = 1.0
+    """[u] the y at which everything happens."""
+    gravity: Annotated[float, Quantity(0.1, 100.0, "u/s²")] = 10.0
+    """[u/s²] in the board, towards −x, of a sliding ball."""
+    slope: Annotated[float, Quantity(1.0, 60.0, "deg")] = 6.5
+    """[deg] of the board: the force onto it is gravity / tan(slope); only friction needs it."""
+    rolling: Annotated[bool, Field(strict=True)] = False
+    """Whether balls roll; with friction = 0 and rolling = false the physics is the original's."""
+    friction: Annotated[float, Quantity(0.0, 2.0)] = 0.0
+    """Coefficient of friction at every contact; 0 lets balls slide."""
+    ball_radius: Annotated[float, Quantity(0.1, 2.0, "u")] = 0.25
+    """[u] radius of every ball."""
+    ball_restitution: _Restitution = 0.95
+    """Restitution of ball against ball."""
+    max_balls: Annotated[int, Count(1, 2, "balls")] = 2
+    """Balls that may be on the board at once, 1 or 2."""
+    speed_cap: Annotated[float, Quantity(1.0, 200.0, "u/s")] = 22.0
+    """[u/s] no ball is faster; a paddle's tip must stay slower."""
+    hit_speed: Annotated[float, Quantity(0.01, 10.0, "u/s")] = 0.5
+    """[u/s] an impact above it is a hit, below it a touch."""
+    jitter: Annotated[float, Quantity(0.0, 20.0, "u/s")] = 1.5
+    """[u/s] size of the player's shove."""
+    gutter: Annotated[float, COORDINATE] = -9.0
+    """[u] a ball whose centre crosses this x is gone."""
+    wall_thickness: Annotated[float, Quantity(0.0, 1.0, "u")] = 0.1
+    """[u] borders lie at the board's edge: a ball touches at ball radius + thickness from it."""
+    wall_restitution: _Restitution = 0.8
+    """Restitution of the borders."""
+
+    @property
+    def center(self) -> Point:
+        """The centre of the board (x, z) [u]: the origin, by definition."""
+        return (0.0, 0.0)
+
+
+class SlantWall(_Part):
+    """A wall between two points, at any angle, with rounded ends; a ball may meet it from either side."""
+
+    start: _Place
+    """[u] one end, [x, z]."""
+    end: _Place
+    """[u] the other end, [x, z]; the order of the two does not matter."""
+    thickness: Annotated[float, Quantity(0.0, 1.0, "u")] = 0.1
+    """[u] from the line between the ends to the surface, on both sides and around the ends."""
+    restitution: _Restitution = 0.7
+    """Restitution at a slow contact."""
+    restitution_falloff: _Falloff = 0.0
+    """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
+    points: _Points = 0
+    """Points for a hit."""
+
+    def inward_normal(self, board: Board) -> Point:
+        """The unit normal (x, z) that points towards the board's centre, for either order of the ends.
+
+        For a wall whose line passes through the centre, the side is a matter of convention: up, or
+        right if the wall runs straight up the board.
+        """
+        dx, dz = self.end[0] - self.start[0], self.end[1] - self.start[1]
+        length = math.hypot(dx, dz)
+        if length == 0.0:
+            raise ValueError("a slant wall whose two ends are the same point has no normal")
+        nx, nz = dz / length, -dx / length
+        side = nx * (board.center[0] - self.start[0]) + nz * (board.center[1] - self.start[1])
+        if abs(side) < 1e-12:  # [u] through the centre, but for rounding
+            side = nx if nx != 0.0 else nz
+        return (nx, nz) if side > 0.0 else (-nx, -nz)
+
+
+class Paddle(_Part):
+    """The player's bat: an isosceles triangle that turns about the middle of its base.
+
+    Angles are those of a left paddle; the right one is its exact mirror image, so for both a larger
+    angle is a higher tip.
+    """
+
+    side: Literal["left", "right"]
+    """Which button moves it, and which way it turns; one paddle per side."""
+    pivot: _Place
+    """[u] the middle of the base, [x, z]."""
+    length: Annotated[float, Quantity(0.3, 10.0, "u")] = 2.1
+    """[u] from the pivot to the tip."""
+    base: Annotated[float, Quantity(0.05, 5.0, "u")] = 0.5
+    """[u] the triangle's height at the pivot."""
+    rest_angle: Annotated[float, Quantity(-85.0, 85.0, "deg")] = -10.0
+    """[deg] when its button is not held."""
+    up_angle: Annotated[float, Quantity(-85.0, 85.0, "deg")] = 45.0
+    """[deg] when its button is held; above rest_angle."""
+    stroke: Annotated[float, Quantity(0.02, 1.0, "s")] = 0.1
+    """[s] from rest to up, at constant speed."""
+    return_stroke: Annotated[float, Quantity(0.02, 1.0, "s")] = 0.1
+    """[s] from up to rest."""
+    restitution: _Restitution = 0.5
+    """Restitution at a slow contact."""
+    restitution_falloff: _Falloff = 0.02
+    """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
+    points: _Points = 0
+    """Points for a hit."""
+
+    @field_validator("up_angle")
+    @classmethod
+    def _lifts(cls, up_angle: float, info: ValidationInfo) -> float:
+        rest_angle = info.data.get("rest_angle")
+        if rest_angle is not None and up_angle <= rest_angle:
+            refuse(f"must be above rest_angle ({rest_angle:g} deg), got {up_angle:g}")
+        return up_angle
+
+    @property
+    def reach(self) -> float:
+        """[u] the largest distance of any of its points from the pivot."""
+        return max(self.length, 0.5 * self.base)
+
+    @property
+    def tip_speed(self) -> float:
+        """[u/s] of the fastest point during the faster of the two strokes."""
+        turn = math.radians(self.up_angle - self.rest_angle)
+        return turn / min(self.stroke, self.return_stroke) * self.reach
+
+    def corners(self, angle_deg: float) -> Triangle:
+        """The outline (x, z) [u] at an angle [deg], counter-clockwise.
+
+        Args:
+            angle_deg: The mirrored angle: −10 at rest and 45 up, for a left and a right paddle alike.
+        """
+        side = 1.0 if self.side == "left" else -1.0
+        x, z = self.pivot[0], side * self.pivot[1]
+        sine, cosine = math.sin(math.radians(angle_deg)), math.cos(math.radians(angle_deg))
+        half = 0.5 * self.base
+        lower = (x - half * cosine, side * (z + half * sine))
+        tip = (x + self.length * sine, side * (z + self.length * cosine))
+        upper = (x + half * cosine, side * (z - half * sine))
+        return (lower, tip, upper) if self.side == "left" else (upper, tip, lower)
+
+
+class PrismSurface(_Model):
+    """How a triangular prism answers a ball: it takes speed away."""
+
+    restitution: _Restitution = 0.8
+    """Restitution at a slow contact."""
+    restitution_falloff: _Falloff = 0.0
+    """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
+    speed_factor: _SpeedFactor = 0.85
+    """At a hit, the whole velocity after the bounce is multiplied by this: less than 1 takes speed away."""
+    points: _Points = 50
+    """Points for a hit."""
+
+
+class TriangularPrism(PrismSurface, _Part):
+    """An obstacle with a triangular footprint.
+
+    Give exactly one of: `vertices`; or `center` and `size` (and `rotation`) for an equilateral one; or
+    `mesh`, whose footprint becomes the `vertices` when the table file is loaded.
+    """
+
+    vertices: _Corners | None = None
+    """[u] the three corners, each [x, z], in any order."""
+    center: _Place | None = None
+    """[u] the centre of an equilateral footprint, [x, z]."""
+    size: _Radius | None = None
+    """[u] circumradius of an equilateral footprint."""
+    rotation: Annotated[float, Quantity(-360.0, 360.0, "deg")] = 0.0
+    """[deg] direction from the centre to the first corner of an equilateral footprint."""
+    mesh: Annotated[str, Field(min_length=1, max_length=1000)] | None = None
+    """An STL, OBJ or GLB file, relative to the table file."""
+
+    @model_validator(mode="after")
+    def _one_shape(self) -> Self:
+        turned = "rotation" in self.model_fields_set
+        given = [
+            key
+            for key, is_given in (
+                ("vertices", self.vertices is not None),
+                ("center", self.center is not None or self.size is not None or turned),
+                ("mesh", self.mesh is not None),
+            )
+            if is_given
+        ]
+        ways = "`vertices`, or `center` with `size` and `rotation`, or `mesh`"
+        if len(given) != 1:
+            refuse(f"needs exactly one of {ways}, got {' and '.join(given) if given else 'none of them'}")
+        if given == ["center"] and (self.center is None or self.size is None):
+            refuse(
+                f"needs `{'center' if self.center is None else 'size'}` too: an equilateral prism has both"
+            )
+        return self
+
+    def resolved(self, folder: Path | None = None) -> TriangularPrism:
+        """The prism with its mesh, if it has one, replaced by the `vertices` of its footprint.
+
+        Args:
+            folder: Where to look for the mesh; the current folder if not given.
+        """
+        if self.mesh is None:
+            return self
+        from silverball.table.mesh import triangle_footprint
+
+        vertices = triangle_footprint((folder or Path()) / self.mesh)
+        return self.model_copy(update={"mesh": None, "vertices": vertices})
+
+    def corners(self) -> Triangle:
+        """The three corners (x, z) [u], counter-clockwise, whichever way the prism was given."""
+        if self.vertices is not None:
+            return _counter_clockwise(self.vertices)
+        if self.mesh is not None:
+            return self.resolved().corners()
+        assert self.center is not None
+        assert self.size is not None
+        x, z = self.center
+        turns = [math.radians(self.rotation + third) for third in (0.0, 120.0, 240.0)]
+        a, b, c = ((x + self.size * math.sin(turn), z + self.size * math.cos(turn)) for turn in turns)
+        return (a, b, c)
+
+
+class CylinderSurface(_Model):
+    """How a cylinder answers a ball: it gives speed."""
+
+    restitution: _Restitution = 0.9
+    """Restitution at a slow contact."""
+    restitution_falloff: _Falloff = 0.0
+    """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
+    speed_factor: _SpeedFactor = 1.25
+    """At a hit, the whole velocity after the bounce is multiplied by this: more than 1 is the boost."""
+    points: _Points = 100
+    """Points for a hit."""
+
+
+class Cylinder(CylinderSurface, _Part):
+    """A round obstacle: `center` and `radius`, or a `mesh` whose footprint gives both when loaded."""
+
+    center: _Place | None = None
+    """[u] the centre, [x, z]."""
+    radius: _Radius | None = None
+    """[u] from the centre to the surface."""
+    mesh: Annotated[str, Field(min_length=1, max_length=1000)] | None = None
+    """An STL, OBJ or GLB file, relative to the table file."""
+
+    @model_validator(mode="after")
+    def _one_shape(self) -> Self:
+        drawn = [key for key in ("center", "radius") if getattr(self, key) is not None]
+        if self.mesh is not None and drawn:
+            refuse(f"needs either `mesh` or `center` and `radius`, got mesh and {' and '.join(drawn)}")
+        if self.mesh is None and len(drawn) < 2:
+            missing = " and ".join(f"`{key}`" for key in ("center", "radius") if key not in drawn)
+            refuse(f"needs {missing}: a cylinder has `center` and `radius`, or a `mesh`")
+        return self
+
+    def resolved(self, folder: Path | None = None) -> Cylinder:
+        """The cylinder with its mesh, if it has one, replaced by the footprint's `center` and `radius`.
+
+        Args:
+            folder: Where to look for the mesh; the current folder if not given.
+        """
+        if self.mesh is None:
+            return self
+        from silverball.table.mesh import circle_footprint
+
+        x, z, radius = circle_footprint((folder or Path()) / self.mesh)
+        return self.model_copy(update={"mesh": None, "center": (x, z), "radius": radius})
+
+    def circle(self) -> tuple[float, float, float]:
+        """The footprint: x and z of the centre and the radius [u]."""
+        if self.mesh is not None:
+            return self.resolved().circle()
+        assert self.center is not None
+        assert self.radius is not None
+        return (*self.center, self.radius)
+
+
+class RandomRecipe(_Model):
+    """What to place afresh for every seed, and the rules it is placed by."""
+
+    triangular_prisms: Annotated[int, Count(0, 32, "prisms")] = 4
+    """How many triangular prisms."""
+    cylinders: Annotated[int, Count(0, 32, "cylinders")] = 3
+    """How many cylinders."""
+    prism_size: Annotated[tuple[float, float], Interval(Quantity(0.2, 5.0, "u"))] = (0.8, 1.0)
+    """[u] circumradius of a prism, [least, greatest]."""
+    cylinder_radius: Annotated[tuple[float, float], Interval(Quantity(0.1, 5.0, "u"))] = (0.5, 0.7)
+    """[u] radius of a cylinder, [least, greatest]."""
+    area: Annotated[tuple[Point, Point], Several(POINT, 2, "[[x, z], [x, z]]")] = ((-2.0, -4.0), (8.5, 4.0))
+    """[u] the rectangle for the centres: its lower left and its upper right corner."""
+    gap: Annotated[float, Quantity(0.0, 10.0, "u")] = 0.9
+    """[u] least free space between the bounding circles of two obstacles; more than a ball."""
+    wall_gap: Annotated[float, Quantity(0.0, 10.0, "u")] = 0.9
+    """[u] the same from a bounding circle to the surface of any wall and to the turning paddles."""
+    rotation: Annotated[tuple[float, float], Interval(Quantity(0.0, 360.0, "deg"))] = (10.0, 80.0)
+    """[deg] how far a prism is turned, [least, greatest]; every edge stays 10° off both axes besides."""
+    prism: PrismSurface = PrismSurface()
+    """How the prisms answer a ball."""
+    cylinder: CylinderSurface = CylinderSurface()
+    """How the cylinders answer a ball."""
+
+    @field_validator("area")
+    @classmethod
+    def _has_inside(cls, area: tuple[Point, Point]) -> tuple[Point, Point]:
+        (low_x, low_z), (high_x, high_z) = area
+        if low_x > high_x or low_z > high_z:
+            refuse(
+                "must be written [[lower x, left z], [upper x, right z]], "
+                f"got {shown([list(point) for point in area])}"
+            )
+        return area
+
+
+def _known_format(value: Any) -> Any:
+    if value != FORMAT or isinstance(value, bool):
+        refuse(f"must be {FORMAT}, got {shown(value)}: a newer file needs a newer Silverball")
+    return FORMAT
+
+
+class Table(_Model):
+    """A whole table. With a `random` section it is a recipe, of which every seed makes a finished table."""
+
+    format: Annotated[Literal[1], BeforeValidator(_known_format)] = FORMAT
+    """The version of the file format."""
+    name: _Name = "Untitled"
+    """What people call it."""
+    board: Board = Board()
+    """The board and its borders."""
+    slant_wall: Annotated[tuple[SlantWall, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The slant walls."""
+    paddle: Annotated[tuple[Paddle, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The paddles, at most one per side."""
+    triangular_prism: Annotated[tuple[TriangularPrism, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The triangular prisms."""
+    cylinder: Annotated[tuple[Cylinder, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The cylinders."""
+    random: RandomRecipe | None = None
+    """What to place afresh for every seed, if anything."""

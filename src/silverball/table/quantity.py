@@ -1,0 +1,172 @@
+"""What counts as a valid number, point or interval in a table file?
+
+The rules are small objects that stand in the annotations of `parts.py`::
+
+    gravity: Annotated[float, Quantity(0.1, 100.0, "u/s²")] = 10.0
+
+Each takes what TOML gives (or a Python caller), returns the canonical Python value (float, int,
+tuple) and refuses everything else with the range, the unit and the value it got. A boolean is no
+number here, a quoted number is none either, and nothing is infinite. Negative zero becomes zero, so
+that equal tables have equal texts and digests.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from numbers import Integral, Real
+from typing import Any, Never
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+SHOWN = 40  # characters of a refused value that a message repeats; chosen to keep it on one line
+
+
+def shown(value: object) -> str:
+    """The value as a message repeats it: as TOML would write it, and never long."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict):
+        return "a section"
+    if isinstance(value, int) and not -(10**18) < value < 10**18:
+        return "a whole number of more than 18 digits"
+    if isinstance(value, str) and len(value) > SHOWN:
+        value = value[:SHOWN]  # a megabyte of text is cut before it is quoted
+    if isinstance(value, list | tuple):
+        text = "[" + ", ".join(shown(item) for item in value[:SHOWN]) + "]"
+    else:
+        text = repr(value)
+    return text if len(text) <= SHOWN else text[: SHOWN - 1] + "…"
+
+
+def refuse(message: str) -> Never:
+    """Stop the validation of one value with a whole sentence."""
+    raise PydanticCustomError("silverball", "{message}", {"message": message})
+
+
+class Rule:
+    """One rule for one value: `check` returns the canonical value or refuses."""
+
+    def check(self, value: Any) -> Any:
+        """The canonical value, or a refusal that says what was expected and what was given."""
+        raise NotImplementedError
+
+    def json_schema(self) -> JsonSchemaValue:
+        """The same rule as JSON Schema, for editors and generated reference pages."""
+        raise NotImplementedError
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.check)
+
+    def __get_pydantic_json_schema__(
+        self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
+    ) -> JsonSchemaValue:
+        return self.json_schema()
+
+
+@dataclass(frozen=True)
+class Quantity(Rule):
+    """A finite number between two bounds (both allowed), in a unit.
+
+    Attributes:
+        low: The least value that is allowed.
+        high: The greatest value that is allowed.
+        unit: The unit as people write it, empty for a pure number.
+    """
+
+    low: float
+    high: float
+    unit: str = ""
+
+    @property
+    def span(self) -> str:
+        """The range in words: ``0.02 to 1 s``."""
+        return f"{self.low:g} to {self.high:g} {self.unit}".rstrip()
+
+    def check(self, value: Any) -> float:
+        """The value as a float inside the range."""
+        if isinstance(value, bool) or not isinstance(value, Real):
+            refuse(f"must be a number, {self.span}, got {shown(value)}")
+        try:
+            number = float(value) + 0.0  # −0.0 becomes 0.0
+        except OverflowError:
+            number = math.inf
+        if not self.low <= number <= self.high:  # also refuses NaN
+            refuse(f"must be {self.span}, got {shown(value)}")
+        return number
+
+    def json_schema(self) -> JsonSchemaValue:
+        """A number with its bounds."""
+        return {"type": "number", "minimum": self.low, "maximum": self.high, "unit": self.unit}
+
+
+@dataclass(frozen=True)
+class Count(Rule):
+    """A whole number between two bounds (both allowed)."""
+
+    low: int
+    high: int
+    unit: str = ""
+
+    def check(self, value: Any) -> int:
+        """The value as an int inside the range."""
+        span = f"{self.low:,} to {self.high:,} {self.unit}".rstrip()
+        if isinstance(value, bool) or not isinstance(value, Integral):
+            refuse(f"must be a whole number, {span}, got {shown(value)}")
+        if not self.low <= value <= self.high:
+            refuse(f"must be {span}, got {shown(value)}")
+        return int(value)
+
+    def json_schema(self) -> JsonSchemaValue:
+        """An integer with its bounds."""
+        return {"type": "integer", "minimum": self.low, "maximum": self.high}
+
+
+@dataclass(frozen=True)
+class Several(Rule):
+    """A list of a fixed length whose items follow one rule: a point, a triangle, an area.
+
+    Attributes:
+        item: The rule for each item.
+        count: How many items there must be.
+        form: How to write it, for messages: ``[x, z]``.
+    """
+
+    item: Rule
+    count: int
+    form: str
+
+    def check(self, value: Any) -> tuple[Any, ...]:
+        """The items, checked, as a tuple."""
+        if not isinstance(value, list | tuple) or len(value) != self.count:
+            refuse(f"must be written {self.form}, got {shown(value)}")
+        return tuple(self.item.check(item) for item in value)
+
+    def json_schema(self) -> JsonSchemaValue:
+        """An array of exactly that many items."""
+        schema: JsonSchemaValue = {"type": "array", "items": self.item.json_schema()}
+        return schema | {"minItems": self.count, "maxItems": self.count}
+
+
+@dataclass(frozen=True)
+class Interval(Rule):
+    """Two numbers, the least and the greatest, for a value that is drawn at random between them."""
+
+    item: Quantity
+
+    def check(self, value: Any) -> tuple[float, float]:
+        """The two bounds, in order."""
+        low, high = Several(self.item, 2, "[least, greatest]").check(value)
+        if low > high:
+            refuse(f"must be written [least, greatest], got {shown(value)}: swap the two")
+        return low, high
+
+    def json_schema(self) -> JsonSchemaValue:
+        """An array of two numbers."""
+        return Several(self.item, 2, "[least, greatest]").json_schema()
+
+
+COORDINATE = Quantity(-100.0, 100.0, "u")
+POINT = Several(COORDINATE, 2, "[x, z]")

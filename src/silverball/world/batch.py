@@ -1,0 +1,197 @@
+"""Many worlds moved by one call: `WorldBatch`, on all cores.
+
+A batch holds one flat record per world; world i of a batch with seed s is, bit for bit, the single world with seed s + i. Slices of worlds go to
+threads (the kernels hold no lock), which cannot change a bit, since no world reads another.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from silverball.errors import SilverballError
+from silverball.physics.balls import create_ball
+from silverball.physics.kernel import kernel
+from silverball.physics.layout import LOG, WORLD, Outcome, Part, records
+from silverball.physics.step import run_worlds
+from silverball.table import Table, generate_table, load_table
+from silverball.world.compile import Boards, compile_tables
+
+SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
+LEAST_SLICE = 512  # world-ticks below which a slice costs more to hand out than to run
+GREATEST_SEED = 2**63 - 1
+
+
+class WorldBatch:
+    """Thousands of worlds, each with its own state and, if wanted, its own table.
+
+    Attributes:
+        state: WORLD records, shape [world]: everything that changes. Copies of rows continue exactly.
+        boards: The compiled tables.
+        board_of: The board of each world, shape [world].
+        tables: The finished table of each board.
+        tallies: Hits of every part since the batch was made, shape [world, part]. Statistics, not state.
+        logs: LOG records, shape [world]: what happened in the last step.
+    """
+
+    def __init__(
+        self,
+        table: Table | str | Sequence[Table],
+        count: int = 1,
+        seed: int | Sequence[int] = 0,
+        tick_rate: int = 60,
+        threads: int | None = None,
+    ) -> None:
+        """Make `count` worlds.
+
+        Args:
+            table: One table for all worlds, or one each. From a recipe (a table with a `[random]` section) every world gets a
+                board of its own, made with its own seed.
+            count: How many worlds.
+            seed: World i gets seed + i; or one seed each. 0 to 2⁶³ − 1.
+            tick_rate: Ticks per second, 10 to 100,000. 240 plays finely; 60 is enough for agents.
+            threads: How many threads `step` may use; None: one for each core. It never changes a result.
+
+        Raises:
+            ValueError: A count, seed, tick rate or number of tables that cannot be.
+            TableError: The table has problems.
+        """
+        self.count = _checked_int("count", count, 1, 2**31)
+        self.tick_rate = _checked_int("tick_rate", tick_rate, 10, 100_000)
+        self.threads = _cores() if threads is None else _checked_int("threads", threads, 1, 4096)
+        seeds = _seeds(seed, self.count)
+        self.tables, self.board_of = _finished(table, seeds, self.count)
+        self.boards: Boards = compile_tables(self.tables)
+        self.state: NDArray[Any] = records(self.count, WORLD)
+        self.state["seed"] = seeds
+        self.logs: NDArray[Any] = records(self.count, LOG)
+        self.tallies = np.zeros((self.count, max(len(names) for names in self.boards.names)), np.int64)
+        first = self.boards.board["collider_first"][self.board_of]
+        for side, part in enumerate((Part.LEFT_PADDLE, Part.RIGHT_PADDLE)):
+            rest = self.boards.collider["angle_rest"][first + part]
+            self.state["paddle"]["angle"][:, side] = rest
+            self.state["paddle"]["angle_commanded"][:, side] = rest
+
+    def __len__(self) -> int:
+        """The number of worlds."""
+        return self.count
+
+    def step(self, actions: ArrayLike, ticks: int = 1) -> None:
+        """Move every world on.
+
+        Args:
+            actions: bool [world, 3]: left, right, jitter, held for all ticks with one shove on the first;
+                or [ticks, world, 3], one row for every tick.
+            ticks: How many ticks.
+
+        Raises:
+            ValueError: The shape of the actions does not fit.
+        """
+        held = np.ascontiguousarray(actions, np.bool_)
+        if held.ndim == 2:
+            held = held[None]
+        if held.shape not in ((1, self.count, 3), (ticks, self.count, 3)):
+            raise ValueError(
+                f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), got {np.shape(actions)}"
+            )
+        self.run(held, ticks)
+
+    def run(self, held: NDArray[np.bool_], ticks: int) -> None:
+        """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
+        work = self.count * ticks
+        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // LEAST_SLICE)
+        if self.threads == 1 or slices < 2:
+            self._run_slice(held, 0, self.count, ticks)
+            return
+        edges = [self.count * number // slices for number in range(slices + 1)]
+        list(_pool(self.threads).map(lambda k: self._run_slice(held, edges[k], edges[k + 1], ticks), range(slices)))
+
+    def _run_slice(self, held: NDArray[np.bool_], first: int, end: int, ticks: int) -> None:
+        boards = self.boards
+        run_worlds(
+            self.state, boards.board, self.board_of, boards.collider, self.logs, self.tallies,
+            held, first, end, ticks, 1.0 / self.tick_rate,
+        )  # fmt: skip
+
+    def create_balls(self, mask: ArrayLike | None = None) -> NDArray[np.bool_]:
+        """Create a ball in every world of the mask that has room for one.
+
+        Args:
+            mask: bool [world]; None: all.
+
+        Returns:
+            Where a ball was created, bool [world]. Never raises for want of room.
+        """
+        wanted = np.ones(self.count, np.bool_) if mask is None else np.ascontiguousarray(mask, np.bool_)
+        if wanted.shape != (self.count,):
+            raise ValueError(f"mask must have the shape ({self.count},), got {wanted.shape}")
+        outcomes = np.full(self.count, -1, np.int64)
+        boards = self.boards
+        _create_balls(self.state, boards.board, self.board_of, boards.collider, boards.place, self.logs, wanted, outcomes)
+        return outcomes == Outcome.CREATED
+
+
+@kernel
+def _create_balls(
+    worlds: Any, boards: Any, board_of: Any, colliders: Any, places: Any, logs: Any, wanted: Any, outcomes: Any
+) -> None:
+    """Create a ball in each wanted world; write an Outcome for each."""
+    for index in range(len(worlds)):
+        if wanted[index]:
+            board = boards[board_of[index]]
+            outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
+
+
+def _cores() -> int:
+    """The cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+@cache
+def _pool(threads: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
+
+
+def _checked_int(name: str, value: Any, least: int, greatest: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
+        raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
+    return int(value)
+
+
+def _seeds(seed: int | Sequence[int], count: int) -> list[int]:
+    if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
+        first = _checked_int("seed", seed, 0, GREATEST_SEED - count + 1)
+        return [first + index for index in range(count)]
+    if isinstance(seed, (bool, float, str)) or seed is None:
+        raise ValueError(f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}")
+    seeds = [_checked_int("seed", value, 0, GREATEST_SEED) for value in seed]
+    if len(seeds) != count:
+        raise ValueError(f"seed must be one number or {count} of them, one for each world, got {len(seeds)}")
+    return seeds
+
+
+def _finished(
+    table: Table | str | Sequence[Table], seeds: list[int], count: int
+) -> tuple[tuple[Table, ...], NDArray[np.int64]]:
+    """The distinct finished tables of a batch, and which world plays on which."""
+    if isinstance(table, str):
+        table = load_table(table)
+    if isinstance(table, Table):
+        if table.random is None:
+            return (table,), np.zeros(count, np.int64)
+        return tuple(generate_table(seed, table) for seed in seeds), np.arange(count)
+    tables = tuple(table)
+    if len(tables) != count:
+        raise ValueError(f"table must be one table or {count} of them, one for each world, got {len(tables)}")
+    finished = tuple(
+        t if t.random is None else generate_table(seed, t) for t, seed in zip(tables, seeds, strict=True)
+    )
+    return finished, np.arange(count)

@@ -1,0 +1,175 @@
+"""How does a table come to life: from the parts a person wrote to the arrays that the step reads?
+
+Every board takes a run of rows of one shared array of colliders, in the order of `physics.layout.Part`: three borders, two paddles,
+then slant walls, prisms and cylinders in the order of the file. Nothing is checked here: a table that reaches this place
+has passed `table.check`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.physics.layout import BOARD, COLLIDER, Kind, Part, records
+from silverball.table import Paddle, Table, ball_places, table_digest
+
+FAR = 1e9  # [u] where the paddle lies that a table does not have: out of every ball's reach
+
+
+class Boards(NamedTuple):
+    """The compiled tables of a world or a batch.
+
+    Attributes:
+        board: BOARD records, shape [board].
+        collider: COLLIDER records of all boards, shape [collider].
+        place: Centres (x, z) [u] of the squares in which balls may be created, shape [place, 2].
+        names: For each board, the names of its parts in the order of their numbers.
+        digests: For each board, the hash of its table.
+    """
+
+    board: NDArray[Any]
+    collider: NDArray[Any]
+    place: NDArray[np.float64]
+    names: tuple[tuple[str, ...], ...]
+    digests: tuple[str, ...]
+
+
+def compile_tables(tables: Sequence[Table]) -> Boards:
+    """Compile finished tables (without a `[random]` section) into arrays."""
+    boards = records(len(tables), BOARD)
+    colliders: list[NDArray[Any]] = []
+    places: list[NDArray[np.float64]] = []
+    names: list[tuple[str, ...]] = []
+    collider_count = place_count = 0
+    for row, table in zip(boards, tables, strict=True):
+        parts, part_names = _colliders(table)
+        cells, size = ball_places(table)
+        b = table.board
+        row["pull_x"], row["pull_z"] = -b.gravity, 0.0
+        for name in ("ball_radius", "ball_restitution", "speed_cap", "hit_speed", "jitter", "gutter", "max_balls"):
+            row[name] = getattr(b, name)
+        row["half_length"], row["half_width"] = b.length / 2, b.width / 2
+        row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
+        row["place_first"], row["place_end"] = place_count, place_count + len(cells)
+        row["place_size"] = size
+        row["place_lowest"] = cells[:, 0].min() - size / 2 if len(cells) else math.inf
+        colliders.append(parts)
+        places.append(cells)
+        names.append(part_names)
+        collider_count += len(parts)
+        place_count += len(cells)
+    collider = records(collider_count, COLLIDER)
+    np.concatenate(colliders, out=collider)
+    return Boards(
+        boards,
+        collider,
+        np.ascontiguousarray(np.concatenate(places)),
+        tuple(names),
+        tuple(table_digest(table) for table in tables),
+    )
+
+
+def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
+    """The COLLIDER records of one table, and the names of its parts."""
+    count = (
+        Part.FIRST_SHAPE + len(table.slant_wall) + len(table.triangular_prism) + len(table.cylinder)
+    )
+    rows = records(count, COLLIDER)
+    rows["speed_factor"] = 1.0
+    names = ["board.left", "board.right", "board.top", "paddle.left", "paddle.right"]
+    _set_borders(rows, table)
+    for number, side in ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right")):
+        paddle = next((p for p in table.paddle if p.side == side), None)
+        _set_paddle(rows[number], paddle)
+    next_row = iter(rows[Part.FIRST_SHAPE :])
+    for index, wall in enumerate(table.slant_wall):
+        row = next(next_row)
+        row["kind"] = Kind.SLANT_WALL
+        _set_segment(row, wall.start, wall.end, wall.thickness, wall.inward_normal(table.board))
+        _set_surface(row, wall)
+        names.append(f"slant_wall[{index}]")
+    for index, prism in enumerate(table.triangular_prism):
+        row = next(next_row)
+        row["kind"] = Kind.TRIANGULAR_PRISM
+        corners = prism.corners()
+        _set_triangle(row, corners)
+        row["x"], row["z"], row["reach"] = _circle_around(corners)
+        _set_surface(row, prism)
+        names.append(f"triangular_prism[{index}]")
+    for index, cylinder in enumerate(table.cylinder):
+        row = next(next_row)
+        row["kind"] = Kind.CYLINDER
+        row["x"], row["z"], row["radius"] = cylinder.circle()
+        row["reach"] = row["radius"]
+        _set_surface(row, cylinder)
+        names.append(f"cylinder[{index}]")
+    return rows, tuple(names)
+
+
+def _set_borders(rows: NDArray[Any], table: Table) -> None:
+    b = table.board
+    borders = rows[Part.LEFT_WALL : Part.TOP_WALL + 1]
+    borders["kind"] = Kind.WALL
+    borders["restitution"] = b.wall_restitution
+    rows[Part.LEFT_WALL]["z"] = -b.width / 2 + b.wall_thickness
+    rows[Part.RIGHT_WALL]["z"] = b.width / 2 - b.wall_thickness
+    rows[Part.TOP_WALL]["x"] = b.length / 2 - b.wall_thickness
+    rows[Part.LEFT_WALL]["inward_z"], rows[Part.RIGHT_WALL]["inward_z"] = 1.0, -1.0
+    rows[Part.TOP_WALL]["inward_x"] = -1.0
+
+
+def _set_paddle(row: Any, paddle: Paddle | None) -> None:
+    """A paddle in its own frame: base at the origin, tip along z′, lifting side x′ > 0 (see physics/paddle.py)."""
+    if paddle is None:
+        row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
+        return
+    row["kind"] = Kind.PADDLE
+    row["side"] = 1.0 if paddle.side == "left" else -1.0
+    row["x"], row["z"] = paddle.pivot
+    half = paddle.base / 2
+    _set_triangle(row, ((-half, 0.0), (0.0, paddle.length), (half, 0.0)))
+    row["reach"] = paddle.reach
+    row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
+    swing = row["angle_up"] - row["angle_rest"]
+    row["lift_speed"], row["return_speed"] = swing / paddle.stroke, swing / paddle.return_stroke
+    row["restitution"], row["restitution_falloff"] = paddle.restitution, paddle.restitution_falloff
+
+
+def _set_surface(row: Any, part: Any) -> None:
+    row["restitution"], row["restitution_falloff"] = part.restitution, part.restitution_falloff
+    row["points"] = part.points
+    row["speed_factor"] = getattr(part, "speed_factor", 1.0)
+
+
+def _set_side(row: Any, number: int, start: Sequence[float], end: Sequence[float]) -> None:
+    dx, dz = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(dx, dz)
+    row[f"x{number}"], row[f"z{number}"] = start
+    row[f"along_x{number}"], row[f"along_z{number}"], row[f"length{number}"] = dx / length, dz / length, length
+
+
+def _set_triangle(row: Any, corners: Sequence[Sequence[float]]) -> None:
+    for number in range(3):
+        _set_side(row, number, corners[number], corners[(number + 1) % 3])
+
+
+def _set_segment(
+    row: Any, start: Sequence[float], end: Sequence[float], thickness: float, inward: Sequence[float]
+) -> None:
+    _set_side(row, 0, start, end)
+    row["x1"], row["z1"] = end
+    row["radius"] = thickness
+    row["inward_x"], row["inward_z"] = inward
+    row["x"], row["z"] = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    row["reach"] = row["length0"] / 2 + thickness
+
+
+def _circle_around(corners: Sequence[Sequence[float]]) -> tuple[float, float, float]:
+    """Centroid of the corners and the distance of the farthest: not the smallest circle, but close and simple."""
+    x = sum(corner[0] for corner in corners) / 3
+    z = sum(corner[1] for corner in corners) / 3
+    return x, z, max(math.hypot(corner[0] - x, corner[1] - z) for corner in corners) * (1 + 1e-12)

@@ -1,0 +1,105 @@
+"""What does a caller see of a world: balls, paddles and events as plain named tuples.
+
+Positions are (x, y, z) [u] with y locked to the board's height; x runs up the table, z to the player's right.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from silverball.physics.layout import GUTTER, NOTHING, OTHER_BALL, EventKind
+
+KIND_NAMES = {kind.value: kind.name.lower() for kind in EventKind}
+NUMBER_OF_KIND = {name: number for number, name in KIND_NAMES.items()}
+SPECIAL_PARTS = {NOTHING: "", GUTTER: "gutter", OTHER_BALL: "ball"}
+
+Vector = tuple[float, float, float]
+
+
+class Ball(NamedTuple):
+    """A ball on the board.
+
+    Attributes:
+        id: 1, 2, 3, … in the order of creation.
+        position: Centre (x, y, z) [u].
+        velocity: (vx, 0, vz) [u/s].
+        spin: Angular velocity about x, y, z [rad/s].
+    """
+
+    id: int
+    position: Vector
+    velocity: Vector
+    spin: Vector
+
+
+class Paddle(NamedTuple):
+    """A paddle; left and right report mirrored values, so that lifting is positive on both sides.
+
+    Attributes:
+        angle: From the horizontal towards up [rad].
+        angular_velocity: Positive while lifting [rad/s].
+    """
+
+    angle: float
+    angular_velocity: float
+
+
+class Event(NamedTuple):
+    """Something that happened.
+
+    Attributes:
+        kind: "hit", "touch", "ball_hit", "ball_touch", "gutter", "created", "jitter" or "jam".
+        part: The part's path in the table, such as "cylinder[1]"; "gutter", "ball", or "" for none.
+        ball: The ball's id.
+        tick: The tick in which it happened, counted from 0.
+        offset: Time since that tick began [s].
+        position: The ball's centre (x, y, z) [u].
+        normal: Unit normal (x, 0, z) from the part to the ball; for jitter the direction of the shove.
+        speed: Of the approach along the normal, relative to the surface [u/s].
+    """
+
+    kind: str
+    part: str
+    ball: int
+    tick: int
+    offset: float
+    position: Vector
+    normal: Vector
+    speed: float
+
+
+def read_balls(world: Any, height: float) -> tuple[Ball, ...]:
+    """The balls of a WORLD record, in the order of its slots."""
+    return tuple(
+        Ball(
+            id_,
+            (x, height, z),
+            (vx, 0.0, vz),
+            (spin_x, spin_y, spin_z),
+        )
+        for x, z, vx, vz, spin_x, spin_y, spin_z, id_ in world["ball"].tolist()
+        if id_ != 0
+    )
+
+
+def read_paddles(world: Any) -> tuple[Paddle, Paddle]:
+    """The left and the right paddle of a WORLD record."""
+    left, right = (Paddle(angle, turn) for angle, _, turn in world["paddle"].tolist())
+    return left, right
+
+
+def read_events(log: Any, names: tuple[str, ...], height: float) -> tuple[Event, ...]:
+    """The events of a LOG record."""
+    return tuple(
+        Event(
+            KIND_NAMES[kind],
+            names[part] if part >= 0 else SPECIAL_PARTS[part],
+            ball,
+            tick,
+            offset,
+            (x, height, z),
+            (nx, 0.0, nz),
+            speed,
+        )
+        for kind, part, ball, tick, offset, x, z, nx, nz, speed in log["event"][: log["count"]].tolist()
+    )

@@ -1,0 +1,262 @@
+"""One table in motion: `World`, the face that most callers use.
+
+A World is a `WorldBatch` of one; there is no second code path. Time moves in ticks of 1/tick_rate seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.errors import BoardFull, FaultError, NoRoom, StateError
+from silverball.physics.balls import clearance, clearance_of_balls, create_ball, empty_slot, part_balls, put_ball
+from silverball.physics.layout import Fault, Outcome
+from silverball.physics.step import is_sound
+from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
+from silverball.table import Table
+from silverball.world import state as states
+from silverball.world.batch import WorldBatch
+from silverball.world.events import Ball, Event, Paddle, read_balls, read_events, read_paddles
+
+
+class World:
+    """One table in motion.
+
+    Args:
+        table: A table, a built-in name, or a path to a file. A recipe makes a board with the world's seed.
+        seed: Of everything random in this world, 0 to 2⁶³ − 1. The same table, seed and inputs give the same bits.
+        tick_rate: Ticks per second. 240 plays finely; 60 is enough for studies.
+
+    Example:
+        >>> import silverball as sb
+        >>> world = sb.World("classic", seed=7)
+        >>> ball = world.create_ball()
+        >>> world.step(left=True, ticks=24)
+        >>> world.time
+        0.1
+    """
+
+    def __init__(self, table: Table | str, seed: int = 0, tick_rate: int = 240) -> None:
+        self._batch = WorldBatch(table, 1, seed, tick_rate, threads=1)
+        self.table: Table = self._batch.tables[0]
+        self.seed = int(seed)
+        self.tick_rate = self._batch.tick_rate
+        self._record = self._batch.state[0]
+        self._log = self._batch.logs[0]
+        self._board = self._batch.boards.board[0]
+        self._names = self._batch.boards.names[0]
+        self._height = self.table.board.height
+        self._actions: NDArray[np.bool_] = np.zeros((1, 1, 3), np.bool_)
+        self._static = (self._board, self._batch.boards.collider)
+
+    # --- what moves it -------------------------------------------------------------------------------------------
+
+    def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
+        """Move on by a number of ticks with the paddle buttons held or not; jitter is one shove, on the first tick.
+
+        Raises:
+            FaultError: The world's state has become impossible and it has stopped.
+        """
+        self._actions[0, 0] = left, right, jitter
+        self._batch.run(self._actions, ticks)
+        if self._record["fault"]:
+            self._raise_fault()
+
+    def create_ball(
+        self, position: tuple[float, float] | None = None, velocity: tuple[float, float] = (0.0, 0.0)
+    ) -> Ball:
+        """Put one more ball on the board.
+
+        Args:
+            position: Centre (x, z) [u]; None: a random free place, at rest.
+            velocity: (vx, vz) [u/s] for a given position.
+
+        Returns:
+            The new ball.
+
+        Raises:
+            BoardFull: The board already holds `max_balls`; nothing has changed.
+            NoRoom: No place is free, or the given one overlaps something; nothing has changed.
+            ValueError: A position or velocity that is not two finite numbers, or faster than the speed cap.
+        """
+        if position is not None:
+            return self._put_ball(position, velocity)
+        outcome = create_ball(self._record, *self._static, self._batch.boards.place, self._log)
+        if outcome == Outcome.BOARD_FULL:
+            self._raise_full()
+        if outcome == Outcome.NO_ROOM:
+            raise NoRoom(
+                f"the board {self.table.name!r} has no free place for a ball above the paddles; wait until a ball has left, "
+                "or take an obstacle away"
+            )
+        return self._newest()
+
+    # --- what it shows -------------------------------------------------------------------------------------------
+
+    @property
+    def balls(self) -> tuple[Ball, ...]:
+        """The balls on the board."""
+        return read_balls(self._record, self._height)
+
+    @property
+    def paddles(self) -> tuple[Paddle, Paddle]:
+        """The left and the right paddle."""
+        return read_paddles(self._record)
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """What happened in the last step, in order; at most 64 events, see `events_lost`."""
+        return read_events(self._log, self._names, self._height)
+
+    @property
+    def events_lost(self) -> int:
+        """Events of the last step that did not fit into the log."""
+        return int(self._log["lost"])
+
+    @property
+    def time(self) -> float:
+        """Time since the world was made [s]."""
+        return self.tick / self.tick_rate
+
+    @property
+    def tick(self) -> int:
+        """Ticks since the world was made."""
+        return int(self._record["tick"])
+
+    @property
+    def score(self) -> int:
+        """Points of all hits so far."""
+        return int(self._record["score"])
+
+    @property
+    def created(self) -> int:
+        """Balls created so far."""
+        return int(self._record["created"])
+
+    @property
+    def drained(self) -> int:
+        """Balls that have left through the gutter."""
+        return int(self._record["drained"])
+
+    @property
+    def jams(self) -> int:
+        """How often a pinched ball had to be held."""
+        return int(self._record["jams"])
+
+    @property
+    def hits(self) -> dict[str, int]:
+        """Hits of every part since this World was made, by its path in the table. A statistic: `restore` leaves it."""
+        return dict(zip(self._names, self._batch.tallies[0].tolist(), strict=True))
+
+    @property
+    def fault(self) -> str | None:
+        """Why the world has stopped ("not_finite", "outside", "too_fast"), or None."""
+        fault = Fault(int(self._record["fault"]))
+        return None if fault == Fault.NONE else fault.name.lower()
+
+    # --- saving --------------------------------------------------------------------------------------------------
+
+    def save(self) -> bytes:
+        """The whole state, random generator included, as bytes for `restore`."""
+        return states.pack(self._record, self._batch.boards.digests[0], self.tick_rate)
+
+    def restore(self, state: bytes) -> None:
+        """Go back to a saved state, bit for bit.
+
+        Two overlapping balls in a state from outside are moved apart equally. On any error nothing has changed.
+
+        Raises:
+            StateError: The state is damaged, impossible, or of another table or tick rate.
+        """
+        record = states.unpack(state, self._batch.boards.digests[0], self.tick_rate)
+        before = self._record.copy()
+        self._batch.state[0] = record
+        try:
+            self._check_state()
+        except StateError:
+            self._batch.state[0] = before
+            raise
+        self._batch.logs[0] = 0
+
+    def digest(self) -> str:
+        """A hash of the state: equal digests mean equal worlds."""
+        return states.digest(self._record)
+
+    # --- helpers -------------------------------------------------------------------------------------------------
+
+    def clearance(self, x: float, z: float) -> float:
+        """The smallest gap [u] between a ball centred at (x, z) and any part, paddles as they stand now."""
+        return float(clearance(self._record, *self._static, x, z)[0])
+
+    def _newest(self) -> Ball:
+        return max(self.balls, key=lambda ball: ball.id)
+
+    def _raise_full(self) -> None:
+        limit = self.table.board.max_balls
+        raise BoardFull(
+            f"the board already holds {limit} ball{'s' * (limit > 1)}, its max_balls; wait until one has left through the gutter"
+        )
+
+    def _raise_fault(self) -> None:
+        fault = self.fault or ""
+        raise FaultError(
+            f"the world (table {self.table.name!r}, seed {self.seed}) stopped at tick {self.tick} with the fault {fault!r}; "
+            "please report it with the bytes in this error's `state`",
+            fault,
+            self.save(),
+        )
+
+    def _put_ball(self, position: tuple[float, float], velocity: tuple[float, float]) -> Ball:
+        x, z = _pair("position", position)
+        vx, vz = _pair("velocity", velocity)
+        cap = self.table.board.speed_cap
+        if math.hypot(vx, vz) > cap:
+            raise ValueError(f"velocity must be at most the speed cap of {cap} u/s, got {math.hypot(vx, vz):.6g} u/s")
+        slot = empty_slot(self._record, self._board)
+        if slot < 0:
+            self._raise_full()
+        board = self.table.board
+        if x <= board.gutter + board.ball_radius:
+            raise NoRoom(f"a ball at x = {x:g} would be in the gutter (x = {board.gutter:g}); place it above")
+        gap, part = clearance(self._record, *self._static, x, z)
+        if gap < FREE_GAP:
+            raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {-gap:.3g} u; place it elsewhere")
+        if clearance_of_balls(self._record, self._board, x, z) < FREE_GAP:
+            raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap the other ball; place it elsewhere")
+        put_ball(self._record, self._log, slot, x, z, vx, vz)
+        return self._newest()
+
+    def _check_state(self) -> None:
+        record = self._record
+        if record["fault"]:
+            return  # a stopped world may be looked at; it does not move
+        balls = record["ball"]
+        if not is_sound(self._record, self._board):
+            raise StateError("the state holds a ball that is outside of the board, too fast, or not a number")
+        if (balls["id"] < 0).any() or np.count_nonzero(balls["id"]) > self.table.board.max_balls:
+            raise StateError("the state holds more balls than the table allows")
+        first = self._batch.boards.collider[3:5]
+        low = np.minimum(first["angle_rest"], first["angle_up"])
+        high = np.maximum(first["angle_rest"], first["angle_up"])
+        angles = record["paddle"]["angle"]
+        if not ((low <= angles) & (angles <= high)).all():
+            raise StateError("the state holds a paddle beyond its stops")
+        if not part_balls(self._record, *self._static):
+            raise StateError("the state holds two overlapping balls that cannot be parted without pressing one into a part")
+        for x, z, id_ in balls[["x", "z", "id"]].tolist():
+            gap, part = clearance(self._record, *self._static, x, z)
+            if id_ and gap < -LEAST_ADVANCE_GAP:
+                raise StateError(f"the state holds a ball {-gap:.3g} u deep inside {self._names[part]}")
+
+
+def _pair(name: str, value: Any) -> tuple[float, float]:
+    try:
+        first, second = (float(number) for number in value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} must be two numbers (x, z), got {value!r}") from None
+    if not (math.isfinite(first) and math.isfinite(second)):
+        raise ValueError(f"{name} must be two finite numbers (x, z), got {value!r}")
+    return first, second
