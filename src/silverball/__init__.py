@@ -6,7 +6,7 @@
     world.create_ball()
     world.step(left=True, ticks=24)
 
-Everything public is reachable from here and loaded when it is first used, so that `import silverball` costs nothing.
+Everything public is reachable from here and loaded when first used: `import silverball` costs nothing.
 """
 
 from __future__ import annotations
@@ -17,29 +17,65 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from silverball.errors import (
         BoardFull as BoardFull,
+    )
+    from silverball.errors import (
         FaultError as FaultError,
+    )
+    from silverball.errors import (
         MissingExtra as MissingExtra,
+    )
+    from silverball.errors import (
         NoDisplay as NoDisplay,
+    )
+    from silverball.errors import (
         NoRoom as NoRoom,
+    )
+    from silverball.errors import (
         OutputError as OutputError,
+    )
+    from silverball.errors import (
         SilverballError as SilverballError,
+    )
+    from silverball.errors import (
         StateError as StateError,
+    )
+    from silverball.errors import (
         TableError as TableError,
+    )
+    from silverball.errors import (
         UnknownTable as UnknownTable,
     )
     from silverball.table import (
         Table as Table,
+    )
+    from silverball.table import (
         check_table as check_table,
+    )
+    from silverball.table import (
         generate_table as generate_table,
+    )
+    from silverball.table import (
         load_table as load_table,
+    )
+    from silverball.table import (
         save_table as save_table,
+    )
+    from silverball.table import (
         table_names as table_names,
     )
     from silverball.world import (
         Ball as Ball,
+    )
+    from silverball.world import (
         Event as Event,
+    )
+    from silverball.world import (
         Paddle as Paddle,
+    )
+    from silverball.world import (
         World as World,
+    )
+    from silverball.world import (
         WorldBatch as WorldBatch,
     )
 
@@ -47,8 +83,8 @@ __version__ = "0.1.0"
 
 _HOME = {
     "silverball.errors": (
-        "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError", "StateError",
-        "TableError", "UnknownTable",
+        "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError",
+        "StateError", "TableError", "UnknownTable",
     ),
     "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
     "silverball.world": ("Ball", "Event", "Paddle", "World", "WorldBatch"),

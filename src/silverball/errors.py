@@ -93,7 +93,9 @@ class MissingExtra(SilverballError):
     """An optional package is needed for this."""
 
     def __init__(self, what: str, extra: str) -> None:
-        super().__init__(f"{what} needs an optional package: install it with  pip install 'silverball[{extra}]'")
+        super().__init__(
+            f"{what} needs an optional package: install it with  pip install 'silverball[{extra}]'"
+        )
 
 
 class OutputError(SilverballError):

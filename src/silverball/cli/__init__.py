@@ -1,7 +1,7 @@
 """The command line: `silverball <command>`, thin, one file a command.
 
-Every command turns what a person typed into one call of the library. A mistake of a person ends here: its message is
-printed alone and the exit code is 2, without a traceback.
+Every command turns what a person typed into one call of the library. A mistake of a person ends in
+`app.run`: its message is printed alone and the exit code is 2, without a traceback.
 """
 
 from __future__ import annotations
@@ -13,4 +13,4 @@ def main() -> None:
     """The entry point of `silverball` and `python -m silverball`."""
     from silverball.cli.app import run
 
-    sys.exit(run(sys.argv[1:]))
+    run(sys.argv[1:])

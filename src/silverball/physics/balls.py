@@ -1,8 +1,9 @@
 """How do balls come onto the board, get shoved, and part when they overlap?
 
-Creating tries random places first (as the original did), then the origin, then searches every place systematically; if nothing is
-free it refuses and nothing changes, the random generator included. A place is a square of the board from which the gutter can
-be reached (worked out once per table), so a ball never appears behind a corner wall.
+Creating tries random places first (as the original did), then the origin, then searches every place
+systematically; if nothing is free it refuses and nothing changes, the random generator included. A place is
+a square of the board from which the gutter can be reached (worked out once per table), so a ball never
+appears behind a corner wall.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ TWO_PI = 6.283185307179586
 
 @kernel
 def clearance(world: Any, board: Any, colliders: Any, x: float, z: float) -> tuple[float, int]:
-    """The smallest gap [u] between a ball at (x, z) and any part, paddles as they stand now, and that part."""
+    """The smallest gap [u] between a ball at (x, z) and the parts (paddles as they stand), and which part."""
     first = board.collider_first
     left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
     least, part = z - left.z, Part.LEFT_WALL + 0
@@ -145,13 +146,25 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
             ball.vx *= board.speed_cap / speed * CAP_MARGIN
             ball.vz *= board.speed_cap / speed * CAP_MARGIN
         record(
-            log, EventKind.JITTER, NOTHING, ball.id, world.tick, 0.0, ball.x, ball.z, sine, cosine, board.jitter
+            log,
+            EventKind.JITTER,
+            NOTHING,
+            ball.id,
+            world.tick,
+            0.0,
+            ball.x,
+            ball.z,
+            sine,
+            cosine,
+            board.jitter,
         )
 
 
 @kernel
 def part_balls(world: Any, board: Any, colliders: Any) -> bool:
-    """Split an overlap of the two balls equally between them (a state from outside; an exact step never makes one).
+    """Split an overlap of the two balls equally between them.
+
+    Only a state from outside holds one; an exact step never makes it.
 
     Returns:
         Whether the balls are apart now; False, and nothing changed, if that would press one into a part.

@@ -1,16 +1,19 @@
 """What does a contact do to a ball?
 
-One rule for every collider: with the approach speed w = −n·(v − u) relative to the surface's own velocity u, the ball leaves with
+One rule for every collider: with the approach speed w = −n·(v − u) relative to the surface's own velocity
+u, the ball leaves with
 
     v′ = v + (w + e·w)·n,     e = e₀ / (1 + k·w).
 
-The restitution e₀ falls with the speed of the impact by the part's `restitution_falloff` k: real rubber rings return less of a hard
-hit than of a soft one. Source of the law: the "elasticity falloff" of the Visual Pinball simulator's tables, from which its
-authors' flippers get their feel; k = 0 gives the plain law of Newton's restitution.
+The restitution e₀ falls with the speed of the impact by the part's `restitution_falloff` k: real rubber
+rings return less of a hard hit than of a soft one. Source of the law: the "elasticity falloff" of the
+Visual Pinball simulator's tables, from which its authors' flippers get their feel; k = 0 gives the plain
+law of Newton's restitution.
 
-Above `hit_speed` a contact is a *hit*: the part's `speed_factor` multiplies the whole velocity and points are scored. Below it
-is a *touch*, which leaves at least the hop speed √(2·A·HOP): a ball at rest hops 5e-4 u high instead of bouncing without end. The kinetic
-energy that a hop can add is at most ½·(hop speed)², that is A·HOP, 0.005 u²/s² on a part that stands still at gravity 10.
+Above `hit_speed` a contact is a *hit*: the part's `speed_factor` multiplies the whole velocity and points
+are scored. Below it is a *touch*, which leaves at least the hop speed √(2·A·HOP): a ball at rest hops 5e-4
+u high instead of bouncing without end. The kinetic energy that a hop can add is at most ½·(hop speed)²,
+that is A·HOP, 0.005 u²/s² on a part that stands still at gravity 10.
 """
 
 from __future__ import annotations
@@ -47,9 +50,16 @@ def capped(ball: Ball, cap: float) -> Ball:
 
 @kernel
 def bounced(
-    ball: Ball, contact: Contact, c: Any, ux: float, uz: float, acceleration: float, hit_speed: float, cap: float
+    ball: Ball,
+    contact: Contact,
+    c: Any,
+    ux: float,
+    uz: float,
+    acceleration: float,
+    hit_speed: float,
+    cap: float,
 ) -> tuple[Ball, float]:
-    """The ball after its contact with a part whose surface moves with (ux, uz), and the speed of the approach."""
+    """The ball after its contact with a surface that moves with (ux, uz), and the speed of the approach."""
     nx, nz = contact.nx, contact.nz
     approach = -(nx * (ball.vx - ux) + nz * (ball.vz - uz))
     rebound = approach * restitution_at(c.restitution, c.restitution_falloff, approach)
@@ -69,10 +79,10 @@ def bounced(
 
 @inlined
 def capped_along(ball: Ball, nx: float, nz: float, cap: float) -> Ball:
-    """The ball with its speed at most the cap, by its tangential part first: it must still leave a moving paddle.
+    """The ball with its speed at most the cap, cut from the tangential part first.
 
-    A table is only valid when every paddle's tip is slower than the cap, hop included; so the normal part may be cut
-    to the cap itself.
+    It must still leave the moving paddle that it has met. A table is only valid when every paddle's tip is slower
+    than the cap, hop included; so the normal part may be cut to the cap itself.
     """
     square = ball.vx * ball.vx + ball.vz * ball.vz
     if square <= cap * cap:
@@ -90,7 +100,10 @@ def capped_along(ball: Ball, nx: float, nz: float, cap: float) -> Ball:
 def exchanged(
     a: Ball, b: Ball, contact: Contact, restitution: float, acceleration: float, hit_speed: float, cap: float
 ) -> tuple[Ball, Ball, float]:
-    """Two balls of equal mass after their contact: along the line of centres (from b to a) each takes half of (1 + e)·w."""
+    """Two balls of equal mass after their contact, and the speed w of the approach.
+
+    Along the line of centres, from b to a, each takes half of (1 + e)·w.
+    """
     nx, nz = contact.nx, contact.nz
     approach = -(nx * (a.vx - b.vx) + nz * (a.vz - b.vz))
     rebound = approach * restitution

@@ -28,7 +28,9 @@ def _earlier(best: Contact, time: float, part: int, nx: float, nz: float) -> Con
 
 
 @kernel
-def first_contact(board: Any, colliders: Any, left: Paddle, right: Paddle, ball: Ball, limit: float) -> Contact:
+def first_contact(
+    board: Any, colliders: Any, left: Paddle, right: Paddle, ball: Ball, limit: float
+) -> Contact:
     """The first of all contacts of a ball with the parts and the gutter line before `limit` [s].
 
     At equal times the earlier part in the order of the table is met first, which is the same in the mirror.
@@ -46,7 +48,9 @@ def first_contact(board: Any, colliders: Any, left: Paddle, right: Paddle, ball:
         best = _earlier(best, time_to_border(ball.z - low, ball.vz, pull_z), Part.LEFT_WALL + 0, 0.0, 1.0)
     high = colliders[first + Part.RIGHT_WALL].z - radius
     if ball.z + reach - radius > high:
-        best = _earlier(best, time_to_border(high - ball.z, -ball.vz, -pull_z), Part.RIGHT_WALL + 0, 0.0, -1.0)
+        best = _earlier(
+            best, time_to_border(high - ball.z, -ball.vz, -pull_z), Part.RIGHT_WALL + 0, 0.0, -1.0
+        )
     top = colliders[first + Part.TOP_WALL].x - radius
     if ball.x + reach - radius > top:
         best = _earlier(best, time_to_border(top - ball.x, -ball.vx, -pull_x), Part.TOP_WALL + 0, -1.0, 0.0)
@@ -70,7 +74,15 @@ def first_contact(board: Any, colliders: Any, left: Paddle, right: Paddle, ball:
 
 @kernel
 def resolved(
-    world: Any, board: Any, colliders: Any, log: Any, tally: Any, ball: Ball, contact: Contact, turn: float, offset: float
+    world: Any,
+    board: Any,
+    colliders: Any,
+    log: Any,
+    tally: Any,
+    ball: Ball,
+    contact: Contact,
+    turn: float,
+    offset: float,
 ) -> Ball:
     """The ball after its contact: bounced off a part, gone through the gutter, or unchanged after a pause.
 

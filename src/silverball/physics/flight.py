@@ -1,16 +1,17 @@
 """When does a ball in flight touch something for the first time?
 
-Between contacts a ball flies on a parabola. Let D be the gap between ball and shape, n the unit normal at the nearest
-point, D′ = n·v its rate and α = n·a. A convex shape lies wholly behind the line through its nearest point at right
-angles to n, so the ball cannot touch it before it has used up the gap to that line:
+Between contacts a ball flies on a parabola. Let D be the gap between ball and shape, n the unit normal at
+the nearest point, D′ = n·v its rate and α = n·a. A convex shape lies wholly behind the line through its
+nearest point at right angles to n, so the ball cannot touch it before it has used up the gap to that line:
 
     D + D′·h + ½·α·h² = 0,   h the smallest root ≥ 0.
 
-Fly h, look again, until the gap is gone; one Newton step removes what is left. A flat face is met by the first step,
-corners and circles after a few: near the contact the step is Newton's, and it always stays on the safe side.
+Fly h, look again, until the gap is gone; one Newton step removes what is left. A flat face is met by the
+first step, corners and circles after a few: near the contact the step is Newton's, and it always stays on
+the safe side.
 
-Source: the idea is that of conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body
-Systems", 1996, ch. 2), with the exact parabola in place of a bound on the speed.
+Source: the idea is that of conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid
+Body Systems", 1996, ch. 2), with the exact parabola in place of a bound on the speed.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ def flown(ball: Ball, pull_x: float, pull_z: float, h: float) -> Ball:
 
 @inlined
 def polished(time: float, gap: float, rate: float) -> float:
-    """One Newton step on the gap, never back before the start; a graze too flat for a short step stays as it is."""
+    """The time after one Newton step on the gap; a graze too flat for a short step stays as it is."""
     if abs(gap) > abs(rate) * POLISH_TIME:
         return time
     return max(0.0, time - gap / rate)
@@ -69,7 +70,9 @@ def time_to_border(gap: float, rate: float, bend: float) -> float:
 
 
 @kernel
-def flight_to_shape(c: Any, part: int, ball: Ball, pull_x: float, pull_z: float, radius: float, limit: float) -> Contact:
+def flight_to_shape(
+    c: Any, part: int, ball: Ball, pull_x: float, pull_z: float, radius: float, limit: float
+) -> Contact:
     """The first contact of a ball with a shape that stands still, before `limit` [s].
 
     Returns:
@@ -101,8 +104,8 @@ def flight_to_shape(c: Any, part: int, ball: Ball, pull_x: float, pull_z: float,
 def flight_to_ball(a: Ball, b: Ball, radius: float, limit: float) -> Contact:
     """The first contact of two balls that fall alike: their relative motion is a straight line.
 
-    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0; with b = −p·v > 0 and c = p² − 4r² the earlier root is
-    c / (b + √(b² − v²·c)): no cancellation. The normal points from b to a.
+    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0; with b = −p·v > 0 and c = p² − 4r² the earlier root
+    is c / (b + √(b² − v²·c)): no cancellation. The normal points from b to a.
     """
     px, pz, vx, vz = a.x - b.x, a.z - b.z, a.vx - b.vx, a.vz - b.vz
     toward = -(px * vx + pz * vz)

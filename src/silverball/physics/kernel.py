@@ -2,11 +2,11 @@
 
 Options, and why:
 
-* ``error_model="numpy"``: a division by zero gives inf or nan instead of raising; kernels never raise.
-* ``fastmath=False``: no reordered and no fused arithmetic, so that every machine gives the same bits.
-* ``nogil=True``: slices of a batch run on threads.
-* ``forceinline=True`` for the few small helpers of the hot loop: they return tuples, which then stay in registers.
-* the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale code
+* ``error_model="numpy"``: a division by zero gives inf or nan instead of raising; kernels never raise. *
+``fastmath=False``: no reordered and no fused arithmetic, so that every machine gives the same bits. *
+``nogil=True``: slices of a batch run on threads. * ``forceinline=True`` for the few small helpers of the
+hot loop: they return tuples, which then stay in registers. * the cache: Numba's own ``cache=True`` looks at
+the file of the cached function alone and would return stale code
   after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
   cache directory that is named after a hash of all sources of the package.
 """
@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numba
+import numba.core.config
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -62,11 +63,11 @@ def is_compiled() -> bool:
 
 def _compile(function: F, *, forceinline: bool) -> F:
     folder = cache_folder()
-    before = numba.config.CACHE_DIR
+    before = numba.core.config.CACHE_DIR
     try:
         # Numba picks the place of the cache when the decorator runs, from this one setting.
         if folder is not None:
-            numba.config.CACHE_DIR = str(folder)
+            numba.core.config.CACHE_DIR = str(folder)
         compiled = numba.njit(
             function,
             cache=folder is not None,
@@ -76,5 +77,5 @@ def _compile(function: F, *, forceinline: bool) -> F:
             forceinline=forceinline,
         )
     finally:
-        numba.config.CACHE_DIR = before
+        numba.core.config.CACHE_DIR = before
     return cast(F, compiled)

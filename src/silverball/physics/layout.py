@@ -1,10 +1,12 @@
 """What the step moves and what it moves through: the records, and the small tuples that kernels pass around.
 
-A *world* is one flat record with everything that changes. A *board* and its *colliders* are the table, compiled; they do
-not change. A *log* is the buffer of events of the last call; it is not part of the state. Kernels load records into
-the NamedTuples below once and store them once: scalars in, tuples out, no views and no allocation in the hot loop.
+A *world* is one flat record with everything that changes. A *board* and its *colliders* are the table,
+compiled; they do not change. A *log* is the buffer of events of the last call; it is not part of the state.
+Kernels load records into the NamedTuples below once and store them once: scalars in, tuples out, no views
+and no allocation in the hot loop.
 
-Units: u, s, rad; x up the table, z to the player's right. Angles of paddles are mirrored alike (up is positive).
+Units: u, s, rad; x up the table, z to the player's right. Angles of paddles are mirrored alike (up is
+positive).
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from enum import IntEnum
 from typing import Any, NamedTuple
 
 import numba
+import numba.core.config
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,7 +27,7 @@ LOG_SIZE = 64
 
 
 class Part(IntEnum):
-    """The first colliders of every board, in this order; the table's other parts follow from `FIRST_SHAPE` on."""
+    """The first colliders of every board; the table's other parts follow from `FIRST_SHAPE` on."""
 
     LEFT_WALL = 0
     RIGHT_WALL = 1
@@ -139,8 +142,10 @@ COLLIDER = np.dtype(
         ("kind", "i8"),
         # Reach: a circle around (x, z) that holds the whole part. A wall keeps its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
-        # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2 (counter-clockwise),
-        # sides 01, 12, 20 with unit directions along_* and lengths. A paddle's lie in its own frame (see paddle.py).
+        # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2 (counter-
+        # clockwise),
+        # sides 01, 12, 20 with unit directions along_* and lengths. A paddle's lie in its own frame (see
+        # paddle.py).
         ("radius", "f8"),
         ("x0", "f8"), ("z0", "f8"), ("x1", "f8"), ("z1", "f8"), ("x2", "f8"), ("z2", "f8"),
         ("along_x0", "f8"), ("along_z0", "f8"), ("along_x1", "f8"), ("along_z1", "f8"),
@@ -150,7 +155,8 @@ COLLIDER = np.dtype(
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]
-        ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"), ("lift_speed", "f8"), ("return_speed", "f8"),
+        ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"),
+        ("lift_speed", "f8"), ("return_speed", "f8"),
     ],
     align=True,
 )  # fmt: skip
@@ -173,9 +179,9 @@ LOG = np.dtype([("count", "i8"), ("lost", "i8"), ("event", EVENT, (LOG_SIZE,))],
 
 
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """An array of zeroed records. Kernels read `record.field`; without the JIT that takes NumPy's record arrays."""
+    """An array of zeroed records. Without the JIT, `record.field` takes one of NumPy's record arrays."""
     array = np.zeros(count, dtype)
-    return array.view(np.recarray) if numba.config.DISABLE_JIT else array
+    return array.view(np.recarray) if numba.core.config.DISABLE_JIT else array
 
 
 class Ball(NamedTuple):

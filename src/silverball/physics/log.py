@@ -10,9 +10,19 @@ from silverball.physics.layout import LOG_SIZE
 
 @kernel
 def record(
-    log: Any, kind: int, part: int, ball: int, tick: int, offset: float, x: float, z: float, nx: float, nz: float, speed: float
+    log: Any,
+    kind: int,
+    part: int,
+    ball: int,
+    tick: int,
+    offset: float,
+    x: float,
+    z: float,
+    nx: float,
+    nz: float,
+    speed: float,
 ) -> None:
-    """Append an event to a world's log, or count it as lost when the log is full. Meanings and units: `layout.EVENT`."""
+    """Append an event (see `layout.EVENT`) to a world's log, or count it as lost when the log is full."""
     if log.count >= LOG_SIZE:
         log.lost += 1
         return

@@ -1,8 +1,8 @@
 """How do the paddles turn, and when does a ball meet one of them?
 
-Both paddles are worked out as a left one: for the right paddle z is mirrored on the way in (side = −1) and on the way out, so that
-mirrored play gives mirrored bits. A paddle's own frame has its pivot at the origin, z′ from the pivot to the tip and x′ to the
-side that lifts; its triangle is fixed in there. At angle θ
+Both paddles are worked out as a left one: for the right paddle z is mirrored on the way in (side = −1) and
+on the way out, so that mirrored play gives mirrored bits. A paddle's own frame has its pivot at the origin,
+z′ from the pivot to the tip and x′ to the side that lifts; its triangle is fixed in there. At angle θ
 
     z′ = x·sin θ + z·cos θ,   x′ = x·cos θ − z·sin θ       (x, z from the pivot)
 
@@ -24,7 +24,7 @@ from silverball.physics.trigonometry import sine_cosine
 
 @inlined
 def aimed(c: Any, angle: float, raised: bool) -> tuple[Paddle, float]:
-    """A paddle at a tick's start, and the stop that its button commands: constant speed until it is reached."""
+    """A paddle at a tick's start, turning at constant speed, and the stop that its button commands."""
     stop = c.angle_up if raised else c.angle_rest
     if angle < stop:
         return Paddle(angle, c.lift_speed, (stop - angle) / c.lift_speed), stop
@@ -70,7 +70,7 @@ def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> 
 def flight_to_paddle(
     c: Any, part: int, paddle: Paddle, ball: Ball, pull_x: float, pull_z: float, radius: float, limit: float
 ) -> Contact:
-    """The first contact of a ball with a paddle before `limit` [s], which must not lie beyond the paddle's stop.
+    """The first contact of a ball with a paddle before `limit` [s], at most the time of the paddle's stop.
 
     In the frame of a turning paddle the flight is no parabola, so the bend n·a is replaced by its bound −A,
         A = |a| + 2·|ω|·v + ω²·ρ,
@@ -104,7 +104,9 @@ def flight_to_paddle(
         if turn == 0.0:
             if step == 0.0:  # at rest on the paddle and pressed against it
                 return Contact(time, part, nx, nz)
-        elif step < least and rate >= 0.0:  # side by side with the surface: get on, at most LEAST_ADVANCE_GAP too far
+        elif (
+            step < least and rate >= 0.0
+        ):  # side by side with the surface: get on, at most LEAST_ADVANCE_GAP too far
             step = least
         time += step
         if not time < limit:

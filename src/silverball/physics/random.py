@@ -1,10 +1,12 @@
 """The world's own random numbers: a counter, a key and a bijection between them.
 
-Threefry-2x32 with 20 rounds turns (key, counter) into 64 random bits. There is no hidden state: the world record holds the seed
-and the number of draws, so that a copy continues exactly like its original. It needs only additions, rotations and
-exclusive-ors of 32-bit words, which 64-bit integers do exactly, with the JIT and without.
+Threefry-2x32 with 20 rounds turns (key, counter) into 64 random bits. There is no hidden state: the world
+record holds the seed and the number of draws, so that a copy continues exactly like its original. It needs
+only additions, rotations and exclusive-ors of 32-bit words, which 64-bit integers do exactly, with the JIT
+and without.
 
-Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel Random Numbers: As Easy as 1, 2, 3", SC11 (2011).
+Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel Random Numbers: As Easy as 1, 2, 3",
+SC11 (2011).
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """How far is a point from a shape, and which way is out?
 
-Each function returns the distance [u] of the point (x, z) from the shape's surface (negative inside) and the unit normal
-there, pointing from the nearest feature to the point. That is all the solver ever asks of a shape: corners come out
-rounded by themselves, and the tip of a paddle has no normal of its own to go wrong.
+Each function returns the distance [u] of the point (x, z) from the shape's surface (negative inside) and
+the unit normal there, pointing from the nearest feature to the point. That is all the solver ever asks of a
+shape: corners come out rounded by themselves, and the tip of a paddle has no normal of its own to go wrong.
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ def circle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a slant wall: a segment from corner 0 to corner 1, rounded by its thickness.
 
-    With t = (p − p₀)·u the foot of the point on the line, the nearest point is an end (t ≤ 0, t ≥ length) or lies between.
+    With t = (p − p₀)·u the foot of the point on the line, the nearest point is an end (t ≤ 0, t ≥ length)
+    or lies between.
     """
     dx = x - c.x0
     dz = z - c.z0
@@ -57,8 +58,9 @@ def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a triangle with counter-clockwise corners.
 
-    A side with direction u has the outward normal n = (−u_z, u_x) in (x, z). The side that the point lies furthest outside
-    of holds the nearest feature: the side itself, or the corner beyond whose end the point's foot falls.
+    A side with direction u has the outward normal n = (−u_z, u_x) in (x, z). The side that the point lies
+    furthest outside of holds the nearest feature: the side itself, or the corner beyond whose end the
+    point's foot falls.
     """
     side, best = 0, (x - c.x0) * -c.along_z0 + (z - c.z0) * c.along_x0
     outside = (x - c.x1) * -c.along_z1 + (z - c.z1) * c.along_x1
@@ -76,7 +78,16 @@ def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 
 @inlined
 def _side_distance(
-    outside: float, x: float, z: float, px: float, pz: float, qx: float, qz: float, ux: float, uz: float, length: float
+    outside: float,
+    x: float,
+    z: float,
+    px: float,
+    pz: float,
+    qx: float,
+    qz: float,
+    ux: float,
+    uz: float,
+    length: float,
 ) -> tuple[float, float, float]:
     """Distance from the side p → q or its ends, for a point `outside` away from the side's line."""
     foot = (x - px) * ux + (z - pz) * uz

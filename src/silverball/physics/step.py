@@ -26,7 +26,15 @@ from silverball.physics.tolerances import JAM_EVENTS, JAM_GAP, NEVER
 
 @kernel
 def step_world(
-    world: Any, board: Any, colliders: Any, log: Any, tally: Any, raise_left: bool, raise_right: bool, shove: bool, tick: float
+    world: Any,
+    board: Any,
+    colliders: Any,
+    log: Any,
+    tally: Any,
+    raise_left: bool,
+    raise_right: bool,
+    shove: bool,
+    tick: float,
 ) -> None:
     """Move a world on by one tick [s]. A world with a fault stands still."""
     if world.fault != Fault.NONE or not is_sound(world, board):
@@ -41,7 +49,7 @@ def step_world(
     time, busy_a, busy_b, stalled = 0.0, 0, 0, False
 
     while True:
-        limit = min(tick - time, min(left.stop_in, right.stop_in))
+        limit = min(tick - time, left.stop_in, right.stop_in)
         meet_a = first_contact(board, colliders, left, right, a, limit)
         meet_b = first_contact(board, colliders, left, right, b, limit)
         meet = first_meeting(board, a, b, min(meet_a.time, meet_b.time))
@@ -49,7 +57,12 @@ def step_world(
         a, b = flown(a, board.pull_x, board.pull_z, h), flown(b, board.pull_x, board.pull_z, h)
         turn_left, turn_right = left.turn, right.turn
         left, right = turned(left, left_stop, h), turned(right, right_stop, h)
-        if meet.part == NOTHING and meet_a.part == NOTHING and meet_b.part == NOTHING and limit == tick - time:
+        if (
+            meet.part == NOTHING
+            and meet_a.part == NOTHING
+            and meet_b.part == NOTHING
+            and limit == tick - time
+        ):
             break
         time += h
 
@@ -152,7 +165,7 @@ def halted(world: Any, log: Any, ball: Ball, busy: int, offset: float) -> Ball:
 
 @kernel
 def is_sound(world: Any, board: Any) -> bool:
-    """Whether the balls are where and as fast as they can be; if not, the world gets a named fault and stops."""
+    """Whether the balls are where and as fast as they can be; if not, the world gets a named fault."""
     fastest = board.speed_cap * (1.0 + 1e-9)
     for slot in range(2):
         ball = world.ball[slot]
@@ -163,7 +176,9 @@ def is_sound(world: Any, board: Any) -> bool:
         if inside and slow:
             continue
         # A number that is none compares as false, so it ends here too.
-        if not (abs(ball.x) < NEVER and abs(ball.z) < NEVER and abs(ball.vx) < NEVER and abs(ball.vz) < NEVER):
+        if not (
+            abs(ball.x) < NEVER and abs(ball.z) < NEVER and abs(ball.vx) < NEVER and abs(ball.vz) < NEVER
+        ):
             world.fault = Fault.NOT_FINITE + 0
         elif not inside:
             world.fault = Fault.OUTSIDE + 0
@@ -190,7 +205,8 @@ def run_worlds(
         colliders: COLLIDER records of all boards.
         logs: LOG records [world]; emptied first.
         tallies: Hits of each part [world, part], added to.
-        actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all ticks and
+        actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
+            ticks and
             the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
@@ -205,4 +221,14 @@ def run_worlds(
         for step in range(ticks):
             row = 0 if held else step
             shove = actions[row, index, 2] and (step == 0 or not held)
-            step_world(world, board, colliders, log, tally, actions[row, index, 0], actions[row, index, 1], shove, tick)
+            step_world(
+                world,
+                board,
+                colliders,
+                log,
+                tally,
+                actions[row, index, 0],
+                actions[row, index, 1],
+                shove,
+                tick,
+            )

@@ -6,37 +6,41 @@ NEVER = inf
 """[s] The time of a contact that does not happen."""
 
 CONTACT_GAP = 1e-13
-"""[u] A gap at most this wide counts as closed; one Newton step then removes the rest.
-Coordinates reach 10 u, where doubles are 1.8e-15 apart, and a gap carries a few such errors. Smaller: a search may
-never find its gap closed and ends by its cap. Larger: the polish starts further out and grazing hits lose digits."""
+"""[u] A gap at most this wide counts as closed; one Newton step then removes the rest. Coordinates reach 10
+u, where doubles are 1.8e-15 apart, and a gap carries a few such errors. Smaller: a search may never find
+its gap closed and ends by its cap. Larger: the polish starts further out and grazing hits lose digits."""
 
 POLISH_TIME = 1e-7
-"""[s] The longest Newton step that removes the rest of a gap. In this time curvature and gravity bend a flight by less
-than 1e-11 u. Longer: a flat graze would be thrown past the surface it touches. Shorter: slow hits lose digits."""
+"""[s] The longest Newton step that removes the rest of a gap. In this time curvature and gravity bend a
+flight by less than 1e-11 u. Longer: a flat graze would be thrown past the surface it touches. Shorter: slow
+hits lose digits."""
 
 HOP = 5e-4
 """[u] Height of the hop that a touch leaves at least, so that a resting ball does not bounce ever faster.
-Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/500 of a ball high: nobody sees it. Smaller:
-more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
+Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/500 of a ball high: nobody sees it.
+Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
 
 LEAST_ADVANCE_GAP = 1e-9
-"""[u] A search that can find no step forward advances at least by the time in which the greatest acceleration moves
-a ball this far: it is the deepest that a ball can ever enter anything. Smaller: more null events along a grazed,
-turning paddle. Larger: visible only to the audit, but the promise of 1e-9 u would break."""
+"""[u] A search that can find no step forward advances at least by the time in which the greatest
+acceleration moves a ball this far: it is the deepest that a ball can ever enter anything. Smaller: more
+null events along a grazed, turning paddle. Larger: visible only to the audit, but the promise of 1e-9 u
+would break."""
 
 FLIGHT_STEPS = 48
 """Safe steps per search; then the search says "free up to here" and the ball is flown there, a null event.
 An ordinary contact takes 1 to 4; a graze halves its distance every step, so 48 cover 14 digits."""
 
 JAM_EVENTS = 128
-"""Events of one ball in one tick after which it counts as jammed. A ball at rest needs about one a tick of 1/60 s, a
-ball carried by a dead paddle some 50. Smaller: free balls are held by mistake. Larger: a pinched ball costs more."""
+"""Events of one ball in one tick after which it counts as jammed. A ball at rest needs about one a tick of
+1/60 s, a ball carried by a dead paddle some 50. Smaller: free balls are held by mistake. Larger: a pinched
+ball costs more."""
 
 JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""
 
 FREE_GAP = 1e-9
-"""[u] A ball is created only where it keeps at least this distance from everything, so that it starts clear."""
+"""[u] A ball is created only where it keeps at least this distance from everything, so that it starts
+clear."""
 
 CREATE_TRIES = 32
 """Random places that are tried before the search turns systematic."""

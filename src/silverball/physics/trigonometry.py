@@ -1,10 +1,11 @@
 """Sine and cosine of our own: the same bits on every machine, from + − × only.
 
-The C library's sin and cos differ in the last bit between systems, and a replay would drift apart. The argument is
-reduced to |r| ≤ π/4 by multiples of π/2 (held in three parts, after Cody and Waite), then the Taylor series is summed
-from its smallest term. Error at most 1 ulp for |x| ≤ 1e4, tested against mpmath.
+The C library's sin and cos differ in the last bit between systems, and a replay would drift apart. The
+argument is reduced to |r| ≤ π/4 by multiples of π/2 (held in three parts, after Cody and Waite), then the
+Taylor series is summed from its smallest term. Error at most 1 ulp for |x| ≤ 1e4, tested against mpmath.
 
-Source: W. J. Cody, W. Waite, "Software Manual for the Elementary Functions" (1980), ch. 8; the series by Taylor.
+Source: W. J. Cody, W. Waite, "Software Manual for the Elementary Functions" (1980), ch. 8; the series by
+Taylor.
 """
 
 from __future__ import annotations
@@ -22,7 +23,9 @@ TWO_OVER_PI = 0.63661977236758134308
 S3, S5, S7, S9, S11, S13, S15, S17 = (
     (-1.0) ** ((n - 1) // 2) / factorial(n) for n in (3, 5, 7, 9, 11, 13, 15, 17)
 )
-C4, C6, C8, C10, C12, C14, C16, C18 = ((-1.0) ** (n // 2) / factorial(n) for n in (4, 6, 8, 10, 12, 14, 16, 18))
+C4, C6, C8, C10, C12, C14, C16, C18 = (
+    (-1.0) ** (n // 2) / factorial(n) for n in (4, 6, 8, 10, 12, 14, 16, 18)
+)
 
 
 @inlined
@@ -35,7 +38,7 @@ def _sine(r: float, rest: float) -> float:
 
 @inlined
 def _cosine(r: float, rest: float) -> float:
-    """Cosine of r + rest, |r| ≤ π/4:  1 − r²/2 + r⁴/24 − …, with the rounding error of 1 − r²/2 added back."""
+    """Cosine of r + rest, |r| ≤ π/4:  1 − r²/2 + r⁴/24 − …, the rounding error of 1 − r²/2 added back."""
     q = r * r
     half = 0.5 * q
     head = 1.0 - half

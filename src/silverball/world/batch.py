@@ -1,13 +1,14 @@
 """Many worlds moved by one call: `WorldBatch`, on all cores.
 
-A batch holds one flat record per world; world i of a batch with seed s is, bit for bit, the single world with seed s + i. Slices of worlds go to
-threads (the kernels hold no lock), which cannot change a bit, since no world reads another.
+A batch holds one flat record per world; world i of a batch with seed s is, bit for bit, the single world
+with seed s + i. Slices of worlds go to threads (the kernels hold no lock), which cannot change a bit, since
+no world reads another.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from typing import Any
@@ -15,7 +16,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from silverball.errors import SilverballError
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
 from silverball.physics.layout import LOG, WORLD, Outcome, Part, records
@@ -51,7 +51,8 @@ class WorldBatch:
         """Make `count` worlds.
 
         Args:
-            table: One table for all worlds, or one each. From a recipe (a table with a `[random]` section) every world gets a
+            table: One table for all worlds, or one each. From a recipe (a table with a `[random]` section)
+                every world gets a
                 board of its own, made with its own seed.
             count: How many worlds.
             seed: World i gets seed + i; or one seed each. 0 to 2⁶³ − 1.
@@ -98,26 +99,30 @@ class WorldBatch:
             held = held[None]
         if held.shape not in ((1, self.count, 3), (ticks, self.count, 3)):
             raise ValueError(
-                f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), got {np.shape(actions)}"
+                f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), "
+                f"got {np.shape(actions)}"
             )
         self.run(held, ticks)
 
     def run(self, held: NDArray[np.bool_], ticks: int) -> None:
         """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
-        work = self.count * ticks
+        boards = self.boards
+        self.on_threads(
+            lambda first, end: run_worlds(
+                self.state, boards.board, self.board_of, boards.collider, self.logs, self.tallies,
+                held, first, end, ticks, 1.0 / self.tick_rate,
+            ),
+            self.count * ticks,
+        )  # fmt: skip
+
+    def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
+        """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays."""
         slices = min(self.count, self.threads * SLICES_PER_THREAD, work // LEAST_SLICE)
         if self.threads == 1 or slices < 2:
-            self._run_slice(held, 0, self.count, ticks)
+            task(0, self.count)
             return
         edges = [self.count * number // slices for number in range(slices + 1)]
-        list(_pool(self.threads).map(lambda k: self._run_slice(held, edges[k], edges[k + 1], ticks), range(slices)))
-
-    def _run_slice(self, held: NDArray[np.bool_], first: int, end: int, ticks: int) -> None:
-        boards = self.boards
-        run_worlds(
-            self.state, boards.board, self.board_of, boards.collider, self.logs, self.tallies,
-            held, first, end, ticks, 1.0 / self.tick_rate,
-        )  # fmt: skip
+        list(_pool(self.threads).map(task, edges[:-1], edges[1:]))
 
     def create_balls(self, mask: ArrayLike | None = None) -> NDArray[np.bool_]:
         """Create a ball in every world of the mask that has room for one.
@@ -133,13 +138,30 @@ class WorldBatch:
             raise ValueError(f"mask must have the shape ({self.count},), got {wanted.shape}")
         outcomes = np.full(self.count, -1, np.int64)
         boards = self.boards
-        _create_balls(self.state, boards.board, self.board_of, boards.collider, boards.place, self.logs, wanted, outcomes)
-        return outcomes == Outcome.CREATED
+        _create_balls(
+            self.state,
+            boards.board,
+            self.board_of,
+            boards.collider,
+            boards.place,
+            self.logs,
+            wanted,
+            outcomes,
+        )
+        created: NDArray[np.bool_] = outcomes == Outcome.CREATED
+        return created
 
 
 @kernel
 def _create_balls(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, places: Any, logs: Any, wanted: Any, outcomes: Any
+    worlds: Any,
+    boards: Any,
+    board_of: Any,
+    colliders: Any,
+    places: Any,
+    logs: Any,
+    wanted: Any,
+    outcomes: Any,
 ) -> None:
     """Create a ball in each wanted world; write an Outcome for each."""
     for index in range(len(worlds)):
@@ -171,7 +193,9 @@ def _seeds(seed: int | Sequence[int], count: int) -> list[int]:
         first = _checked_int("seed", seed, 0, GREATEST_SEED - count + 1)
         return [first + index for index in range(count)]
     if isinstance(seed, (bool, float, str)) or seed is None:
-        raise ValueError(f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}")
+        raise ValueError(
+            f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}"
+        )
     seeds = [_checked_int("seed", value, 0, GREATEST_SEED) for value in seed]
     if len(seeds) != count:
         raise ValueError(f"seed must be one number or {count} of them, one for each world, got {len(seeds)}")

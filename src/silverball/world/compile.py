@@ -1,8 +1,8 @@
 """How does a table come to life: from the parts a person wrote to the arrays that the step reads?
 
-Every board takes a run of rows of one shared array of colliders, in the order of `physics.layout.Part`: three borders, two paddles,
-then slant walls, prisms and cylinders in the order of the file. Nothing is checked here: a table that reaches this place
-has passed `table.check`.
+Every board takes a run of rows of one shared array of colliders, in the order of `physics.layout.Part`:
+three borders, two paddles, then slant walls, prisms and cylinders in the order of the file. Nothing is
+checked here: a table that reaches this place has passed `table.check`.
 """
 
 from __future__ import annotations
@@ -50,7 +50,15 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         cells, size = ball_places(table)
         b = table.board
         row["pull_x"], row["pull_z"] = -b.gravity, 0.0
-        for name in ("ball_radius", "ball_restitution", "speed_cap", "hit_speed", "jitter", "gutter", "max_balls"):
+        for name in (
+            "ball_radius",
+            "ball_restitution",
+            "speed_cap",
+            "hit_speed",
+            "jitter",
+            "gutter",
+            "max_balls",
+        ):
             row[name] = getattr(b, name)
         row["half_length"], row["half_width"] = b.length / 2, b.width / 2
         row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
@@ -75,9 +83,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
 
 def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
     """The COLLIDER records of one table, and the names of its parts."""
-    count = (
-        Part.FIRST_SHAPE + len(table.slant_wall) + len(table.triangular_prism) + len(table.cylinder)
-    )
+    count = Part.FIRST_SHAPE + len(table.slant_wall) + len(table.triangular_prism) + len(table.cylinder)
     rows = records(count, COLLIDER)
     rows["speed_factor"] = 1.0
     names = ["board.left", "board.right", "board.top", "paddle.left", "paddle.right"]
@@ -123,7 +129,7 @@ def _set_borders(rows: NDArray[Any], table: Table) -> None:
 
 
 def _set_paddle(row: Any, paddle: Paddle | None) -> None:
-    """A paddle in its own frame: base at the origin, tip along z′, lifting side x′ > 0 (see physics/paddle.py)."""
+    """A paddle in its own frame (see physics/paddle.py): base at the origin, tip along z′, x′ > 0 lifts."""
     if paddle is None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         return
@@ -149,7 +155,11 @@ def _set_side(row: Any, number: int, start: Sequence[float], end: Sequence[float
     dx, dz = end[0] - start[0], end[1] - start[1]
     length = math.hypot(dx, dz)
     row[f"x{number}"], row[f"z{number}"] = start
-    row[f"along_x{number}"], row[f"along_z{number}"], row[f"length{number}"] = dx / length, dz / length, length
+    row[f"along_x{number}"], row[f"along_z{number}"], row[f"length{number}"] = (
+        dx / length,
+        dz / length,
+        length,
+    )
 
 
 def _set_triangle(row: Any, corners: Sequence[Sequence[float]]) -> None:
@@ -169,7 +179,7 @@ def _set_segment(
 
 
 def _circle_around(corners: Sequence[Sequence[float]]) -> tuple[float, float, float]:
-    """Centroid of the corners and the distance of the farthest: not the smallest circle, but close and simple."""
+    """Centroid of the corners, and the distance of the farthest: not the smallest circle, but simple."""
     x = sum(corner[0] for corner in corners) / 3
     z = sum(corner[1] for corner in corners) / 3
     return x, z, max(math.hypot(corner[0] - x, corner[1] - z) for corner in corners) * (1 + 1e-12)

@@ -1,7 +1,8 @@
 """What are the bytes of a saved world?
 
-A header (magic, format, physics version, tick rate, hash of the table), the record of the world, and a checksum of all that. Every field of a
-world record is eight bytes wide, so the record has no padding: its bytes are its fields in order.
+A header (magic, format, physics version, tick rate, hash of the table), the record of the world, and a
+checksum of all that. Every field of a world record is eight bytes wide, so the record has no padding: its
+bytes are its fields in order.
 """
 
 from __future__ import annotations
@@ -59,14 +60,17 @@ def unpack(state: bytes, table: str, tick_rate: int) -> Any:
     _, form, physics, rate, digest = HEADER.unpack(data[: HEADER.size])
     if (form, physics) != (FORMAT, PHYSICS_VERSION):
         raise StateError(
-            f"the state has format {form} of physics {physics}, this program reads format {FORMAT} of physics {PHYSICS_VERSION}"
+            f"the state has format {form} of physics {physics}, this program reads format {FORMAT} "
+            f"of physics {PHYSICS_VERSION}"
         )
     if len(data) != length:
         raise StateError(f"the state is damaged: {len(data)} bytes where {length} are expected")
     if hashlib.sha256(data[:-CHECKSUM]).digest()[:CHECKSUM] != data[-CHECKSUM:]:
         raise StateError("the state is damaged: its checksum does not match")
     if digest.hex() != table:
-        raise StateError("the state belongs to another table; make the world with the table it was saved from")
+        raise StateError(
+            "the state belongs to another table; make the world with the table it was saved from"
+        )
     if rate != tick_rate:
         raise StateError(f"the state was saved at {rate} ticks a second, this world runs at {tick_rate}")
     return np.frombuffer(data[HEADER.size : -CHECKSUM], WORLD)[0]

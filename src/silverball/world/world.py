@@ -12,7 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import BoardFull, FaultError, NoRoom, StateError
-from silverball.physics.balls import clearance, clearance_of_balls, create_ball, empty_slot, part_balls, put_ball
+from silverball.physics.balls import (
+    clearance,
+    clearance_of_balls,
+    create_ball,
+    empty_slot,
+    part_balls,
+    put_ball,
+)
 from silverball.physics.layout import Fault, Outcome
 from silverball.physics.step import is_sound
 from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
@@ -27,7 +34,8 @@ class World:
 
     Args:
         table: A table, a built-in name, or a path to a file. A recipe makes a board with the world's seed.
-        seed: Of everything random in this world, 0 to 2⁶³ − 1. The same table, seed and inputs give the same bits.
+        seed: Of everything random in this world, 0 to 2⁶³ − 1. The same table, seed and inputs give the
+            same bits.
         tick_rate: Ticks per second. 240 plays finely; 60 is enough for studies.
 
     Example:
@@ -52,10 +60,17 @@ class World:
         self._actions: NDArray[np.bool_] = np.zeros((1, 1, 3), np.bool_)
         self._static = (self._board, self._batch.boards.collider)
 
-    # --- what moves it -------------------------------------------------------------------------------------------
+    # --- what moves it
+    # -------------------------------------------------------------------------------------------
 
     def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
-        """Move on by a number of ticks with the paddle buttons held or not; jitter is one shove, on the first tick.
+        """Move on with the paddle buttons held or not.
+
+        Args:
+            left: Whether the left button is held, in all ticks.
+            right: The same of the right one.
+            jitter: Whether to shove the balls once, on the first tick.
+            ticks: How many ticks.
 
         Raises:
             FaultError: The world's state has become impossible and it has stopped.
@@ -89,12 +104,13 @@ class World:
             self._raise_full()
         if outcome == Outcome.NO_ROOM:
             raise NoRoom(
-                f"the board {self.table.name!r} has no free place for a ball above the paddles; wait until a ball has left, "
-                "or take an obstacle away"
+                f"the board {self.table.name!r} has no free place for a ball above the paddles; "
+                "wait until a ball has left, or take an obstacle away"
             )
         return self._newest()
 
-    # --- what it shows -------------------------------------------------------------------------------------------
+    # --- what it shows
+    # -------------------------------------------------------------------------------------------
 
     @property
     def balls(self) -> tuple[Ball, ...]:
@@ -148,7 +164,7 @@ class World:
 
     @property
     def hits(self) -> dict[str, int]:
-        """Hits of every part since this World was made, by its path in the table. A statistic: `restore` leaves it."""
+        """Hits of every part by its path in the table, since this World was made; `restore` leaves them."""
         return dict(zip(self._names, self._batch.tallies[0].tolist(), strict=True))
 
     @property
@@ -157,7 +173,8 @@ class World:
         fault = Fault(int(self._record["fault"]))
         return None if fault == Fault.NONE else fault.name.lower()
 
-    # --- saving --------------------------------------------------------------------------------------------------
+    # --- saving
+    # --------------------------------------------------------------------------------------------------
 
     def save(self) -> bytes:
         """The whole state, random generator included, as bytes for `restore`."""
@@ -166,7 +183,8 @@ class World:
     def restore(self, state: bytes) -> None:
         """Go back to a saved state, bit for bit.
 
-        Two overlapping balls in a state from outside are moved apart equally. On any error nothing has changed.
+        Two overlapping balls in a state from outside are moved apart equally. On any error nothing has
+        changed.
 
         Raises:
             StateError: The state is damaged, impossible, or of another table or tick rate.
@@ -185,7 +203,13 @@ class World:
         """A hash of the state: equal digests mean equal worlds."""
         return states.digest(self._record)
 
-    # --- helpers -------------------------------------------------------------------------------------------------
+    @property
+    def records(self) -> tuple[Any, Any, Any]:
+        """The world's record, its board's and the colliders: what kernels of players and drawings read."""
+        return self._record, *self._static
+
+    # --- helpers
+    # -------------------------------------------------------------------------------------------------
 
     def clearance(self, x: float, z: float) -> float:
         """The smallest gap [u] between a ball centred at (x, z) and any part, paddles as they stand now."""
@@ -197,14 +221,15 @@ class World:
     def _raise_full(self) -> None:
         limit = self.table.board.max_balls
         raise BoardFull(
-            f"the board already holds {limit} ball{'s' * (limit > 1)}, its max_balls; wait until one has left through the gutter"
+            f"the board already holds {limit} ball{'s' * (limit > 1)}, its max_balls; "
+            "wait until one has left through the gutter"
         )
 
     def _raise_fault(self) -> None:
         fault = self.fault or ""
         raise FaultError(
-            f"the world (table {self.table.name!r}, seed {self.seed}) stopped at tick {self.tick} with the fault {fault!r}; "
-            "please report it with the bytes in this error's `state`",
+            f"the world (table {self.table.name!r}, seed {self.seed}) stopped at tick {self.tick} "
+            f"with the fault {fault!r}; please report it with the bytes in this error's `state`",
             fault,
             self.save(),
         )
@@ -214,7 +239,9 @@ class World:
         vx, vz = _pair("velocity", velocity)
         cap = self.table.board.speed_cap
         if math.hypot(vx, vz) > cap:
-            raise ValueError(f"velocity must be at most the speed cap of {cap} u/s, got {math.hypot(vx, vz):.6g} u/s")
+            raise ValueError(
+                f"velocity must be at most the speed cap of {cap} u/s, got {math.hypot(vx, vz):.6g} u/s"
+            )
         slot = empty_slot(self._record, self._board)
         if slot < 0:
             self._raise_full()
@@ -223,7 +250,10 @@ class World:
             raise NoRoom(f"a ball at x = {x:g} would be in the gutter (x = {board.gutter:g}); place it above")
         gap, part = clearance(self._record, *self._static, x, z)
         if gap < FREE_GAP:
-            raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {-gap:.3g} u; place it elsewhere")
+            raise NoRoom(
+                f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {-gap:.3g} u; "
+                "place it elsewhere"
+            )
         if clearance_of_balls(self._record, self._board, x, z) < FREE_GAP:
             raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap the other ball; place it elsewhere")
         put_ball(self._record, self._log, slot, x, z, vx, vz)
@@ -245,7 +275,9 @@ class World:
         if not ((low <= angles) & (angles <= high)).all():
             raise StateError("the state holds a paddle beyond its stops")
         if not part_balls(self._record, *self._static):
-            raise StateError("the state holds two overlapping balls that cannot be parted without pressing one into a part")
+            raise StateError(
+                "the state holds two overlapping balls that cannot be parted without pressing one into a part"
+            )
         for x, z, id_ in balls[["x", "z", "id"]].tolist():
             gap, part = clearance(self._record, *self._static, x, z)
             if id_ and gap < -LEAST_ADVANCE_GAP:

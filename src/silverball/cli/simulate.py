@@ -1,0 +1,93 @@
+"""`silverball simulate`: many seconds of play without a window."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import typer
+
+
+def simulate(
+    table: str = typer.Option("classic", help="A built-in table or a table file."),
+    seed: int = typer.Option(0, min=0, max=2**62, help="Of the board and of everything random on it."),
+    seconds: float = typer.Option(60.0, min=0.01, max=1e9, help="To simulate in each world."),
+    player: str = typer.Option("reflex", help="Who presses the buttons: idle, random or reflex."),
+    worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side; world i gets seed + i."),
+    balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board."),
+    tick_rate: int = typer.Option(240, min=10, max=100_000, help="Ticks per simulated second."),
+    audit: bool = typer.Option(
+        True, help="Check every tick, independently of the solver, for a ball inside anything."
+    ),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+) -> None:
+    """Let a player play without a window and say what came of it.
+
+    Example: [bold]silverball simulate --table random --seed 7 --seconds 600 --player reflex --json[/bold]
+    """
+    from rich.progress import Progress
+
+    from silverball.cli.console import compiling, errors
+    from silverball.players import player_kind
+    from silverball.table import load_table
+
+    kind = player_kind(player)
+    loaded = load_table(table)
+    with compiling():
+        from silverball.players.games import play
+        from silverball.world import WorldBatch
+
+        batch = WorldBatch(loaded, worlds, seed, tick_rate)
+        play(batch, kind, 0.0, 0, audit)
+    with Progress(console=errors, transient=True) as bar:
+        task = bar.add_task(f"simulating {worlds} world{'s' * (worlds > 1)}", total=seconds)
+        played = play(batch, kind, seconds, balls, audit, lambda done: bar.update(task, completed=done))
+    report: dict[str, Any] = {
+        "table": table,
+        "seed": seed,
+        "player": player,
+        "worlds": worlds,
+        "tick_rate": tick_rate,
+        "seconds": played.seconds,
+        "balls_created": played.created,
+        "balls_drained": played.drained,
+        "seconds_per_ball": played.seconds * worlds / played.drained if played.drained else None,
+        "score": played.score,
+        "hits": played.hits,
+        "ball_hits": played.ball_hits,
+        "touches": played.touches,
+        "jams": played.jams,
+        "faults": played.faults,
+        "deepest_penetration": played.deepest if audit else None,
+        "simulated_seconds_per_second": played.seconds * worlds / played.wall_seconds,
+        "digest": digest_of(batch),
+    }
+    if as_json:
+        typer.echo(json.dumps(report, indent=2))
+    else:
+        print_report(report)
+
+
+def digest_of(batch: Any) -> str:
+    """One hash of the states of all worlds."""
+    from silverball.world.state import digest
+
+    return digest(batch.state)
+
+
+def print_report(report: dict[str, Any]) -> None:
+    """The report as lines for people."""
+    for name, value in report.items():
+        if isinstance(value, dict):
+            typer.echo(f"{name}:")
+            for part, count in value.items():
+                typer.echo(f"  {part:24} {count:>12,}")
+        else:
+            shown = (
+                f"{value:,.6g}"
+                if isinstance(value, float)
+                else f"{value:,}"
+                if isinstance(value, int)
+                else value
+            )
+            typer.echo(f"{name.replace('_', ' '):30} {shown}")

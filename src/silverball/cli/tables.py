@@ -1,0 +1,22 @@
+"""`silverball tables`: what is built in?"""
+
+from __future__ import annotations
+
+import typer
+
+
+def tables() -> None:
+    """List the built-in tables.
+
+    Example: [bold]silverball tables[/bold]
+    """
+    from silverball.table import load_table, table_names
+
+    for name in table_names():
+        table = load_table(name)
+        obstacles = f"{len(table.triangular_prism)} triangular prisms, {len(table.cylinder)} cylinders"
+        if table.random is not None:
+            recipe = table.random
+            counts = f"{recipe.triangular_prisms} triangular prisms, {recipe.cylinders} cylinders"
+            obstacles = f"{counts}, placed anew for every seed"
+        typer.echo(f"{name:10} {obstacles}")

@@ -1,0 +1,39 @@
+"""Who presses the buttons? The players: idle, random, reflex.
+
+`make_player(name)` gives one for a single `World`; `silverball.players.games.play` runs any of them
+compiled, over many worlds.
+"""
+
+from __future__ import annotations
+
+import difflib
+
+from silverball.errors import SilverballError
+from silverball.players.press import Player, PlayerKind
+
+__all__ = ["PLAYERS", "Player", "PlayerKind", "make_player", "player_kind"]
+
+PLAYERS = tuple(kind.name.lower() for kind in PlayerKind)
+"""The names of all players."""
+
+
+def player_kind(name: str) -> PlayerKind:
+    """The player of a name.
+
+    Raises:
+        SilverballError: There is no player of that name.
+    """
+    if name in PLAYERS:
+        return PlayerKind[name.upper()]
+    near = difflib.get_close_matches(name, PLAYERS, 1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    raise SilverballError(f"--player: no player is called {name!r}, there are {', '.join(PLAYERS)}{hint}")
+
+
+def make_player(name: str) -> Player:
+    """A player for a single world.
+
+    Args:
+        name: "idle" (presses nothing), "random" (holds and releases at random) or "reflex" (hits what comes).
+    """
+    return Player(player_kind(name))

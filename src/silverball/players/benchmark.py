@@ -1,0 +1,93 @@
+"""How many frames a second does the step make here?"""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import time
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.table import Table
+from silverball.world import WorldBatch
+
+FRAME_RATE = 60
+HOLD = 6  # frames for which a random button stays as it is
+BOARDS = 16  # distinct random boards of a benchmark on a recipe
+FILL = 2  # balls in every world
+
+
+class Speed(NamedTuple):
+    """A measured speed, and what it was measured on.
+
+    Attributes:
+        frames_per_second: Frames of 1/60 s in all worlds per second, median of the rounds.
+        slowest: The same of the slowest round.
+        fastest: The same of the fastest round.
+        balls: Mean number of balls on a board at the start of a round.
+    """
+
+    frames_per_second: float
+    slowest: float
+    fastest: float
+    balls: float
+    rounds: int
+    threads: int
+    worlds: int
+    frames: int
+    boards: int
+    machine: str
+    python: str
+    numba: str
+    numpy: str
+
+
+def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -> Speed:
+    """Time calls of `frames` frames each, with two balls in every world at each start and random paddles."""
+    boards = _boards(table)
+    batch = WorldBatch([boards[i % len(boards)] for i in range(worlds)], worlds, 0, FRAME_RATE, threads)
+    random = np.random.default_rng(0)
+    speeds, balls = [], []
+    for index in range(rounds + 2):  # the first two compile and warm up
+        for _ in range(FILL):
+            batch.create_balls()
+        actions = _random_actions(random, frames, worlds)
+        balls.append(float((batch.state["ball"]["id"] != 0).sum() / worlds))
+        started = time.perf_counter()
+        batch.run(actions, frames)
+        if index >= 2:
+            speeds.append(worlds * frames / (time.perf_counter() - started))
+    return Speed(
+        statistics.median(speeds),
+        min(speeds),
+        max(speeds),
+        statistics.mean(balls),
+        rounds,
+        threads,
+        worlds,
+        frames,
+        len(boards),
+        f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}",
+        platform.python_version(),
+        numba.__version__,
+        np.__version__,
+    )
+
+
+def _boards(table: Table) -> list[Table]:
+    if table.random is None:
+        return [table]
+    from silverball.table import generate_table
+
+    return [generate_table(seed, table) for seed in range(BOARDS)]
+
+
+def _random_actions(random: np.random.Generator, frames: int, worlds: int) -> NDArray[np.bool_]:
+    """Random paddles, no jitter: bool [frames, world, 3]."""
+    held = random.random((-(-frames // HOLD), worlds, 3)) < 0.5
+    held[..., 2] = False
+    return np.ascontiguousarray(np.repeat(held, HOLD, axis=0)[:frames])

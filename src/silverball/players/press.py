@@ -1,0 +1,75 @@
+"""What does each simple player press in the next tick?
+
+Players see the state of the world and keep none of their own, so that a game can be continued from any
+snapshot.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any
+
+from silverball.physics.kernel import kernel
+from silverball.physics.layout import BALL_COUNT, Kind, Part
+from silverball.physics.random import uniform
+from silverball.physics.trigonometry import sine_cosine
+from silverball.world import World
+
+RANDOM_KEY = 0x5EED  # sets the random player's numbers apart from the world's own
+RANDOM_HOLD = 0.15  # [s] for which the random player keeps a button as it is
+NEAR_SHARE = 0.45  # of the paddle's length: nearer to the pivot the reflex player lets the ball roll on
+LOOK_AHEAD = 0.06  # [s] about half a stroke: where the ball will be when the paddle meets it
+STRIKE_HEIGHT = 0.35  # [u] between ball and resting paddle at which it strikes
+
+
+class PlayerKind(IntEnum):
+    """The simple players."""
+
+    IDLE = 0
+    RANDOM = 1
+    REFLEX = 2
+
+
+class Player:
+    """A player for a single world."""
+
+    def __init__(self, kind: PlayerKind) -> None:
+        self.kind = kind
+
+    def press(self, world: World) -> tuple[bool, bool]:
+        """The buttons (left, right) to hold in the world's next tick."""
+        left, right = pressed(int(self.kind), *world.records, 1.0 / world.tick_rate)
+        return bool(left), bool(right)
+
+
+@kernel
+def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) -> tuple[bool, bool]:
+    """The buttons (left, right) that a player holds in the next tick."""
+    if player == PlayerKind.RANDOM:
+        turn = int(world.tick * tick / RANDOM_HOLD)
+        key = world.seed ^ RANDOM_KEY
+        return uniform(key, 2 * turn) < 0.5, uniform(key, 2 * turn + 1) < 0.5
+    if player == PlayerKind.REFLEX:
+        left = colliders[board.collider_first + Part.LEFT_PADDLE]
+        right = colliders[board.collider_first + Part.RIGHT_PADDLE]
+        return strikes(world, board, left), strikes(world, board, right)
+    return False, False
+
+
+@kernel
+def strikes(world: Any, board: Any, c: Any) -> bool:
+    """Whether the reflex player lifts this paddle: a ball will be just above its outer half in a moment."""
+    if c.kind != Kind.PADDLE:
+        return False
+    sine, cosine = sine_cosine(c.angle_rest)
+    for slot in range(BALL_COUNT):
+        ball = world.ball[slot]
+        if ball.id == 0:
+            continue
+        dx = ball.x + ball.vx * LOOK_AHEAD - c.x
+        dz = (ball.z + ball.vz * LOOK_AHEAD - c.z) * c.side
+        along = dx * sine + dz * cosine  # from the pivot to the tip
+        above = dx * cosine - dz * sine - board.ball_radius
+        if NEAR_SHARE * c.z1 < along < c.z1 + board.ball_radius and -0.5 < above < STRIKE_HEIGHT:
+            return True
+    return False
