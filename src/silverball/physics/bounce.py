@@ -81,8 +81,8 @@ def bounced(
 def capped_along(ball: Ball, nx: float, nz: float, cap: float) -> Ball:
     """The ball with its speed at most the cap, cut from the tangential part first.
 
-    It must still leave the moving paddle that it has met. A table is only valid when every paddle's tip is slower
-    than the cap, hop included; so the normal part may be cut to the cap itself.
+    It must still leave the moving paddle that it has met. A table is only valid when every paddle's tip is
+    slower than the cap, hop included; so the normal part may be cut to the cap itself.
     """
     square = ball.vx * ball.vx + ball.vz * ball.vz
     if square <= cap * cap:

@@ -41,7 +41,7 @@ def cache_folder() -> Path | None:
     """The folder for compiled code of exactly these sources; None where no folder can be written."""
     import platformdirs
 
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(b"checked" if numba.core.config.BOUNDSCHECK else b"")
     package = Path(__file__).resolve().parent.parent
     for source in sorted(package.rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode())

@@ -127,7 +127,7 @@ def play_worlds(
     """Let a player play the worlds first … end − 1 for a number of ticks; most arguments as in `run_worlds`.
 
     `places` are the squares in which balls are created, `player` is a `PlayerKind`, `balls` how many to keep
-    on the board. With `audit`, `depths` [world] is raised to the deepest that any ball was inside anything [u].
+    on the board. With `audit`, `depths` [world] is raised to the deepest that a ball was inside anything [u].
     """
     for index in range(first, end):
         world, log, tally = worlds[index], logs[index], tallies[index]
