@@ -23,7 +23,7 @@ from typing import Any
 
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.layout import Ball, Contact
-from silverball.physics.tolerances import CAP_MARGIN, HOP
+from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE
 
 
 @inlined
@@ -33,9 +33,12 @@ def restitution_at(e0: float, falloff: float, speed: float) -> float:
 
 
 @inlined
-def hop_speed(acceleration: float) -> float:
-    """Least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²]."""
-    return sqrt(2.0 * acceleration * HOP)
+def hop_speed(acceleration: float, hit_speed: float) -> float:
+    """Least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
+
+    A hop must come back as a touch, or a ball at rest would score; so it stays below the speed of a hit.
+    """
+    return min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed)
 
 
 @inlined
@@ -64,7 +67,7 @@ def bounced(
     approach = -(nx * (ball.vx - ux) + nz * (ball.vz - uz))
     rebound = approach * restitution_at(c.restitution, c.restitution_falloff, approach)
     if approach <= hit_speed:
-        rebound = max(rebound, hop_speed(acceleration))
+        rebound = max(rebound, hop_speed(acceleration, hit_speed))
         factor = 1.0
     else:
         factor = c.speed_factor
@@ -108,7 +111,7 @@ def exchanged(
     approach = -(nx * (a.vx - b.vx) + nz * (a.vz - b.vz))
     rebound = approach * restitution
     if approach <= hit_speed:
-        rebound = max(rebound, hop_speed(acceleration))
+        rebound = max(rebound, hop_speed(acceleration, hit_speed))
     push = 0.5 * (approach + rebound)
     a = Ball(a.x, a.z, a.vx + push * nx, a.vz + push * nz, a.id)
     b = Ball(b.x, b.z, b.vx - push * nx, b.vz - push * nz, b.id)

@@ -40,7 +40,9 @@ def turned(paddle: Paddle, stop: float, h: float) -> Paddle:
         return paddle
     if h >= paddle.stop_in:
         return Paddle(stop, 0.0, NEVER)
-    return Paddle(paddle.angle + paddle.turn * h, paddle.turn, paddle.stop_in - h)
+    angle = paddle.angle + paddle.turn * h
+    angle = min(angle, stop) if paddle.turn > 0.0 else max(angle, stop)  # rounding must not carry it past
+    return Paddle(angle, paddle.turn, paddle.stop_in - h)
 
 
 @inlined

@@ -20,6 +20,9 @@ HOP = 5e-4
 Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/500 of a ball high: nobody sees it.
 Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
 
+HOP_SHARE = 0.9
+"""A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
+
 LEAST_ADVANCE_GAP = 1e-9
 """[u] A search that can find no step forward advances at least by the time in which the greatest
 acceleration moves a ball this far: it is the deepest that a ball can ever enter anything. Smaller: more

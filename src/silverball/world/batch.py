@@ -63,9 +63,9 @@ class WorldBatch:
             ValueError: A count, seed, tick rate or number of tables that cannot be.
             TableError: The table has problems.
         """
-        self.count = _checked_int("count", count, 1, 2**31)
-        self.tick_rate = _checked_int("tick_rate", tick_rate, 10, 100_000)
-        self.threads = _cores() if threads is None else _checked_int("threads", threads, 1, 4096)
+        self.count = checked_int("count", count, 1, 2**31)
+        self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
+        self.threads = _cores() if threads is None else checked_int("threads", threads, 1, 4096)
         seeds = _seeds(seed, self.count)
         self.tables, self.board_of = _finished(table, seeds, self.count)
         self.boards: Boards = compile_tables(self.tables)
@@ -92,8 +92,9 @@ class WorldBatch:
             ticks: How many ticks.
 
         Raises:
-            ValueError: The shape of the actions does not fit.
+            ValueError: The shape of the actions does not fit, or ticks is not a whole number of at least 0.
         """
+        ticks = checked_int("ticks", ticks, 0, 2**40)
         held = np.ascontiguousarray(actions, np.bool_)
         if held.ndim == 2:
             held = held[None]
@@ -182,7 +183,8 @@ def _pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
 
 
-def _checked_int(name: str, value: Any, least: int, greatest: int) -> int:
+def checked_int(name: str, value: Any, least: int, greatest: int) -> int:
+    """The value as an int, if it is a whole number in the range; else a ValueError that says so."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
         raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
     return int(value)
@@ -190,13 +192,13 @@ def _checked_int(name: str, value: Any, least: int, greatest: int) -> int:
 
 def _seeds(seed: int | Sequence[int], count: int) -> list[int]:
     if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
-        first = _checked_int("seed", seed, 0, GREATEST_SEED - count + 1)
+        first = checked_int("seed", seed, 0, GREATEST_SEED - count + 1)
         return [first + index for index in range(count)]
     if isinstance(seed, (bool, float, str)) or seed is None:
         raise ValueError(
             f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}"
         )
-    seeds = [_checked_int("seed", value, 0, GREATEST_SEED) for value in seed]
+    seeds = [checked_int("seed", value, 0, GREATEST_SEED) for value in seed]
     if len(seeds) != count:
         raise ValueError(f"seed must be one number or {count} of them, one for each world, got {len(seeds)}")
     return seeds

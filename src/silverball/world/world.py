@@ -20,13 +20,15 @@ from silverball.physics.balls import (
     part_balls,
     put_ball,
 )
-from silverball.physics.layout import Fault, Outcome
+from silverball.physics.layout import WORLD, Fault, Outcome
 from silverball.physics.step import is_sound
 from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
 from silverball.table import Table
 from silverball.world import state as states
-from silverball.world.batch import WorldBatch
+from silverball.world.batch import WorldBatch, checked_int
 from silverball.world.events import Ball, Event, Paddle, read_balls, read_events, read_paddles
+
+COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
 
 
 class World:
@@ -74,7 +76,10 @@ class World:
 
         Raises:
             FaultError: The world's state has become impossible and it has stopped.
+            ValueError: The number of ticks is not a whole number of at least 0.
         """
+        if ticks.__class__ is not int or ticks < 0:
+            ticks = checked_int("ticks", ticks, 0, 2**40)
         self._actions[0, 0] = left, right, jitter
         self._batch.run(self._actions, ticks)
         if self._record["fault"]:
@@ -261,12 +266,22 @@ class World:
 
     def _check_state(self) -> None:
         record = self._record
+        balls = record["ball"]
+        if record["fault"] not in Fault.__members__.values():
+            raise StateError(f"the state has a fault of an unknown number, {record['fault']}")
         if record["fault"]:
             return  # a stopped world may be looked at; it does not move
-        balls = record["ball"]
+        if any((record[name] < 0).any() for name in COUNTS):
+            raise StateError("the state holds a negative count")
+        rows = [*balls.tolist(), *record["paddle"].tolist()]
+        if not all(math.isfinite(number) for row in rows for number in row):
+            raise StateError("the state holds a number that is not finite")
+        ids = balls["id"][balls["id"] != 0]
+        if (ids < 0).any() or (ids > record["created"]).any() or len(set(ids.tolist())) < len(ids):
+            raise StateError("the state holds balls whose ids are not those of balls that were created")
         if not is_sound(self._record, self._board):
             raise StateError("the state holds a ball that is outside of the board, too fast, or not a number")
-        if (balls["id"] < 0).any() or np.count_nonzero(balls["id"]) > self.table.board.max_balls:
+        if len(ids) > self.table.board.max_balls:
             raise StateError("the state holds more balls than the table allows")
         first = self._batch.boards.collider[3:5]
         low = np.minimum(first["angle_rest"], first["angle_up"])
