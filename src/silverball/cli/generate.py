@@ -20,11 +20,11 @@ def generate(
     Example: [bold]silverball generate --seed 7 --out seven.toml[/bold]
     """
     from silverball.errors import OutputError
-    from silverball.table import format_table, generate_table, save_table
+    from silverball.table import dump_table, generate_table, save_table
 
     board = generate_table(seed, recipe)
     if out is None:
-        typer.echo(format_table(board), nl=False)
+        typer.echo(dump_table(board), nl=False)
         return
     if out.exists() and not force:
         raise OutputError(f"{out}: this file exists; choose another name, or overwrite it with --force")

@@ -5,11 +5,11 @@ Options, and why:
 * ``error_model="numpy"``: a division by zero gives inf or nan instead of raising; kernels never raise.
 * ``fastmath=False``: no reordered and no fused arithmetic, so that every machine gives the same bits.
 * ``nogil=True``: slices of a batch run on threads.
-* ``forceinline=True``, for the few small helpers of the hot loop: they return tuples, which then stay in registers.
-* ``_nrt=False``: no reference counting. Kernels never allocate, and the compiler now refuses an allocation; with
-  counting, every function that is given an array would pay for atomic operations, some 20 ns a call.
-* the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale code
-  after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
+* ``forceinline=True``, for the few small helpers of the hot loop: their tuples stay in registers.
+* ``_nrt=False``: no reference counting. Kernels never allocate, and the compiler now refuses an allocation;
+  with counting, every function that is given an array would pay for atomic operations, some 20 ns a call.
+* the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
+  code after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
   cache directory that is named after a hash of all sources of the package.
 """
 

@@ -21,7 +21,7 @@ from silverball.physics.kernel import inlined, kernel
 from silverball.physics.layout import NOTHING, OTHER_BALL, Ball, Contact, EventKind, Fault, Kind, Paddle, Part
 from silverball.physics.log import record
 from silverball.physics.paddle import aimed, paddle_distance, turned
-from silverball.physics.tolerances import JAM_EVENTS, JAM_GAP, NEVER
+from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, NEVER
 
 
 @kernel
@@ -47,6 +47,7 @@ def step_world(
     left, left_stop = aimed(left_part, world.paddle[0].angle, raise_left)
     right, right_stop = aimed(right_part, world.paddle[1].angle, raise_right)
     time, busy_a, busy_b, stalled = 0.0, 0, 0, False
+    jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
 
     while True:
         limit = min(tick - time, left.stop_in, right.stop_in)
@@ -78,11 +79,11 @@ def step_world(
             b = resolved(world, board, colliders, log, tally, b, meet_b, turn, time)
             busy_b += 1
 
-        if busy_a >= JAM_EVENTS or busy_b >= JAM_EVENTS:
+        if busy_a >= jammed or busy_b >= jammed:
             left = stalled_at(left, left_part, board, a, b)
             right = stalled_at(right, right_part, board, a, b)
-            a = halted(world, log, a, busy_a, time)
-            b = halted(world, log, b, busy_b, time)
+            a = halted(world, log, a, 2 * busy_a >= jammed, time)
+            b = halted(world, log, b, 2 * busy_b >= jammed, time)
             if stalled:  # even with the paddles still: hold everything until the tick is over
                 break
             busy_a, busy_b, stalled = 0, 0, True
@@ -154,9 +155,9 @@ def stalled_at(paddle: Paddle, c: Any, board: Any, a: Ball, b: Ball) -> Paddle:
 
 
 @kernel
-def halted(world: Any, log: Any, ball: Ball, busy: int, offset: float) -> Ball:
+def halted(world: Any, log: Any, ball: Ball, involved: bool, offset: float) -> Ball:
     """A ball that takes part in a jam stops dead, and the jam is counted and written down."""
-    if ball.id == 0 or 2 * busy < JAM_EVENTS:
+    if ball.id == 0 or not involved:
         return ball
     world.jams += 1
     record(log, EventKind.JAM, NOTHING, ball.id, world.tick, offset, ball.x, ball.z, 0.0, 0.0, 0.0)

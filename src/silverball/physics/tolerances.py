@@ -33,10 +33,11 @@ FLIGHT_STEPS = 48
 """Safe steps per search; then the search says "free up to here" and the ball is flown there, a null event.
 An ordinary contact takes 1 to 4; a graze halves its distance every step, so 48 cover 14 digits."""
 
-JAM_EVENTS = 128
-"""Events of one ball in one tick after which it counts as jammed. A ball at rest needs about one a tick of
-1/60 s, a ball carried by a dead paddle some 50. Smaller: free balls are held by mistake. Larger: a pinched
-ball costs more."""
+JAM_EVENTS = 64
+JAM_EVENT_RATE = 6000.0
+"""Events of one ball in one tick, and the more of them for every second of the tick [1/s], after which it
+counts as jammed. A ball at rest needs 50 a second, one carried by a paddle without restitution some 3000.
+Smaller: free balls are held by mistake. Larger: a pinched ball costs more time."""
 
 JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""

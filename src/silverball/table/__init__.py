@@ -2,6 +2,7 @@
 
 from silverball.table.check import check_table
 from silverball.table.file import dump_table, load_table, parse_table, save_table, table_digest, table_names
+from silverball.table.generate import generate_table
 from silverball.table.parts import (
     Board,
     Cylinder,
@@ -13,6 +14,7 @@ from silverball.table.parts import (
     Table,
     TriangularPrism,
 )
+from silverball.table.reach import ball_places
 
 __all__ = [
     "Board",
@@ -24,8 +26,10 @@ __all__ = [
     "SlantWall",
     "Table",
     "TriangularPrism",
+    "ball_places",
     "check_table",
     "dump_table",
+    "generate_table",
     "load_table",
     "parse_table",
     "save_table",

@@ -1,11 +1,56 @@
-"""Can this table be played? (the checks follow)"""
+"""Can this table be played? Every reason why not, each with its path in the file.
+
+In this order: each part by itself (degenerate, outside the board, a paddle as fast as the cap), parts
+against each other (overlaps, gaps that a ball only just fits), the paddles' turns, the way to the
+gutter, the places where a ball would lie for ever, and the rules of a recipe. A check that would only
+repeat an earlier one in other words is left out.
+
+What a mesh or a value by itself must be is said in `parts.py` and `mesh.py`; here the parts exist and the
+question is whether they make a table.
+"""
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
+import numpy as np
+
 from silverball.errors import Problem
-from silverball.table.parts import Board, Cylinder, Paddle, RandomRecipe, SlantWall, Table, TriangularPrism
+from silverball.table.geometry import (
+    BORDER_NAMES,
+    Floats,
+    Shapes,
+    Standing,
+    border_gaps,
+    core_distances,
+    distances,
+    offsets,
+    outline,
+    side_of,
+)
+from silverball.table.parts import (
+    Board,
+    Cylinder,
+    Paddle,
+    RandomRecipe,
+    SlantWall,
+    Table,
+    TriangularPrism,
+)
+from silverball.table.reach import PASSAGE, Space, creation_floor, space
+from silverball.table.rules import recipe_problems
+from silverball.table.sweep import CLEARANCE, touches_border, touches_paddle, touches_shape
+from silverball.table.traps import level_faces, pockets
+
+FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
+ROUNDING = 1e-9  # [u] by which a part may reach over an edge of the board
+TANGLE = 100  # overlaps that are spelt out; with more of them, nobody asks for traps yet
+
+# A touch leaves a ball with a hop of at most √(2·A·HOP), A the acceleration at the contact; on a turning
+# paddle A is gravity and ω²·reach. The speed cap must leave room for it.
+# Source: the solver's rule for endless small bounces, with HOP = 5e-4 u.
+HOP = 5e-4
 
 
 class Layout(NamedTuple):
@@ -15,11 +60,11 @@ class Layout(NamedTuple):
     """
 
     board: Board
-    slant_walls: tuple[tuple[str, SlantWall], ...]
-    paddles: tuple[tuple[str, Paddle], ...]
-    triangular_prisms: tuple[tuple[str, TriangularPrism], ...]
-    cylinders: tuple[tuple[str, Cylinder], ...]
-    random: RandomRecipe | None
+    slant_walls: tuple[tuple[str, SlantWall], ...] = ()
+    paddles: tuple[tuple[str, Paddle], ...] = ()
+    triangular_prisms: tuple[tuple[str, TriangularPrism], ...] = ()
+    cylinders: tuple[tuple[str, Cylinder], ...] = ()
+    random: RandomRecipe | None = None
 
     @classmethod
     def of(cls, table: Table) -> Layout:
@@ -34,11 +79,280 @@ class Layout(NamedTuple):
         )
 
 
+class Measured(NamedTuple):
+    """The standing parts of a layout that have an extent, ready to be measured."""
+
+    paths: list[str]
+    parts: list[Standing]
+    shapes: Shapes
+
+
 def check_table(table: Table) -> list[Problem]:
-    """Every problem of a table, with its path; an empty list for a good one."""
+    """Every problem of a table, with its path; an empty list for a table that can be played."""
     return check_layout(Layout.of(table))
 
 
 def check_layout(layout: Layout) -> list[Problem]:
-    """The same for a layout."""
-    return []
+    """The same for a layout, which may be a part of a table only."""
+    board_problems = _board_problems(layout.board)
+    paddle_problems = _paddle_problems(layout)
+    problems = board_problems + paddle_problems
+    standing, part_problems = _standing(layout)
+    problems += part_problems
+    if board_problems:
+        return problems
+    meetings, tight = _pair_problems(standing, layout.board)
+    problems += meetings[:TANGLE]
+    if len(meetings) > TANGLE:
+        problems.append(Problem("", f"and {len(meetings) - TANGLE:,} more overlaps"))
+    problems += _sweep_problems(layout, standing)
+    paddles = tuple(paddle for _, paddle in layout.paddles)
+    outlines = [outline(part) for part in standing.parts]
+    ball_space = space(layout.board, paddles, outlines)
+    problems += [problem for problem, place in tight if ball_space.reaches(place)]
+    problems += _way_problems(layout, paddles, ball_space)
+    if len(meetings) <= TANGLE:
+        problems += _trap_problems(layout, standing, ball_space)
+    if layout.random is not None:
+        problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)
+    return problems
+
+
+def _board_problems(board: Board) -> list[Problem]:
+    problems = []
+    edge = 0.5 * board.length
+    if not -edge <= board.gutter <= edge:
+        problems.append(
+            Problem("board.gutter", f"must lie on the board, {-edge:g} to {edge:g} u, got {board.gutter:g}")
+        )
+    room = min(board.width, board.length) - 2.0 * board.wall_thickness
+    if room < 4.0 * board.ball_radius:
+        message = f"must fit the board: between its borders are {room:g} u, too little for two balls abreast"
+        problems.append(Problem("board.ball_radius", message))
+    return problems
+
+
+def _paddle_problems(layout: Layout) -> list[Problem]:
+    """Paddles by themselves: one per side, on the board, slower than the cap."""
+    problems = []
+    seen: dict[str, str] = {}
+    for path, paddle in layout.paddles:
+        if paddle.side in seen:
+            message = f"must not be {paddle.side!r} again: {seen[paddle.side]} is on this side already"
+            problems.append(Problem(f"{path}.side", message))
+        seen.setdefault(paddle.side, path)
+        x, z = paddle.pivot
+        if not (layout.board.gutter < x < 0.5 * layout.board.length and abs(z) < 0.5 * layout.board.width):
+            message = f"must lie on the board and above the gutter, got [{x:g}, {z:g}]"
+            problems.append(Problem(f"{path}.pivot", message))
+        problems += _speed_problems(path, paddle, layout.board)
+    return problems
+
+
+def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
+    """A tip that is as fast as the speed cap would run through balls that it has just hit."""
+    if _tip_and_hop(paddle.tip_speed, paddle, board) < board.speed_cap:
+        return []
+    quick = "stroke" if paddle.stroke <= paddle.return_stroke else "return_stroke"
+    way = paddle.tip_speed * getattr(paddle, quick)  # [u] that the tip travels
+    # The limit falls with the stroke's time; look it up in steps of a millisecond, as people write it.
+    times = (milliseconds / 1000.0 for milliseconds in range(20, 1001))
+    works = next((time for time in times if _tip_and_hop(way / time, paddle, board) < board.speed_cap), None)
+    remedy = f"make it {works:g} s or longer" if works else "make the paddle shorter"
+    message = (
+        f"makes the tip {paddle.tip_speed:.1f} u/s fast, with its hop "
+        f"{_tip_and_hop(paddle.tip_speed, paddle, board):.1f}; "
+        f"it must stay below the speed cap of {board.speed_cap:g} u/s: {remedy}"
+    )
+    return [Problem(f"{path}.{quick}", message)]
+
+
+def _tip_and_hop(tip_speed: float, paddle: Paddle, board: Board) -> float:
+    """[u/s] The speed of the tip and the hop that a touch there may add."""
+    return tip_speed + math.sqrt(2.0 * (board.gravity + tip_speed**2 / paddle.reach) * HOP)
+
+
+def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
+    """The standing parts that have an extent, and the problems of those that have none or stick out."""
+    problems: list[Problem] = []
+    paths: list[str] = []
+    parts: list[Standing] = []
+    everything: tuple[tuple[str, Standing], ...] = (
+        *layout.slant_walls,
+        *layout.triangular_prisms,
+        *layout.cylinders,
+    )
+    for path, part in everything:
+        problem = _own_problem(path, part, layout.board)
+        if problem is None or not problem.message.startswith("is flat"):
+            paths.append(path)
+            parts.append(part)
+        if problem is not None:
+            problems.append(problem)
+    return Measured(paths, parts, Shapes.of([outline(part) for part in parts])), problems
+
+
+def _own_problem(path: str, part: Standing, board: Board) -> Problem | None:
+    core, radius = outline(part)
+    points = np.array(core)
+    path = f"{path}.{_place_key(part)}"
+    if isinstance(part, SlantWall):
+        if math.dist(part.start, part.end) < FLATTEST:
+            return Problem(path, f"is flat: start and end must be at least {FLATTEST:g} u apart")
+        beyond = max(abs(x) - 0.5 * board.length for x, _ in core[:2])
+        beyond = max(beyond, *(abs(z) - 0.5 * board.width for _, z in core[:2]))
+    else:
+        if isinstance(part, TriangularPrism) and _height(points) < FLATTEST:
+            return Problem(path, f"is flat: the triangle must be at least {FLATTEST:g} u high everywhere")
+        low_edge = points[:, 0].min() - radius + 0.5 * board.length
+        beyond = -min(float(border_gaps(points, board).min()) - radius, float(low_edge))
+    if beyond > ROUNDING:
+        return Problem(path, f"reaches {beyond:.3g} u over the edge of the board: move it inwards")
+    return None
+
+
+def _height(corners: Floats) -> float:
+    """[u] The least height of a triangle: twice its area over its longest side."""
+    twice_area = float(side_of(corners[0], corners[1], corners[2]))
+    longest = math.sqrt(float(((corners - corners[[1, 2, 0]]) ** 2).sum(axis=1).max()))
+    return abs(twice_area) / longest if longest > 0.0 else 0.0
+
+
+def _place_key(part: Standing) -> str:
+    """The key that says where a part is."""
+    if isinstance(part, SlantWall):
+        return "end"
+    return "vertices" if isinstance(part, TriangularPrism) and part.vertices is not None else "center"
+
+
+def _pair_problems(
+    standing: Measured, board: Board
+) -> tuple[list[Problem], list[tuple[Problem, tuple[float, float]]]]:
+    """Parts that overlap; and gaps that a ball only just fits, each with the middle of the gap."""
+    meetings: list[Problem] = []
+    tight: list[tuple[Problem, tuple[float, float]]] = []
+    shapes, parts, paths = standing.shapes, standing.parts, standing.paths
+    if not parts:
+        return meetings, tight
+    widest = (2.0 + PASSAGE) * board.ball_radius
+    center, bound = shapes.bounds()
+    apart = np.sqrt(((center[:, None] - center[None]) ** 2).sum(axis=-1)) - bound[:, None] - bound[None]
+    first, second = np.nonzero(np.triu(apart < widest, 1))
+    gaps = core_distances(shapes.core[first], shapes.core[second])
+    gaps -= shapes.radius[first] + shapes.radius[second]
+    for one, other, gap in zip(first.tolist(), second.tolist(), gaps.tolist(), strict=True):
+        path = f"{paths[other]}.{_place_key(parts[other])}"
+        walls = isinstance(parts[one], SlantWall) and isinstance(parts[other], SlantWall)
+        if walls and _cross(parts[one], parts[other]):
+            meetings.append(Problem(path, f"crosses {paths[one]}: let the walls meet at their ends"))
+        elif not walls and gap <= 0.0:
+            meetings.append(Problem(path, f"overlaps {paths[one]}: move one of the two"))
+        elif 2.0 * board.ball_radius <= gap < widest:
+            place = _middle(shapes.core[one], shapes.core[other])
+            tight.append((_tight(path, gap, paths[one], board), place))
+    to_border = border_gaps(shapes.core, board).min(axis=1) - shapes.radius[:, None]
+    for shape, border in np.argwhere((to_border >= 2.0 * board.ball_radius) & (to_border < widest)).tolist():
+        path = f"{paths[shape]}.{_place_key(parts[shape])}"
+        corner = shapes.core[shape, np.argmin(border_gaps(shapes.core[shape], board)[:, border])]
+        problem = _tight(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
+        tight.append((problem, (float(corner[0]), float(corner[1]))))
+    return meetings, tight
+
+
+def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
+    ball = 2.0 * board.ball_radius
+    message = (
+        f"leaves {gap:.3f} u to {other}, which a ball of {ball:g} u only just fits: "
+        f"leave at least {ball + PASSAGE * board.ball_radius:.2f} u, or less than {ball:g} u"
+    )
+    return Problem(path, message)
+
+
+def _cross(one: Standing, other: Standing) -> bool:
+    """Whether two slant walls cross in the middle of both: neither has an end near the other."""
+    (a, b, _), near = outline(one)
+    (c, d, _), far = outline(other)
+    points = [np.array(point) for point in (a, b, c, d)]
+    if side_of(points[0], points[1], points[2]) * side_of(points[0], points[1], points[3]) >= 0.0:
+        return False
+    if side_of(points[2], points[3], points[0]) * side_of(points[2], points[3], points[1]) >= 0.0:
+        return False
+    ends = np.concatenate(
+        [
+            distances(np.array([a, b]), np.array([c, d, d])),
+            distances(np.array([c, d]), np.array([a, b, b])),
+        ]
+    )
+    return bool(ends.min() > near + far)
+
+
+def _middle(first: Floats, second: Floats) -> tuple[float, float]:
+    """The middle between the nearest points of two cores."""
+    best = (math.inf, 0.0, 0.0)
+    for points, core in ((first, second), (second, first)):
+        for point, away in zip(points, offsets(points, core), strict=True):
+            middle = point - 0.5 * away
+            best = min(best, (math.hypot(*away), float(middle[0]), float(middle[1])))
+    return best[1], best[2]
+
+
+def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
+    """What the paddles touch while they turn."""
+    problems = []
+    for index, (path, paddle) in enumerate(layout.paddles):
+        for other_path, other in layout.paddles[index + 1 :]:
+            angles = touches_paddle(paddle, other)
+            if angles is not None:
+                at = f"at {angles[0]:.0f} and {angles[1]:.0f} deg"
+                message = f"must stay {CLEARANCE:g} u clear of {path}, but comes nearer {at}: move them apart"
+                problems.append(Problem(other_path, message))
+        border = touches_border(paddle, layout.board)
+        if border is not None:
+            problems.append(_touch(path, border[0], BORDER_NAMES[border[1]]))
+        for other_path, part in zip(standing.paths, standing.parts, strict=True):
+            angle = touches_shape(paddle, *outline(part))
+            if angle is not None:
+                problems.append(_touch(path, angle, other_path))
+    return problems
+
+
+def _touch(path: str, angle: float, other: str) -> Problem:
+    message = f"must stay {CLEARANCE:g} u clear of {other} in its turn, but comes nearer at {angle:.0f} deg"
+    return Problem(path, f"{message}: move one of the two")
+
+
+def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
+    """Whether a ball can be created, and whether it can leave."""
+    board = layout.board
+    if len(ball_space.places()[0]):
+        return []
+    above = ball_space.free[ball_space.grid.floor_row :]
+    if not above.any():
+        floor = creation_floor(board, paddles)
+        return [Problem("board", f"has no room for a ball above x = {floor:.2f} u: take parts away")]
+    ball = 2.0 * board.ball_radius
+    message = f"has no way to the gutter: open a gap of more than {ball:g} u between or beside the paddles"
+    return [Problem("board", message)]
+
+
+def _trap_problems(layout: Layout, standing: Measured, ball_space: Space) -> list[Problem]:
+    """The places where a ball would lie for ever; paddles count as they rest."""
+    resting = [(paddle.corners(paddle.rest_angle), 0.0) for _, paddle in layout.paddles]
+    shapes = Shapes.of([*(outline(part) for part in standing.parts), *resting])
+    paths = [*standing.paths, *(path for path, _ in layout.paddles)]
+    keys = [*(_place_key(part) for part in standing.parts), *("rest_angle" for _ in layout.paddles)]
+    problems = []
+    for shape, slope, (x, z) in level_faces(shapes, layout.board, ball_space):
+        message = (
+            f"has a face that is level within {slope:.1f} deg, on which a ball would lie for ever at "
+            f"[{x:.2f}, {z:.2f}]: turn it by 2 deg or more"
+        )
+        problems.append(Problem(f"{paths[shape]}.{keys[shape]}", message))
+    for shape, other, (x, z) in pockets(shapes, layout.board, ball_space):
+        beside = other if isinstance(other, str) else paths[other]
+        message = (
+            f"makes a pocket with {beside}, in which a ball would lie for ever at [{x:.2f}, {z:.2f}]: "
+            f"open a gap of more than {2.0 * layout.board.ball_radius:g} u or fill the pocket"
+        )
+        problems.append(Problem(f"{paths[shape]}.{keys[shape]}", message))
+    return problems

@@ -29,6 +29,8 @@ from silverball.table.parts import (
 )
 from silverball.table.quantity import shown
 
+LISTED = 100  # mistakes that are spelt out; chosen: more than anybody mends at once
+
 PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {
     "slant_wall": SlantWall,
     "paddle": Paddle,
@@ -102,9 +104,11 @@ def path_of(location: tuple[str | int, ...]) -> str:
 
 def explain(error: ValidationError) -> list[Problem]:
     """Every mistake that pydantic found, as problems in the order of the file's sections."""
-    return [
-        Problem(path_of(detail["loc"]), _message(dict(detail))) for detail in error.errors(include_url=False)
-    ]
+    details = error.errors(include_url=False)
+    problems = [Problem(path_of(detail["loc"]), _message(dict(detail))) for detail in details[:LISTED]]
+    if len(details) > LISTED:
+        problems.append(Problem("", f"and {len(details) - LISTED:,} more problems of this kind"))
+    return problems
 
 
 def _message(detail: dict[str, Any]) -> str:
@@ -171,13 +175,15 @@ def _unknown_key(location: tuple[str | int, ...]) -> str:
     for ours in meanings:
         if ours in known:
             return f"unknown key: did you mean `{ours}`? That is its name here"
+        if ours in PART_KINDS:
+            return f"unknown key: did you mean a part of its own, under [[{ours}]]?"
     close = difflib.get_close_matches(word[:60], known, n=1)
     if close:
         return f"unknown key: did you mean `{close[0]}`?"
     for section, model in (("board", Board), ("random", RandomRecipe)):
         if word in model.model_fields and location[0] != section:
             return f"unknown key: `{word}` belongs in [{section}]"
-    for section in PART_KINDS:
-        if word in PART_KINDS[section].model_fields and location[0] not in (section, "random"):
+    for section, part in PART_KINDS.items():
+        if word in part.model_fields and location[0] not in (section, "random"):
             return f"unknown key: `{word}` belongs in a part, such as [[{section}]]"
     return f"unknown key: known here are {', '.join(known)}"

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import contextlib
 import difflib
+import functools
 import hashlib
 import json
 import os
@@ -60,8 +61,7 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
     if isinstance(name_or_path, str) and not _looks_like_path(text):
         if text not in table_names():
             raise UnknownTable(text, _no_such_name(text))
-        entry = resources.files("silverball.table") / "tables" / f"{text}.toml"
-        return parse_table(entry.read_text(encoding="utf-8"), text)
+        return _built_in(text)
     return parse_table(_read(text), text, folder=Path(text).parent)
 
 
@@ -91,7 +91,7 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
         problems += check_layout(layout)
     if problems or table is None or layout is None:
         raise TableError(source, problems)
-    if any(part.mesh is not None for part in (*table.triangular_prism, *table.cylinder)):
+    if _has_mesh(table):
         table = table.model_copy(
             update={
                 "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
@@ -156,6 +156,13 @@ def table_digest(table: Table) -> str:
     whole = table.model_copy(update={"triangular_prism": tuple(prisms), "cylinder": tuple(cylinders)})
     text = json.dumps(whole.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+@functools.cache
+def _built_in(name: str) -> Table:
+    """A built-in table, read and checked once: tables never change."""
+    entry = resources.files("silverball.table") / "tables" / f"{name}.toml"
+    return parse_table(entry.read_text(encoding="utf-8"), name)
 
 
 def _looks_like_path(text: str) -> bool:
@@ -235,7 +242,8 @@ def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None
     recipe = None
     if "random" in data and not any(place[0] == "random" for place in broken):
         recipe = RandomRecipe.model_validate(data["random"])
-    return Layout(board, *(tuple(left[kind]) for kind in PART_KINDS), random=recipe)
+    parts = {f"{kind}s": tuple(left[kind]) for kind in PART_KINDS}
+    return Layout(board=board, random=recipe, **parts)
 
 
 def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
@@ -255,6 +263,10 @@ def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem
         triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
     )
     return resolved, problems
+
+
+def _has_mesh(table: Table) -> bool:
+    return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
 
 
 def _block(head: str, model: BaseModel) -> str:

@@ -28,7 +28,7 @@ from pydantic import (
 
 from silverball.table.quantity import COORDINATE, POINT, Count, Interval, Quantity, Several, refuse, shown
 
-FORMAT = 1  # the version of the file format that this module describes
+FORMAT: Literal[1] = 1  # the version of the file format that this module describes
 PARTS_LIMIT = 256  # parts of one kind in a table; chosen: ten times a rich table, checked in a second
 
 Point: TypeAlias = tuple[float, float]

@@ -115,9 +115,10 @@ class Count(Rule):
         span = f"{self.low:,} to {self.high:,} {self.unit}".rstrip()
         if isinstance(value, bool) or not isinstance(value, Integral):
             refuse(f"must be a whole number, {span}, got {shown(value)}")
-        if not self.low <= value <= self.high:
+        number = int(value)
+        if not self.low <= number <= self.high:
             refuse(f"must be {span}, got {shown(value)}")
-        return int(value)
+        return number
 
     def json_schema(self) -> JsonSchemaValue:
         """An integer with its bounds."""

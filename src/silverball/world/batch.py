@@ -217,7 +217,9 @@ def _finished(
     tables = tuple(table)
     if len(tables) != count:
         raise ValueError(f"table must be one table or {count} of them, one for each world, got {len(tables)}")
-    finished = tuple(
+    finished = [
         t if t.random is None else generate_table(seed, t) for t, seed in zip(tables, seeds, strict=True)
-    )
-    return finished, np.arange(count)
+    ]
+    distinct = list({id(t): t for t in finished}.values())  # worlds that share a table share its board
+    number = {id(t): index for index, t in enumerate(distinct)}
+    return tuple(distinct), np.array([number[id(t)] for t in finished])

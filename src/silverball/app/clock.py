@@ -1,0 +1,34 @@
+"""How much real time becomes how many ticks? Whole ticks, the rest is kept, and a stall is not caught up with."""
+
+from __future__ import annotations
+
+MOST_SECONDS = 0.05
+"""Real time [s] that one frame may make up for. Below 20 frames a second the game slows down; larger values make it
+jump after a stall, and a machine too slow for its ticks would hang."""
+
+
+class TickClock:
+    """Turns the time between frames into ticks.
+
+    Args:
+        tick_rate: Ticks per second of real time.
+    """
+
+    def __init__(self, tick_rate: int) -> None:
+        self.tick_rate = tick_rate
+        self._owed = 0.0  # [tick]
+
+    @property
+    def most_ticks(self) -> int:
+        """Ticks in one frame at most."""
+        return max(1, round(MOST_SECONDS * self.tick_rate))
+
+    def advance(self, seconds: float) -> int:
+        """The ticks that are due after so much more real time."""
+        self._owed += max(seconds, 0.0) * self.tick_rate
+        if self._owed >= self.most_ticks:
+            self._owed = 0.0
+            return self.most_ticks
+        ticks = int(self._owed)
+        self._owed -= ticks
+        return ticks

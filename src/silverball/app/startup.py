@@ -1,0 +1,70 @@
+"""How does the physics get loaded while the table is already on screen? In a thread.
+
+The first start on a machine compiles for some seconds; later ones load in a fraction of one.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from silverball.table import Table
+
+
+class Startup:
+    """Loads, and if need be compiles, everything that a game needs.
+
+    Args:
+        table: A finished table to try the physics on.
+        on_compile: Called from the thread if the physics has to be compiled first.
+    """
+
+    def __init__(self, table: Table, on_compile: Callable[[], None] = lambda: None) -> None:
+        self.is_compiling = False
+        self._on_compile = on_compile
+        self._table = table
+        self._error: BaseException | None = None
+        self._thread = threading.Thread(target=self._load, name="silverball startup", daemon=True)
+        self._thread.start()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether a game can begin.
+
+        Raises:
+            Exception: Whatever went wrong in the thread.
+        """
+        if self._thread.is_alive():
+            return False
+        if self._error is not None:
+            raise self._error
+        return True
+
+    def wait(self) -> None:
+        """Wait until a game can begin."""
+        self._thread.join()
+
+    def _load(self) -> None:
+        try:
+            from silverball.physics.kernel import is_compiled
+
+            if not is_compiled():
+                self.is_compiling = True
+                self._on_compile()
+            warm_up(self._table)
+        except BaseException as error:  # shown to the player by whoever asks `is_done`
+            self._error = error
+
+
+def warm_up(table: Table) -> None:
+    """Call once what every game calls, so that no later call has to load or compile."""
+    from silverball.app.controls import Held
+    from silverball.app.session import Session
+
+    session = Session(table, 0)
+    session.create_ball()
+    session.jitter()
+    session.advance(Held((True, True), (False, False)), 2)
+    session.world.digest()

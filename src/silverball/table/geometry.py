@@ -1,0 +1,150 @@
+"""How far apart are the parts of a table, and how far is a point from them?
+
+Every part is a convex core of up to three points, inflated by a radius: a cylinder is one point, a
+slant wall two, a prism or a paddle three (radius 0). Fewer points are repeated, so that all parts of a
+table stand in one array and one formula serves them all. Points are (x, z) [u]; corners run
+counter-clockwise with z to the right and x up. Nothing here changes its arguments.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.table.parts import Board, Cylinder, Paddle, Point, SlantWall, Triangle, TriangularPrism
+
+Floats: TypeAlias = NDArray[np.float64]
+Bools: TypeAlias = NDArray[np.bool_]
+Indices: TypeAlias = NDArray[np.signedinteger[Any]]
+
+
+Standing: TypeAlias = SlantWall | TriangularPrism | Cylinder
+"""A part that stands still."""
+
+
+class Shapes(NamedTuple):
+    """Some parts as cores and radii.
+
+    Attributes:
+        core: The core points [u], shape [shape, 3, 2].
+        radius: The radius around each core [u], shape [shape].
+    """
+
+    core: Floats
+    radius: Floats
+
+    @classmethod
+    def of(cls, outlines: list[tuple[Triangle, float]]) -> Shapes:
+        """The shapes of a list of outlines."""
+        core = np.array([points for points, _ in outlines], dtype=np.float64).reshape(-1, 3, 2)
+        return cls(core, np.array([radius for _, radius in outlines], dtype=np.float64))
+
+    def bounds(self) -> tuple[Floats, Floats]:
+        """A bounding circle of each shape: the centres [shape, 2] and the radii [shape] [u]."""
+        center = 0.5 * (self.core.max(axis=1) + self.core.min(axis=1))
+        spread = np.sqrt(((self.core - center[:, None, :]) ** 2).sum(axis=2).max(axis=1))
+        return center, spread + self.radius
+
+
+def outline(part: Standing) -> tuple[Triangle, float]:
+    """The core of a standing part, always three points, and the radius around it."""
+    if isinstance(part, SlantWall):
+        return (part.start, part.end, part.end), part.thickness
+    if isinstance(part, TriangularPrism):
+        return part.corners(), 0.0
+    x, z, radius = part.circle()
+    return ((x, z), (x, z), (x, z)), radius
+
+
+def paddle_cores(paddle: Paddle, angles: Floats) -> Floats:
+    """The corners of a paddle at many angles [deg], shape [angle, 3, 2]: `Paddle.corners`, vectorised."""
+    side = 1.0 if paddle.side == "left" else -1.0
+    pivot = np.array([paddle.pivot[0], side * paddle.pivot[1]])
+    turn = np.radians(angles)
+    along = np.stack([np.sin(turn), np.cos(turn)], axis=-1)
+    across = np.stack([np.cos(turn), -np.sin(turn)], axis=-1) * (0.5 * paddle.base)
+    corners = np.stack([pivot - across, pivot + paddle.length * along, pivot + across], axis=-2)
+    if side < 0.0:
+        corners = corners[:, ::-1, :] * np.array([1.0, -1.0])
+    return corners
+
+
+def offsets(points: Floats, core: Floats) -> Floats:
+    """From the nearest point of a core to a point; zero inside a triangle.
+
+    Args:
+        points: Points [u], shape [..., 2].
+        core: Cores [u], shape [..., 3, 2], whose leading axes broadcast with those of the points.
+
+    Returns:
+        Vectors [u], shape [..., 2].
+    """
+    start = core
+    edge = core[..., [1, 2, 0], :] - start
+    from_start = points[..., None, :] - start
+    square = (edge**2).sum(axis=-1)
+    along = (from_start * edge).sum(axis=-1) / np.where(square > 0.0, square, 1.0)
+    away = from_start - np.clip(along, 0.0, 1.0)[..., None] * edge
+    nearest = np.argmin((away**2).sum(axis=-1), axis=-1)
+    best = np.take_along_axis(away, nearest[..., None, None], axis=-2)[..., 0, :]
+    # Inside a counter-clockwise triangle, a point lies to the left of every edge.
+    left = edge[..., 1] * from_start[..., 0] - edge[..., 0] * from_start[..., 1]
+    inside = np.asarray(np.all(left > 0.0, axis=-1))  # never for a flat core: its edges run there and back
+    return np.where(inside[..., None], 0.0, best)
+
+
+def distances(points: Floats, core: Floats) -> Floats:
+    """From points to cores [u], broadcast as in `offsets`; zero inside a triangle."""
+    away: Floats = np.sqrt((offsets(points, core) ** 2).sum(axis=-1))
+    return away
+
+
+def core_distances(first: Floats, second: Floats) -> Floats:
+    """From cores to cores [u], shape [..., 3, 2] each, broadcast together; zero where they meet."""
+    first, second = np.broadcast_arrays(first, second)
+    ends = np.minimum(
+        distances(first, second[..., None, :, :]).min(axis=-1),
+        distances(second, first[..., None, :, :]).min(axis=-1),
+    )
+    return np.where(_edges_cross(first, second), 0.0, ends)
+
+
+def _edges_cross(first: Floats, second: Floats) -> Bools:
+    """Whether any edge of one core properly crosses any edge of the other."""
+    a, b = first[..., :, None, :], first[..., [1, 2, 0], :][..., :, None, :]
+    c, d = second[..., None, :, :], second[..., [1, 2, 0], :][..., None, :, :]
+    apart_ab = side_of(a, b, c) * side_of(a, b, d)
+    apart_cd = side_of(c, d, a) * side_of(c, d, b)
+    return np.asarray(np.any((apart_ab < 0.0) & (apart_cd < 0.0), axis=(-1, -2)))
+
+
+def side_of(start: Floats, end: Floats, point: Floats) -> Floats:
+    """Positive for a point to the left of the line from start to end, negative to its right."""
+    edge, away = end - start, point - start
+    side: Floats = edge[..., 1] * away[..., 0] - edge[..., 0] * away[..., 1]
+    return side
+
+
+def outward_normals(core: Floats) -> Floats:
+    """The unit normals of the three edges, shape [shape, 3, 2]; zero for an edge without length.
+
+    A core of two points has its one edge there and back, so that both sides have a normal.
+    """
+    edge = core[:, [1, 2, 0], :] - core
+    length = np.sqrt((edge**2).sum(axis=-1))
+    normal = np.stack([-edge[..., 1], edge[..., 0]], axis=-1)
+    return normal / np.where(length > 0.0, length, 1.0)[..., None]
+
+
+def border_gaps(points: Floats, board: Board) -> Floats:
+    """From points to the surfaces of the left, right and top border [u], shape [..., 3]; negative behind."""
+    half_width = 0.5 * board.width - board.wall_thickness
+    top = 0.5 * board.length - board.wall_thickness
+    x, z = points[..., 0], points[..., 1]
+    return np.stack([half_width + z, half_width - z, top - x], axis=-1)
+
+
+BORDER_NAMES = ("the left border", "the right border", "the top border")
+BORDER_NORMALS: tuple[Point, ...] = ((0.0, 1.0), (0.0, -1.0), (-1.0, 0.0))

@@ -1,0 +1,197 @@
+"""What footprint does a 3-D mesh leave on the board?
+
+A mesh gives a prism or a cylinder its outline: the mesh's axes are the table's (x up the table, y out of the
+board, z to the right), so that seen from above every vertex is a point (x, z) [u]. The points' convex hull
+is what a ball meets. Of it a prism keeps the largest triangle among its corners, never a side of the
+prism, which stands upright and has no width from above; a cylinder keeps the smallest circle around it.
+
+Reading needs trimesh (the extra ``mesh``), which is imported only here and only when a mesh is read.
+STL, OBJ and GLB hold data only. Files are bounded in size before they are opened.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import stat
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from silverball.errors import MissingExtra, Problem, TableError
+from silverball.table.geometry import Floats
+from silverball.table.parts import Point, Triangle
+
+MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
+KINDS = ("stl", "obj", "glb")
+NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
+_ROUNDED = 6  # decimals [u] that are kept of a footprint: STL stores single precision
+
+
+def triangle_footprint(path: Path) -> Triangle:
+    """The largest triangle among the corners of a mesh's footprint, (x, z) [u], counter-clockwise.
+
+    Raises:
+        TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
+        MissingExtra: trimesh is not installed.
+    """
+    corners = largest_triangle(convex_hull(_points(path)))
+    a, b, c = (tuple(float(value) + 0.0 for value in np.round(corner, _ROUNDED)) for corner in corners)
+    return (a[0], a[1]), (b[0], b[1]), (c[0], c[1])
+
+
+def circle_footprint(path: Path) -> tuple[float, float, float]:
+    """The smallest circle around a mesh's footprint: x, z and radius [u].
+
+    Raises:
+        TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
+        MissingExtra: trimesh is not installed.
+    """
+    x, z, radius = smallest_circle(convex_hull(_points(path)))
+    return round(x, _ROUNDED) + 0.0, round(z, _ROUNDED) + 0.0, round(radius, _ROUNDED)
+
+
+def convex_hull(points: Floats) -> Floats:
+    """The corners of the convex hull of points (x, z), counter-clockwise, shape [corner, 2].
+
+    Andrew's monotone chain. Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two
+    dimensions", Information Processing Letters 9 (1979).
+    """
+    ordered = [(float(x), float(z)) for x, z in np.unique(points, axis=0)]
+    chains: list[list[Point]] = []
+    for direction in (ordered, ordered[::-1]):
+        chain: list[Point] = []
+        for point in direction:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], point) >= 0.0:
+                chain.pop()
+            chain.append(point)
+        chains.append(chain[:-1])
+    # From low x to high x with every turn to the right, then back: clockwise in (x, z) with z to the
+    # right and x up is counter-clockwise the other way round.
+    return np.array((chains[0] + chains[1])[::-1], dtype=np.float64).reshape(-1, 2)
+
+
+def largest_triangle(hull: Floats) -> Floats:
+    """The triangle of greatest area among the corners of a convex polygon, counter-clockwise, shape [3, 2].
+
+    For every two corners the area has a single peak over the third, which moves on as they do: n² steps
+    for n corners.
+    """
+    count = len(hull)
+    best, found = -1.0, (0, 0, 0)
+    for first in range(count - 2):
+        third = first + 2
+        for second in range(first + 1, count - 1):
+            third = max(third, second + 1)
+            area = _turn(hull[first], hull[second], hull[third])
+            while third + 1 < count:
+                further = _turn(hull[first], hull[second], hull[third + 1])
+                if further < area:
+                    break
+                area, third = further, third + 1
+            if area > best:
+                best, found = area, (first, second, third)
+    return hull[list(found)]
+
+
+def smallest_circle(points: Floats) -> tuple[float, float, float]:
+    """The smallest circle that holds all points: x, z and radius [u].
+
+    Welzl's move-to-front, unrolled into three loops; the points of a hull are few.
+    Source: E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", LNCS 555 (1991).
+    """
+    places = [(float(x), float(z)) for x, z in points]
+    circle = (*places[0], 0.0)
+    for i, p in enumerate(places):
+        if _holds(circle, p):
+            continue
+        circle = (*p, 0.0)
+        for j, q in enumerate(places[:i]):
+            if _holds(circle, q):
+                continue
+            circle = _circle_of_two(p, q)
+            for r in places[:j]:
+                if not _holds(circle, r):
+                    circle = _circle_of_three(p, q, r)
+    return circle
+
+
+def _points(path: Path) -> Floats:
+    """The vertices of a mesh file seen from above, (x, z) [u], shape [vertex, 2]."""
+    kind = path.suffix.lower().removeprefix(".")
+    name = str(path)
+    if kind not in KINDS:
+        raise _unusable(name, f"must be an STL, OBJ or GLB file, got {path.name!r}")
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _unusable(name, f"cannot be read: {name} ({reason})") from error
+    if not stat.S_ISREG(status.st_mode):
+        raise _unusable(name, f"is no ordinary file: {name}")
+    if status.st_size > MESH_LIMIT:
+        message = f"is {status.st_size:,} bytes long, a mesh has at most {MESH_LIMIT:,}: simplify {name}"
+        raise _unusable(name, message)
+    vertices = _vertices(path, kind)
+    if vertices.ndim != 2 or vertices.shape[1:] != (3,) or not np.isfinite(vertices).all():
+        raise _unusable(name, f"has coordinates that are no numbers: {name} is damaged")
+    points = vertices[:, [0, 2]]
+    if len(points) < 3 or _width(points) < NARROWEST:
+        raise _unusable(name, f"is flat or empty seen from above (along y): {name} has no footprint")
+    return points
+
+
+def _vertices(path: Path, kind: str) -> Floats:
+    """The vertices of a mesh file, shape [vertex, 3]."""
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingExtra(f"the mesh {path}", "mesh") from error
+    try:
+        with open(path, "rb") as file:
+            # Only the file itself is read: no material or texture beside it is looked for.
+            loaded: Any = trimesh.load(
+                file, file_type=kind, force="scene", process=False, skip_materials=True
+            )
+        pieces = [np.asarray(piece.vertices, dtype=np.float64) for piece in loaded.dump()]
+    except Exception as error:  # trimesh raises whatever its parsers meet in a damaged file
+        reason = str(error).strip().split("\n")[0][:120] or type(error).__name__
+        raise _unusable(str(path), f"cannot be read as {kind.upper()}: {path} ({reason})") from error
+    return np.concatenate(pieces) if pieces else np.empty((0, 3))
+
+
+def _unusable(source: str, message: str) -> TableError:
+    return TableError(source, [Problem("mesh", message)])
+
+
+def _turn(a: Sequence[float] | Floats, b: Sequence[float] | Floats, c: Sequence[float] | Floats) -> float:
+    """Twice the area of the triangle a, b, c: positive when it runs counter-clockwise on the board."""
+    return float((b[1] - a[1]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[1] - a[1]))
+
+
+def _width(points: Floats) -> float:
+    """[u] The spread of points across the line along which they spread most."""
+    centred = points - points.mean(axis=0)
+    across = np.linalg.svd(centred, full_matrices=False)[2][1]
+    return float(np.ptp(centred @ across))
+
+
+def _holds(circle: tuple[float, float, float], point: Point) -> bool:
+    return math.dist(circle[:2], point) <= circle[2] * (1.0 + 1e-12) + 1e-12
+
+
+def _circle_of_two(p: Point, q: Point) -> tuple[float, float, float]:
+    return 0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1]), 0.5 * math.dist(p, q)
+
+
+def _circle_of_three(p: Point, q: Point, r: Point) -> tuple[float, float, float]:
+    """The circle through three points; the widest of two when they lie on a line."""
+    ax, az, bx, bz = q[0] - p[0], q[1] - p[1], r[0] - p[0], r[1] - p[1]
+    twice = 2.0 * (ax * bz - az * bx)
+    if twice == 0.0:
+        return max((_circle_of_two(*pair) for pair in ((p, q), (p, r), (q, r))), key=lambda c: c[2])
+    a, b = ax * ax + az * az, bx * bx + bz * bz
+    x, z = (bz * a - az * b) / twice, (ax * b - bx * a) / twice
+    return p[0] + x, p[1] + z, math.hypot(x, z)

@@ -1,0 +1,185 @@
+"""Where on the board can a ball be, and where may one be created?
+
+The places of a ball's centre are sampled on a square grid: a sample is free when a ball there touches
+no border, no standing part and no paddle at rest, and it is reached when free neighbours (eight of
+them) lead from it to the gutter. A passage must be wider than a ball by about 0.45 ball radii to be
+seen as one; `check.py` refuses narrower ones, so that for a checked table the samples tell the truth.
+
+The grid's step is 5/16 of a ball radius. Four by four samples make one square cell of 1.25 ball radii,
+smaller than any part with a ball's radius around it: no cell reaches through a wall.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.table.geometry import Bools, Floats, Standing, outline
+from silverball.table.parts import Board, Paddle, Table, Triangle
+
+CELL = 1.25  # [ball radii] side of a cell in which a ball may be created
+SAMPLES = 4  # samples along each side of a cell
+STEP = CELL / SAMPLES  # [ball radii] between two samples
+PASSAGE = (
+    math.sqrt(2.0) * STEP
+)  # [ball radii] a passage at any angle that is wider than a ball by this is seen
+
+
+class Grid(NamedTuple):
+    """The samples of one board.
+
+    Attributes:
+        x: Their heights on the board [u], from just above the gutter to the top, shape [row].
+        z: Their places across [u], symmetric about the middle, shape [column].
+        step: The distance between two neighbours [u].
+        floor_row: The first row in which balls may be created: out of the paddles' reach.
+    """
+
+    x: Floats
+    z: Floats
+    step: float
+    floor_row: int
+
+    @classmethod
+    def of(cls, board: Board, paddles: tuple[Paddle, ...]) -> Grid:
+        """The grid whose cells start right above the paddles' reach."""
+        radius = board.ball_radius
+        step = STEP * radius
+        floor = creation_floor(board, paddles)
+        below = max(0, int((floor - board.gutter) / step))
+        above = SAMPLES * max(0, math.ceil((0.5 * board.length - floor) / (CELL * radius)))
+        across = SAMPLES * math.ceil(board.width / (CELL * radius))
+        x = floor + (np.arange(-below, above, dtype=np.float64) + 0.5) * step
+        z = (np.arange(across, dtype=np.float64) - 0.5 * (across - 1)) * step
+        return cls(x, z, step, below)
+
+
+class Space(NamedTuple):
+    """What the samples say.
+
+    Attributes:
+        grid: Where the samples lie.
+        free: Whether a ball there touches nothing, shape [row, column].
+        reached: Whether it is free and leads to the gutter, shape [row, column].
+    """
+
+    grid: Grid
+    free: Bools
+    reached: Bools
+
+    def reaches(self, point: tuple[float, float]) -> bool:
+        """Whether a ball that comes from the gutter can be at this place, give or take four steps."""
+        row = round((point[0] - float(self.grid.x[0])) / self.grid.step) if len(self.grid.x) else 0
+        column = round((point[1] - float(self.grid.z[0])) / self.grid.step)
+        rows, columns = slice(max(0, row - 4), max(0, row + 5)), slice(max(0, column - 4), max(0, column + 5))
+        return bool(self.reached[rows, columns].any())
+
+    def places(self) -> tuple[Floats, float]:
+        """See `ball_places`."""
+        grid = self.grid
+        cells = self.reached[grid.floor_row :]
+        rows, columns = cells.shape[0] // SAMPLES, cells.shape[1] // SAMPLES
+        usable = cells.reshape(rows, SAMPLES, columns, SAMPLES).any(axis=(1, 3))
+        row, column = np.nonzero(usable)
+        middle = 0.5 * (SAMPLES - 1) * grid.step
+        x = grid.x[grid.floor_row :: SAMPLES][row] + middle if rows else np.empty(0)
+        z = grid.z[::SAMPLES][column] + middle
+        return np.stack([x, z], axis=1), SAMPLES * grid.step
+
+
+def creation_floor(board: Board, paddles: tuple[Paddle, ...]) -> float:
+    """[u] the x above which balls are created: out of every paddle's reach, or clear of the gutter."""
+    if not paddles:
+        return board.gutter + 2.0 * board.ball_radius
+    return max(paddle.pivot[0] + paddle.reach for paddle in paddles) + board.ball_radius
+
+
+def ball_places(table: Table) -> tuple[Floats, float]:
+    """The square cells of the board in which a ball may be created.
+
+    A cell is offered when a ball at one of its sixteen samples touches nothing and can get to the
+    gutter, so never behind a corner wall or in a sealed pocket. Other points of a cell may be taken:
+    whoever creates a ball tests its very place.
+
+    Args:
+        table: A finished table, with or without paddles.
+
+    Returns:
+        The centres of the cells (x, z) [u], shape [cell, 2], in rows from the paddles up to the top, each
+        from left to right; and the side of a cell [u].
+    """
+    parts: tuple[Standing, ...] = (*table.slant_wall, *table.triangular_prism, *table.cylinder)
+    return space(table.board, table.paddle, [outline(part) for part in parts]).places()
+
+
+def space(board: Board, paddles: tuple[Paddle, ...], standing: list[tuple[Triangle, float]]) -> Space:
+    """The space for a ball between the standing parts and the paddles at rest."""
+    grid = Grid.of(board, paddles)
+    resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in paddles]
+    margin = board.wall_thickness + board.ball_radius
+    free = np.outer(grid.x <= 0.5 * board.length - margin, np.abs(grid.z) <= 0.5 * board.width - margin)
+    for core, radius in [*standing, *resting]:
+        _block(free, grid, core, radius + board.ball_radius)
+    return Space(grid, free, _connected_to_first_row(free))
+
+
+def _block(free: Bools, grid: Grid, core: Triangle, radius: float) -> None:
+    """Mark the samples nearer to a core than a radius as not free, in place."""
+    xs, zs = [x for x, _ in core], [z for _, z in core]
+    rows = slice(*np.searchsorted(grid.x, [min(xs) - radius, max(xs) + radius]))
+    columns = slice(*np.searchsorted(grid.z, [min(zs) - radius, max(zs) + radius]))
+    x, z = grid.x[rows, None], grid.z[None, columns]
+    edges = [(a, b) for a, b in zip(core, (*core[1:], core[0]), strict=True) if a != b]
+    if not edges:  # a single point
+        edges = [(core[0], core[0])]
+    elif core[1] == core[2]:  # there and back
+        edges = edges[:1]
+    outside = np.ones((x.shape[0], z.shape[1]), dtype=bool)
+    inside = np.ones_like(outside)
+    for (ax, az), (bx, bz) in edges:
+        dx, dz = bx - ax, bz - az
+        square = dx * dx + dz * dz
+        along = np.clip(((x - ax) * dx + (z - az) * dz) / (square or 1.0), 0.0, 1.0)
+        outside &= (x - ax - along * dx) ** 2 + (z - az - along * dz) ** 2 >= radius * radius
+        inside &= dz * (x - ax) - dx * (z - az) > 0.0
+    if len(edges) == 3:
+        outside &= ~inside
+    free[rows, columns] &= outside
+
+
+def _connected_to_first_row(free: Bools) -> Bools:
+    """The free samples that free neighbours, eight each, connect to the first row.
+
+    Neighbouring free samples of a row make a run; the runs of neighbouring rows that touch make a graph,
+    small enough to walk in Python.
+    """
+    if free.size == 0:
+        return free
+    begins = free.copy()
+    begins[:, 1:] &= ~free[:, :-1]
+    runs = np.where(free, np.cumsum(begins, dtype=np.int32).reshape(free.shape), 0)
+    neighbours: dict[int, list[int]] = defaultdict(list)
+    lower, upper = runs[:-1], runs[1:]
+    for low, high in ((lower, upper), (lower[:, :-1], upper[:, 1:]), (lower[:, 1:], upper[:, :-1])):
+        for one, other in _touching(low, high):
+            neighbours[one].append(other)
+            neighbours[other].append(one)
+    found = set(np.unique(runs[0]).tolist()) - {0}
+    front = list(found)
+    while front:
+        front = list({run for known in front for run in neighbours[known]} - found)
+        found.update(front)
+    is_found = np.zeros(int(runs.max()) + 1, dtype=bool)
+    is_found[list(found)] = True
+    return is_found[runs]
+
+
+def _touching(low: NDArray[np.int32], high: NDArray[np.int32]) -> list[tuple[int, int]]:
+    """The pairs of runs that stand above each other, each about once."""
+    pair = (low > 0) & (high > 0)
+    pair[:, 1:] &= (low[:, 1:] != low[:, :-1]) | (high[:, 1:] != high[:, :-1])
+    return list(zip(low[pair].tolist(), high[pair].tolist(), strict=True))

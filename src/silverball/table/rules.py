@@ -1,0 +1,129 @@
+"""By which rules does a recipe place its obstacles, and can they be met at all?
+
+An obstacle counts as its bounding circle. It must leave `gap` to every other obstacle, and `wall_gap` to
+the surface of every wall and to the circle that holds a turning paddle. Since both are wider than a ball,
+a ball never touches an obstacle and something else at once, so no obstacle makes a pocket; and since
+every edge of a prism stays 10° off both axes, none is level. All lengths [u], points (x, z).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from silverball.errors import Problem
+from silverball.table.geometry import Floats, Shapes, Standing, border_gaps, distances, outline
+from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall
+from silverball.table.reach import PASSAGE
+
+EDGE_ANGLE = 10  # [deg] that every edge of a placed prism keeps off both axes
+_TRIALS = 48  # points along each side of the area, to see whether anything fits
+
+# Angles are drawn in tenths of a degree, as whole numbers: exact, and readable in the file.
+_TENTHS = 10
+
+
+class Surroundings(NamedTuple):
+    """What stands on the board before anything is placed.
+
+    Attributes:
+        board: The board, for its borders.
+        walls: The slant walls.
+        paddle_circles: A circle around everything that each paddle can reach: x, z, radius, [paddle, 3].
+        obstacle_circles: The bounding circles of obstacles that stand already: x, z, radius, [obstacle, 3].
+    """
+
+    board: Board
+    walls: Shapes
+    paddle_circles: Floats
+    obstacle_circles: Floats
+
+    @classmethod
+    def of(
+        cls,
+        board: Board,
+        parts: Sequence[Standing],
+        paddles: Sequence[Paddle],
+    ) -> Surroundings:
+        """The surroundings that some parts and paddles make."""
+        walls = Shapes.of([outline(part) for part in parts if isinstance(part, SlantWall)])
+        others = Shapes.of([outline(part) for part in parts if not isinstance(part, SlantWall)])
+        center, radius = others.bounds()
+        circles = np.concatenate([center, radius[:, None]], axis=1)
+        turning = [(*paddle.pivot, paddle.reach) for paddle in paddles]
+        return cls(board, walls, np.array(turning, dtype=np.float64).reshape(-1, 3), circles)
+
+    def wall_distances(self, points: Floats) -> Floats:
+        """From points [..., 2] to the nearest surface of a wall or circle of a paddle, shape [...]."""
+        nearest = border_gaps(points, self.board).min(axis=-1)
+        nearest = np.minimum(nearest, points[..., 0] - self.board.gutter)
+        if len(self.walls.radius):
+            to_walls = distances(points[..., None, :], self.walls.core) - self.walls.radius
+            nearest = np.minimum(nearest, to_walls.min(axis=-1))
+        return np.asarray(np.minimum(nearest, circle_distances(points, self.paddle_circles)))
+
+
+def circle_distances(points: Floats, circles: Floats) -> Floats:
+    """From points [..., 2] to the nearest of some circles [circle, 3], shape [...]; infinite without any."""
+    away = points[..., None, :] - circles[:, :2]
+    nearest: Floats = (np.sqrt((away**2).sum(axis=-1)) - circles[:, 2]).min(axis=-1, initial=math.inf)
+    return nearest
+
+
+def allowed_rotations(recipe: RandomRecipe) -> list[float]:
+    """The angles [deg], in tenths, by which an equilateral prism may be turned.
+
+    Its edges run at 30° plus its rotation, modulo 60°, and so do the axes at 0° and 30°: an edge is as far
+    from an axis as the rotation is from a multiple of 30°.
+    """
+    low, high = (bound * _TENTHS for bound in recipe.rotation)
+    least, period = EDGE_ANGLE * _TENTHS, 30 * _TENTHS
+    tenths = range(math.ceil(low - 1e-9), math.floor(high + 1e-9) + 1)
+    return [tenth / _TENTHS for tenth in tenths if least <= tenth % period <= period - least]
+
+
+def recipe_problems(
+    board: Board,
+    parts: Sequence[Standing],
+    paddles: Sequence[Paddle],
+    recipe: RandomRecipe,
+) -> list[Problem]:
+    """The rules of a recipe that no layout can meet."""
+    problems = []
+    least = (2.0 + PASSAGE) * board.ball_radius
+    for key in ("gap", "wall_gap"):
+        given = getattr(recipe, key)
+        if given < least:
+            message = (
+                f"must let a ball of {2.0 * board.ball_radius:g} u pass: {least:.2f} u or more, got {given:g}"
+            )
+            problems.append(Problem(f"random.{key}", message))
+    if recipe.triangular_prisms and not allowed_rotations(recipe):
+        low, high = recipe.rotation
+        message = (
+            f"leaves no angle at which every edge of a prism is {EDGE_ANGLE} deg off both axes, "
+            f"got [{low:g}, {high:g}]: 10 to 20, 40 to 50 and 70 to 80 deg are such angles"
+        )
+        problems.append(Problem("random.rotation", message))
+    (low_x, low_z), (high_x, high_z) = recipe.area
+    edge_x, edge_z = 0.5 * board.length, 0.5 * board.width
+    if low_x > edge_x or high_x < board.gutter or low_z > edge_z or high_z < -edge_z:
+        return [*problems, Problem("random.area", "must lie on the board and above the gutter")]
+    sizes = [recipe.prism_size[0]] * (recipe.triangular_prisms > 0)
+    sizes += [recipe.cylinder_radius[0]] * (recipe.cylinders > 0)
+    if not sizes:
+        return problems
+    around = Surroundings.of(board, parts, paddles)
+    x, z = np.linspace(low_x, high_x, _TRIALS), np.linspace(low_z, high_z, _TRIALS)
+    points = np.stack(np.meshgrid(x, z, indexing="ij"), axis=-1)
+    widest = float(around.wall_distances(points).max())
+    if widest < max(sizes) + recipe.wall_gap:
+        message = (
+            f"leaves no place in the area for an obstacle of {max(sizes):g} u: its centre is at most "
+            f"{widest:.2f} u from the nearest wall or paddle, and needs {max(sizes) + recipe.wall_gap:g} u"
+        )
+        problems.append(Problem("random.wall_gap", message))
+    return problems

@@ -1,0 +1,159 @@
+"""Every command through the real entry point: what it prints, what it writes, and how a mistake ends."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+
+import pytest
+
+import silverball as sb
+from silverball.cli.app import app
+
+COMMANDS = [command.callback.__name__ for command in app.registered_commands if command.callback]
+
+
+def assert_friendly_refusal(result, *words):
+    """One clear message on standard error, exit code 2, no traceback."""
+    assert result.returncode == 2, result.stderr
+    assert "Traceback" not in result.stderr
+    for word in words:
+        assert word in result.stderr, result.stderr
+
+
+def test_version_is_that_of_the_package(silverball):
+    assert silverball("--version").stdout.strip() == f"silverball {sb.__version__}"
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help_with_an_example_of_itself(silverball, command):
+    result = silverball(command, "--help")
+    assert result.returncode == 0
+    assert f"silverball {command}" in result.stdout.split("Example", 1)[1]
+
+
+def test_the_help_page_names_every_command(silverball):
+    page = silverball("--help").stdout
+    assert all(command in page for command in COMMANDS)
+
+
+def test_tables_lists_the_built_in_tables(silverball):
+    listed = silverball("tables").stdout
+    assert "classic" in listed
+    assert "random" in listed
+
+
+def test_simulate_prints_everything_that_happened_and_nothing_went_wrong(silverball):
+    result = silverball(
+        *"simulate --table random --seed 7 --seconds 30 --player reflex --balls 2 --json".split()
+    )
+    report = json.loads(result.stdout)
+    assert report["seconds"] == 30
+    assert report["balls_created"] - report["balls_drained"] in (1, 2)
+    assert set(report["hits"]) >= {"board.left", "paddle.right", "triangular_prism[3]", "cylinder[2]"}
+    assert report["score"] == sum(
+        count * (50 if "prism" in part else 100 if "cylinder" in part else 0)
+        for part, count in report["hits"].items()
+    )
+    assert report["faults"] == 0
+    assert 0 <= report["deepest_penetration"] <= 1e-9
+    assert report["simulated_seconds_per_second"] > 1
+
+
+def test_simulate_gives_the_same_digest_in_a_new_process_and_with_many_worlds_side_by_side(silverball):
+    arguments = "simulate --table random --seed 3 --seconds 10 --player random --json".split()
+    digests = {json.loads(silverball(*arguments).stdout)["digest"] for _ in range(2)}
+    assert len(digests) == 1
+    other = json.loads(silverball(*arguments, "--seed", "4").stdout)
+    assert other["digest"] not in digests
+
+
+def test_generate_writes_the_same_board_for_the_same_seed_and_check_accepts_it(silverball, tmp_path):
+    first, second = tmp_path / "a.toml", tmp_path / "b.toml"
+    for path in (first, second):
+        assert silverball("generate", "--seed", "7", "--out", str(path)).returncode == 0
+    assert first.read_bytes() == second.read_bytes()
+    assert silverball("generate", "--seed", "7").stdout == first.read_text()
+    table = tomllib.loads(first.read_text())
+    assert (len(table["triangular_prism"]), len(table["cylinder"])) == (4, 3)
+    assert silverball("check", str(first)).returncode == 0
+
+
+def test_generate_does_not_overwrite_a_file_unless_told_to(silverball, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("precious")
+    assert_friendly_refusal(silverball("generate", "--out", str(path)), "exists", "--force")
+    assert path.read_text() == "precious"
+    assert silverball("generate", "--out", str(path), "--force").returncode == 0
+
+
+def test_generate_into_a_folder_that_does_not_exist_says_so(silverball, tmp_path):
+    path = tmp_path / "nowhere" / "mine.toml"
+    assert_friendly_refusal(silverball("generate", "--out", str(path)), str(path))
+
+
+def test_check_reports_all_eight_mistakes_of_a_file_at_once(silverball, tmp_path):
+    path = tmp_path / "eight.toml"
+    path.write_text(
+        """
+format = 1
+[board]
+gravity = -3.0
+balls = 2
+[[slant_wall]]
+start = [-4.5, -5.0]
+end = [-6.88, "far"]
+[[paddle]]
+side = "up"
+pivot = [-7.2, -2.5]
+length = 2.1
+base = 0.5
+[[triangular_prism]]
+vertices = [[2.0, -1.0], [3.2, -1.4]]
+[[cylinder]]
+center = [5.0, 1.5]
+radius = true
+[[cylinder]]
+center = [5.0, 40.0]
+radius = 0.6
+restitution = 7
+[[bumper]]
+center = [1.0, 1.0]
+"""
+    )
+    result = silverball("check", str(path))
+    assert_friendly_refusal(
+        result,
+        "board.gravity",
+        "board.balls",
+        "slant_wall[0].end",
+        "paddle[0].side",
+        "triangular_prism[0].vertices",
+        "cylinder[0].radius",
+        "cylinder[1].restitution",
+        "bumper",
+    )
+    assert result.stderr.count("\n  ") >= 8
+
+
+def test_an_unknown_table_is_refused_with_the_nearest_name(silverball):
+    assert_friendly_refusal(silverball("simulate", "--table", "clasic"), "classic")
+
+
+def test_an_unknown_player_is_refused_with_the_nearest_name(silverball):
+    assert_friendly_refusal(silverball("simulate", "--player", "reflexes"), "reflex")
+
+
+def test_a_file_of_100_megabytes_is_refused_at_once(silverball, tmp_path):
+    path = tmp_path / "huge.toml"
+    with path.open("wb") as file:
+        file.truncate(100_000_000)
+    assert_friendly_refusal(silverball("check", str(path)), str(path))
+
+
+def test_bench_prints_a_median_and_what_it_was_measured_on(silverball):
+    result = silverball(*"bench --worlds 64 --frames 30 --rounds 3 --json".split())
+    report = json.loads(result.stdout)
+    assert 0 < report["slowest"] <= report["frames_per_second"] <= report["fastest"]
+    assert report["machine"]
+    assert report["numba"]
