@@ -16,10 +16,11 @@ errors = Console(stderr=True)
 @contextmanager
 def compiling() -> Iterator[None]:
     """A moving line while the physics is compiled: on the first start only, later ones load it from disk."""
-    from silverball.physics.kernel import is_compiled
+    from silverball.physics.kernel import forget_old_code, is_compiled
 
     if is_compiled():
         yield
         return
+    forget_old_code()
     with errors.status("Compiling the physics, once on this machine (about ten seconds) …"):
         yield

@@ -17,6 +17,8 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
+import time
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -24,6 +26,9 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+
+SETTINGS: Any = numba.core.config
+KEEP_SECONDS = 30 * 24 * 3600.0
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -43,7 +48,7 @@ def cache_folder() -> Path | None:
     """The folder for compiled code of exactly these sources; None where no folder can be written."""
     import platformdirs
 
-    digest = hashlib.sha256(b"checked" if numba.core.config.BOUNDSCHECK else b"")
+    digest = hashlib.sha256(b"checked" if SETTINGS.BOUNDSCHECK else b"")
     package = Path(__file__).resolve().parent.parent
     for source in sorted(package.rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode())
@@ -52,6 +57,7 @@ def cache_folder() -> Path | None:
     folder = Path(base) / "compiled" / digest.hexdigest()[:16]
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        folder.touch()
     except OSError:
         return None
     return folder if os.access(folder, os.W_OK) else None
@@ -63,22 +69,31 @@ def is_compiled() -> bool:
     return folder is not None and any(folder.rglob("run_worlds*.nbc"))
 
 
+def forget_old_code() -> None:
+    """Remove the machine code of sources that nobody has run for a month."""
+    folder = cache_folder()
+    if folder is None:
+        return
+    for other in folder.parent.iterdir():
+        if other != folder and time.time() - other.stat().st_mtime > KEEP_SECONDS:
+            shutil.rmtree(other, ignore_errors=True)
+
+
 def _compile(function: F, *, forceinline: bool) -> F:
     folder = cache_folder()
-    before = numba.core.config.CACHE_DIR
+    options: dict[str, Any] = {
+        "cache": folder is not None,
+        "error_model": "numpy",
+        "fastmath": False,
+        "nogil": True,
+        "forceinline": forceinline,
+        "_nrt": False,
+    }
+    before = SETTINGS.CACHE_DIR
     try:
         # Numba picks the place of the cache when the decorator runs, from this one setting.
         if folder is not None:
-            numba.core.config.CACHE_DIR = str(folder)
-        compiled = numba.njit(
-            function,
-            cache=folder is not None,
-            error_model="numpy",
-            fastmath=False,
-            nogil=True,
-            forceinline=forceinline,
-            _nrt=False,
-        )
+            SETTINGS.CACHE_DIR = str(folder)
+        return cast(F, numba.njit(**options)(function))
     finally:
-        numba.core.config.CACHE_DIR = before
-    return cast(F, compiled)
+        SETTINGS.CACHE_DIR = before

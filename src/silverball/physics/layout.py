@@ -14,10 +14,10 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any, NamedTuple
 
-import numba
-import numba.core.config
 import numpy as np
 from numpy.typing import NDArray
+
+from silverball.physics.kernel import SETTINGS
 
 BALL_COUNT = 2
 """Balls in a world record; a table may allow one or two (`max_balls`)."""
@@ -181,7 +181,7 @@ LOG = np.dtype([("count", "i8"), ("lost", "i8"), ("event", EVENT, (LOG_SIZE,))],
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
     """An array of zeroed records. Without the JIT, `record.field` takes one of NumPy's record arrays."""
     array = np.zeros(count, dtype)
-    return array.view(np.recarray) if numba.core.config.DISABLE_JIT else array
+    return array.view(np.recarray) if SETTINGS.DISABLE_JIT else array
 
 
 class Ball(NamedTuple):

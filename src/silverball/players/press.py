@@ -17,8 +17,8 @@ from silverball.world import World
 
 RANDOM_KEY = 0x5EED  # sets the random player's numbers apart from the world's own
 RANDOM_HOLD = 0.15  # [s] for which the random player keeps a button as it is
-# The three numbers of the reflex player are the best of 40 random choices, by score a minute on both built-in tables:
-# balls last 40 s on average. Struck later they last longer, because the paddles stay up and the ball lies still.
+# The three numbers of the reflex player are the best of 40 random choices, by score a minute on both built-in
+# tables: balls last 40 s on average. Without looking ahead they last longer, but lie on paddles held up.
 NEAR_SHARE = 0.45  # of the paddle's length: nearer to the pivot the reflex player lets the ball roll on
 LOOK_AHEAD = 0.02  # [s] where the ball will be when the paddle gets going
 STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes

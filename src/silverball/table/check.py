@@ -45,6 +45,7 @@ from silverball.table.traps import level_faces, pockets
 
 FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may reach over an edge of the board
+LEAST_OPEN = 0.5  # share of the board that must lead to the gutter; corners and huts may be closed off
 TANGLE = 100  # overlaps that are spelt out; with more of them, nobody asks for traps yet
 
 # A touch leaves a ball with a hop of at most √(2·A·HOP), A the acceleration at the contact; on a turning
@@ -299,8 +300,12 @@ def _middle(first: Floats, second: Floats) -> tuple[float, float]:
 def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
     """What the paddles touch while they turn."""
     problems = []
-    for index, (path, paddle) in enumerate(layout.paddles):
-        for other_path, other in layout.paddles[index + 1 :]:
+    one_a_side = {paddle.side: (path, paddle) for path, paddle in reversed(layout.paddles)}
+    paddles = sorted(
+        one_a_side.values(), key=lambda item: item[0]
+    )  # a second one on a side is refused anyway
+    for index, (path, paddle) in enumerate(paddles):
+        for other_path, other in paddles[index + 1 :]:
             angles = touches_paddle(paddle, other)
             if angles is not None:
                 at = f"at {angles[0]:.0f} and {angles[1]:.0f} deg"
@@ -322,16 +327,21 @@ def _touch(path: str, angle: float, other: str) -> Problem:
 
 
 def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
-    """Whether a ball can be created, and whether it can leave."""
+    """Whether a ball can be created, and whether it can leave from most of the board."""
     board = layout.board
-    if len(ball_space.places()[0]):
-        return []
     above = ball_space.free[ball_space.grid.floor_row :]
+    leads_out = ball_space.reached[ball_space.grid.floor_row :]
+    if above.any() and leads_out.sum() >= LEAST_OPEN * above.sum():
+        return []
     if not above.any():
         floor = creation_floor(board, paddles)
         return [Problem("board", f"has no room for a ball above x = {floor:.2f} u: take parts away")]
     ball = 2.0 * board.ball_radius
-    message = f"has no way to the gutter: open a gap of more than {ball:g} u between or beside the paddles"
+    shut = 1.0 - float(leads_out.sum() / above.sum())
+    message = (
+        f"has no way to the gutter from {shut:.0%} of the places above the paddles: "
+        f"open a gap of more than {ball:g} u"
+    )
     return [Problem("board", message)]
 
 

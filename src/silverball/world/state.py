@@ -39,7 +39,7 @@ assert _field_bytes(WORLD) == WORLD.itemsize, "a world record has padding: hash 
 def pack(record: Any, table: str, tick_rate: int) -> bytes:
     """A world's record with its header and checksum."""
     header = HEADER.pack(MAGIC, FORMAT, PHYSICS_VERSION, tick_rate, bytes.fromhex(table))
-    body = header + record.tobytes()
+    body: bytes = header + record.tobytes()
     return body + hashlib.sha256(body).digest()[:CHECKSUM]
 
 

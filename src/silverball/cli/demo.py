@@ -1,0 +1,107 @@
+"""`silverball demo`: the program plays by itself, into a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from silverball.drawing.film import Picture
+    from silverball.table import Table
+
+TICK_RATE = 240
+SECOND_BALL_AFTER = 3.0  # [s]
+HEIGHTS = {".gif": 640, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
+WRITING = 0.35  # of the progress bar: a GIF is packed when its last picture is drawn
+
+
+def demo(
+    out: Path | None = typer.Option(
+        None, metavar="FILE", help="Ends in .gif, .mp4 or .png; demo.gif in this folder if not given."
+    ),
+    seconds: float = typer.Option(20.0, min=0.1, max=600.0, help="Of play. A PNG shows the last moment."),
+    table: str = typer.Option("classic", help="A built-in table or a table file."),
+    seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
+    size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
+    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
+) -> None:
+    """Let the program play by itself and make a film of it; no display is needed.
+
+    Example: [bold]silverball demo --out demo.gif --seconds 20[/bold]
+    """
+    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, force=force)
+
+
+def make_demo(
+    out: Path,
+    seconds: float = 20.0,
+    table: str = "classic",
+    seed: int = 7,
+    size: int | None = None,
+    *,
+    force: bool = False,
+) -> None:
+    """Make a film, or a picture, of the program playing; say where it is."""
+    from rich.progress import Progress
+
+    from silverball.cli.console import compiling, errors
+    from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
+    from silverball.table import generate_table, load_table
+
+    check_output(out, (".gif", ".mp4", ".png"), force=force)
+    ending = out.suffix.lower()
+    board = load_table(table)
+    if board.random is not None:
+        board = generate_table(seed, board)
+    with compiling():
+        from silverball.players import make_player
+
+        make_player("reflex")
+    height = size or HEIGHTS[ending]
+    with Progress(console=errors, transient=True) as bar:
+        task = bar.add_task(f"playing into {out.name}", total=seconds)
+
+        def advance(done: float) -> None:
+            bar.update(task, completed=done)
+
+        if ending == ".png":
+            pictures = film(board, seed, seconds, 1.0 / seconds, height, advance)
+            write_picture(out, list(pictures)[-1])
+        else:
+            write_film(out, film(board, seed, seconds, FILM_RATES[ending], height, advance))
+    typer.echo(f"wrote {out}")
+
+
+def film(
+    table: Table, seed: int, seconds: float, rate: float, height: int, advance: Callable[[float], None]
+) -> Iterator[Picture]:
+    """The pictures of the program playing, `rate` for every second of play."""
+    from silverball.drawing import Moment, Renderer, best_size
+    from silverball.players import make_player
+    from silverball.world import World
+
+    world = World(table, seed, TICK_RATE)
+    renderer = Renderer(table, best_size(table.board, height))
+    player = make_player("reflex")
+    for number in range(1, max(round(seconds * rate), 1) + 1):
+        while world.tick < round(number * TICK_RATE / rate):
+            wanted = 2 if world.time > SECOND_BALL_AFTER else 1
+            if len(world.balls) < min(wanted, table.board.max_balls):
+                world.create_ball()
+            world.step(*player.press(world))
+            renderer.note(world.events, TICK_RATE)
+        yield renderer.array(Moment.of(world))
+        advance(number / rate)
+
+
+def free_name(name: str) -> Path:
+    """A name in this folder that no file has: demo.gif, or else demo-2.gif, demo-3.gif, …"""
+    path = Path(name)
+    number = 1
+    while path.exists():
+        number += 1
+        path = Path(name).with_stem(f"{Path(name).stem}-{number}")
+    return path

@@ -1,0 +1,52 @@
+"""`silverball play`: the window. And what bare `silverball` does."""
+
+from __future__ import annotations
+
+import typer
+
+from silverball.errors import NoDisplay
+
+DEMO_SECONDS = 20.0
+
+
+def play(
+    table: str = typer.Option(
+        "random", help="A built-in table or a table file; random makes boards of its own."
+    ),
+    seed: int | None = typer.Option(
+        None, min=0, max=2**63 - 1, help="Of the first board; drawn if not given."
+    ),
+) -> None:
+    """Play in a window: A and D move the paddles, Space brings a ball, F1 shows all keys.
+
+    Example: [bold]silverball play --table random --seed 7[/bold]
+    """
+    open_window(table, seed)
+
+
+def open_window(table: str = "random", seed: int | None = None) -> None:
+    """Open the window and play, telling the terminal while the physics is being compiled."""
+    from silverball.app.window import Window
+    from silverball.cli.console import errors
+
+    status = errors.status("compiling the physics for this machine, once; this takes some seconds …")
+    window = Window(table, seed, on_compile=status.start, on_ready=status.stop)
+    try:
+        window.run()
+    finally:
+        status.stop()
+
+
+def play_or_demo() -> None:
+    """Play where there is a display; where there is none, say so and make a demo file instead."""
+    try:
+        open_window()
+    except NoDisplay:
+        from silverball.cli.demo import free_name, make_demo
+
+        typer.echo(
+            f"There is no display to open a window on; making a film of {DEMO_SECONDS:.0f} seconds of play instead "
+            "(`silverball demo --help` tells more).",
+            err=True,
+        )
+        make_demo(free_name("demo.gif"), DEMO_SECONDS)

@@ -1,0 +1,31 @@
+"""`silverball show`: a picture of a table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import typer
+
+
+def show(
+    out: Path = typer.Option(..., metavar="FILE.png", help="Where to write the picture."),
+    table: str = typer.Option("classic", help="A built-in table or a table file."),
+    seed: int = typer.Option(0, min=0, max=2**63 - 1, help="Of the board, if the table makes random ones."),
+    size: int = typer.Option(1152, min=100, max=8640, help="Height of the picture in pixels."),
+    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
+) -> None:
+    """Draw a table into a picture.
+
+    Example: [bold]silverball show --table random --seed 7 --out seven.png[/bold]
+    """
+    from silverball.drawing import Moment, Renderer, best_size
+    from silverball.drawing.film import check_output, write_picture
+    from silverball.table import generate_table, load_table
+
+    check_output(out, (".png",), force=force)
+    board = load_table(table)
+    if board.random is not None:
+        board = generate_table(seed, board)
+    picture = Renderer(board, best_size(board.board, size)).array(Moment.before(board, seed))
+    write_picture(out, picture)
+    typer.echo(f"wrote {out}")
