@@ -47,3 +47,10 @@ def test_every_file_and_folder_that_architecture_names_exists():
     missing = [name for name in named if not (package / name).exists() and Path(name).name not in everything]
     assert len(named) > 10
     assert missing == []
+
+
+def test_the_reference_of_the_table_file_is_what_the_models_say():
+    script = ROOT / "docs" / "make_reference.py"
+    names: dict = {"__name__": "reference", "__file__": str(script)}
+    exec(compile(script.read_text(), script.name, "exec"), names)
+    assert names["PAGE"].read_text() == names["page"](), "run: python docs/make_reference.py"

@@ -104,6 +104,13 @@ class Board(_Model):
     wall_restitution: _Restitution = 0.8
     """Restitution of the borders."""
 
+    @field_validator("rolling", "friction")
+    @classmethod
+    def _slides(cls, value: float) -> float:
+        if value:
+            refuse("is not simulated yet: balls slide without friction in this version; leave it out")
+        return value
+
     @property
     def center(self) -> Point:
         """The centre of the board (x, z) [u]: the origin, by definition."""

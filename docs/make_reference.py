@@ -1,0 +1,88 @@
+"""Write docs/tables.md, the reference of the table file, from the models in `silverball.table.parts`.
+
+    python docs/make_reference.py
+
+A test fails when the page is not what this script would write.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from silverball.table import Board, Cylinder, Paddle, RandomRecipe, SlantWall, Table, TriangularPrism
+
+PAGE = Path(__file__).parent / "tables.md"
+HEAD = """\
+# The table file
+
+A table is a TOML file: data only, never code. `silverball check FILE` reports every problem at once, with its place;
+`silverball show --table FILE --out table.png` draws it; `silverball play --table FILE` plays it.
+
+Axes: x runs up the table from the gutter to the top, z to the player's right, the origin is the centre of the board.
+Points are written `[x, z]`. Angles are counter-clockwise as the player sees the board, from +z (right) towards
++x (up). Lengths are table units [u], times seconds; a real table of 1.07 m is 20 u long.
+
+The smallest table is `format = 1` with two paddles. Every key below is optional unless its default is "–".
+
+This page is generated from `src/silverball/table/parts.py`.
+"""
+SECTIONS = (
+    ("[board]", Board, "once"),
+    ("[[slant_wall]]", SlantWall, "any number"),
+    ("[[paddle]]", Paddle, "at most one a side"),
+    ("[[triangular_prism]]", TriangularPrism, "any number"),
+    ("[[cylinder]]", Cylinder, "any number"),
+    ("[random]", RandomRecipe, "makes the table a recipe, with a board for every seed"),
+)
+
+
+def page() -> str:
+    """The whole page."""
+    elsewhere = ("board", "slant_wall", "paddle", "triangular_prism", "cylinder")
+    parts = [HEAD, _table("Top level", Table, "", skip=elsewhere)]
+    parts += [_table(f"`{title}`", model, note) for title, model, note in SECTIONS]
+    return "\n".join(parts)
+
+
+def _table(title: str, model: Any, note: str, skip: tuple[str, ...] = ()) -> str:
+    schema = model.model_json_schema()
+    text = " ".join((model.__doc__ or "").split("\n\n", 1)[0].split())
+    lines = [f"## {title}", "", f"{text} ({note[0].upper() + note[1:]}.)" if note else text, ""]
+    lines += ["| key | default | range | meaning |", "| --- | --- | --- | --- |"]
+    for key, field in schema["properties"].items():
+        if key not in skip:
+            default = _default(model.model_fields[key])
+            lines.append(f"| `{key}` | {default} | {_span(field)} | {_cell(field['description'])} |")
+    return "\n".join([*lines, ""])
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|")
+
+
+def _default(field: Any) -> str:
+    if field.is_required():
+        return "–"
+    value = field.default
+    if value is None or value == "":
+        return "none"
+    if hasattr(value, "model_dump"):
+        return ", ".join(f"{key} {number:g}" for key, number in value.model_dump().items())
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:g}" if isinstance(value, float) else str(value).replace("(", "[").replace(")", "]")
+
+
+def _span(field: dict[str, Any]) -> str:
+    for choice in (field, *field.get("anyOf", ())):
+        if "minimum" in choice and "maximum" in choice:
+            return f"{choice['minimum']:g} to {choice['maximum']:g} {choice.get('unit', '')}".rstrip()
+        if "enum" in choice:
+            return " or ".join(f'"{value}"' for value in choice["enum"])
+    return ""
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
+    print(f"wrote {PAGE}")
