@@ -16,12 +16,12 @@ PAGE = Path(__file__).parent / "tables.md"
 HEAD = """\
 # The table file
 
-A table is a TOML file: data only, never code. `silverball check FILE` reports every problem at once, with its place;
-`silverball show --table FILE --out table.png` draws it; `silverball play --table FILE` plays it.
+A table is a TOML file: data only, never code. `silverball check FILE` reports every problem at once, with its
+place; `silverball show --table FILE --out table.png` draws it; `silverball play --table FILE` plays it.
 
-Axes: x runs up the table from the gutter to the top, z to the player's right, the origin is the centre of the board.
-Points are written `[x, z]`. Angles are counter-clockwise as the player sees the board, from +z (right) towards
-+x (up). Lengths are table units [u], times seconds; a real table of 1.07 m is 20 u long.
+Axes: x runs up the table from the gutter to the top, z to the player's right, the origin is the centre of the
+board. Points are written `[x, z]`. Angles are counter-clockwise as the player sees the board, from +z (right)
+towards +x (up). Lengths are table units [u], times seconds; a real table of 1.07 m is 20 u long.
 
 The smallest table is `format = 1` with two paddles. Every key below is optional unless its default is "–".
 

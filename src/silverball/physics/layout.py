@@ -26,6 +26,10 @@ LOG_SIZE = 64
 """Events that the log of one world holds; later ones are counted as lost."""
 
 
+LOG_RESERVE = 8
+"""Of these, the slots that contacts leave free: a jam comes after many touches, and must not be lost among them."""
+
+
 class Part(IntEnum):
     """The first colliders of every board; the table's other parts follow from `FIRST_SHAPE` on."""
 

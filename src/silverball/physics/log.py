@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.physics.kernel import kernel
-from silverball.physics.layout import LOG_SIZE
+from silverball.physics.layout import LOG_RESERVE, LOG_SIZE, EventKind
 
 
 @kernel
@@ -23,7 +23,8 @@ def record(
     speed: float,
 ) -> None:
     """Append an event (see `layout.EVENT`) to a world's log, or count it as lost when the log is full."""
-    if log.count >= LOG_SIZE:
+    room = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
+    if log.count >= room:
         log.lost += 1
         return
     event = log.event[log.count]

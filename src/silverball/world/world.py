@@ -256,7 +256,7 @@ class World:
         gap, part = clearance(self._record, *self._static, x, z)
         if gap < FREE_GAP:
             raise NoRoom(
-                f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {-gap:.3g} u; "
+                f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {max(-gap, 0.0):.3g} u; "
                 "place it elsewhere"
             )
         if clearance_of_balls(self._record, self._board, x, z) < FREE_GAP:
