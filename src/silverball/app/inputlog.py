@@ -105,7 +105,9 @@ class InputLog:
             raise StateError(f"input log: this is no input log, or a damaged one ({error})") from None
         for line, change in enumerate(log.changes, 2):
             if change.kind not in KINDS:
-                raise StateError(f"input log, line {line}: expected one of {', '.join(KINDS)}, got {change.kind!r}")
+                raise StateError(
+                    f"input log, line {line}: expected one of {', '.join(KINDS)}, got {change.kind!r}"
+                )
         return log
 
 

@@ -14,7 +14,9 @@ def data_folder() -> Path:
     """The folder for what a player keeps; the environment variable SILVERBALL_DATA names another one."""
     import platformdirs
 
-    return Path(os.environ.get("SILVERBALL_DATA") or platformdirs.user_data_dir("silverball", appauthor=False))
+    return Path(
+        os.environ.get("SILVERBALL_DATA") or platformdirs.user_data_dir("silverball", appauthor=False)
+    )
 
 
 def keep(text: str, name: str, folder: Path | None = None) -> Path | None:

@@ -35,6 +35,7 @@ class Picture:
 
     def __init__(self, table: Table, window_size: tuple[int, int]) -> None:
         self.table = table
+        self._window_size = window_size
         self.area = fitted(table, window_size)
         self._painting: _Painting | None = None
         self.renderer = self._new_renderer()
@@ -51,25 +52,26 @@ class Picture:
 
     def fit(self, window_size: tuple[int, int]) -> None:
         """Follow the window's size."""
-        area = fitted(self.table, window_size)
-        if area.size == self.area.size:
-            self.area = area
+        if window_size == self._window_size:
             return
-        self.area = area
-        effects = self.renderer.effects
-        self.renderer = self._new_renderer()
-        self.renderer.effects = effects
+        self._window_size = window_size
+        before, self.area = self.area, fitted(self.table, window_size)
+        if self.area.size != before.size:
+            effects = self.renderer.effects
+            self.renderer = self._new_renderer()
+            self.renderer.effects = effects
 
     def note(self, events: Iterable[Event], tick_rate: int) -> None:
         """Tell what happened since the last picture."""
         self.renderer.note(events, tick_rate)
 
     def draw(self, moment: Moment, window: pygame.Surface) -> pygame.Surface:
-        """Draw a moment; returns the part of the window that the table fills."""
+        """Draw a moment into a window of any size; returns the part of it that the table fills."""
+        self.fit(window.get_size())
         self._sharpen()
         if window.get_size() != self.area.size:
             window.fill(ROOM)
-        target = window.subsurface(self.area.clip(window.get_rect()))
+        target = window.subsurface(self.area)
         self.renderer.draw(moment, target)
         return target
 

@@ -9,10 +9,12 @@ import os
 
 import pygame
 
+from silverball.drawing.sprites import ball_image
 from silverball.errors import NoDisplay
 
 DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take
 GREATEST_HEIGHT = 1200  # [pixel] of the window at first
+ICON_SIDE = 64  # [pixel]
 LEAST_SIZE = (170, 340)  # [pixel] below which nothing can be read
 FRAME_RATES = (60, 240)  # [1/s] the least and the greatest that is aimed at, whatever the screen says
 _NOT_A_SCREEN = ("dummy", "offscreen", "evdev")
@@ -56,14 +58,11 @@ class Screen:
         """Show the window at a size."""
         self._window = pygame.Window(self._title, size, resizable=True, allow_high_dpi=True)
         self._window.minimum_size = LEAST_SIZE
+        self._window.set_icon(ball_image(0.46 * ICON_SIDE, (0.5 * ICON_SIDE, 0.5 * ICON_SIDE), ICON_SIDE))
 
     def flip(self) -> None:
         """Show what has been drawn."""
         self._opened.flip()
-
-    def set_icon(self, icon: pygame.Surface) -> None:
-        """The small picture in title bars and task bars."""
-        self._opened.set_icon(icon)
 
     def toggle_full(self) -> None:
         """Fill the screen, or go back."""
@@ -72,6 +71,7 @@ class Screen:
             self._opened.set_fullscreen(desktop=True)
         else:
             self._opened.set_windowed()
+        pygame.mouse.set_visible(not self.is_full)
 
     def resize(self, size: tuple[int, int]) -> None:
         """Make the window another size."""

@@ -34,7 +34,9 @@ class Session:
         self._held = {"left": False, "right": False}
         self._shove = False
         self._events: list[Event] = []
-        self._resting: dict[int, tuple[float, float, int]] = {}  # ball → where it was last seen to move, and when
+        self._resting: dict[
+            int, tuple[float, float, int]
+        ] = {}  # ball → where it was last seen to move, and when
 
     def advance(self, held: Held, ticks: int) -> None:
         """Play on.

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 TICK_RATE = 240
 SECOND_BALL_AFTER = 3.0  # [s]
-HEIGHTS = {".gif": 640, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
-WRITING = 0.35  # of the progress bar: a GIF is packed when its last picture is drawn
+HEIGHTS = {".gif": 720, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
+GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in memory, a byte or two for each
 
 
 def demo(
@@ -48,7 +48,9 @@ def make_demo(
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
+    from silverball.drawing import best_size
     from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
+    from silverball.errors import OutputError
     from silverball.table import generate_table, load_table
 
     check_output(out, (".gif", ".mp4", ".png"), force=force)
@@ -56,11 +58,17 @@ def make_demo(
     board = load_table(table)
     if board.random is not None:
         board = generate_table(seed, board)
+    height = size or HEIGHTS[ending]
+    width, _ = best_size(board.board, height)
+    if ending == ".gif" and width * height * seconds * FILM_RATES[ending] > GIF_LIMIT:
+        raise OutputError(
+            f"{out}: a GIF of {seconds:g} s at {width} × {height} pixels is too large to make; "
+            "ask for fewer --seconds, a smaller --size, or an .mp4"
+        )
     with compiling():
         from silverball.players import make_player
 
         make_player("reflex")
-    height = size or HEIGHTS[ending]
     with Progress(console=errors, transient=True) as bar:
         task = bar.add_task(f"playing into {out.name}", total=seconds)
 

@@ -78,7 +78,11 @@ def cylinder_flash(camera: Camera, cylinder: Cylinder, color: Color) -> tuple[Pa
     patch = cylinder_patch(camera, cylinder)
     distance = fields.circle(patch.x, patch.z, (x, z), radius)
     halo = fields.glow(np.abs(distance - np.float32(HALO)), 0.24)[..., None] * tone(color)
-    core = 0.65 * fields.glow(distance + np.float32(0.35 * radius), 0.3 * radius)[..., None] * tone(palette.LIGHT)
+    core = (
+        0.65
+        * fields.glow(distance + np.float32(0.35 * radius), 0.3 * radius)[..., None]
+        * tone(palette.LIGHT)
+    )
     return patch, _faded(patch, 0.9 * halo + core)
 
 
@@ -109,7 +113,11 @@ def _steel(
     paint(region, steel.astype(np.float32), mask)
     inner = fields.ring(distance + np.float32(0.2 * radius), 0.06 * radius, patch.pixel)
     shade(region, -0.65 * inner, mask)
-    shade(region, -0.45 * fields.ring(distance + np.float32(0.6 * patch.pixel), 0.5 * patch.pixel, patch.pixel), mask)
+    shade(
+        region,
+        -0.45 * fields.ring(distance + np.float32(0.6 * patch.pixel), 0.5 * patch.pixel, patch.pixel),
+        mask,
+    )
 
 
 def _cap(

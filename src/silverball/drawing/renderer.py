@@ -1,6 +1,6 @@
 """How does a moment of play become a picture? The still table, and on it everything that moves.
 
-    lights of hits → shadows of balls → trails → balls → apron → paddles → score
+lights of hits → shadows of balls → trails → balls → apron → paddles → score
 """
 
 from __future__ import annotations

@@ -88,26 +88,13 @@ class BallSprites:
         """A spot of light where a ball was; age 0 (now) to 1 (gone)."""
         image = self.trail[min(int(age * 8), 7)]
         across, down = self._camera.to_pixel(x, z)
-        return Sprite(image, (round(across - 0.5 * image.get_width()), round(down - 0.5 * image.get_height())))
+        return Sprite(
+            image, (round(across - 0.5 * image.get_width()), round(down - 0.5 * image.get_height()))
+        )
 
     def _paint_ball(self, shift_right: int, shift_down: int) -> pygame.Surface:
-        radius = self.radius
         center = self._reach + (shift_right + 0.5) / SHIFTS, self._reach + (shift_down + 0.5) / SHIFTS
-        right, down = _grid(2 * self._reach + 1)
-        distance = fields.circle(down, right, (center[1], center[0]), radius)
-        u, v = (right - center[0]) / radius, (down - center[1]) / radius
-        # A mirror ball under a lamp: bright towards the upper left, a dark horizon, light from the floor below it.
-        tall = np.sqrt(np.clip(1.0 - u * u - v * v, 0.0, 1.0))
-        lit = np.clip(0.55 * tall - 0.42 * u - 0.62 * v + 0.28, 0.0, 1.0)[..., None]
-        colors = tone(palette.BALL_DARK) + lit * (tone(palette.BALL_MIDDLE) - tone(palette.BALL_DARK))
-        canvas = np.array(colors, np.float32)
-        glint = np.exp(-((u + 0.34) ** 2 + (v + 0.4) ** 2) / 0.1)
-        paint(canvas, palette.BALL_LIGHT, np.clip(1.25 * glint, 0.0, 1.0).astype(np.float32))
-        below = np.exp(-(((u - 0.28) / 0.5) ** 2 + ((v - 0.6) / 0.2) ** 2))
-        paint(canvas, palette.BALL_MIDDLE, (0.75 * below).astype(np.float32))
-        rim = np.clip((np.hypot(u, v) - 0.8) / 0.2, 0.0, 1.0) ** 2
-        shade(canvas, (-0.5 * rim).astype(np.float32), np.ones_like(distance))
-        return _surface(canvas, fields.cover(distance, 1.0))
+        return ball_image(self.radius, center, 2 * self._reach + 1)
 
     def _paint_shadow(self) -> pygame.Surface:
         reach = self._shadow_reach
@@ -115,7 +102,9 @@ class BallSprites:
         soft = SHADOW_SOFTNESS * self._camera.scale
         distance = fields.circle(down, right, (reach + 0.5, reach + 0.5), self.radius)
         mask = np.clip(0.5 - distance / (2.0 * soft), 0.0, 1.0)
-        return _surface(_plain(palette.SHADOW, mask), (0.62 * mask * mask * (3.0 - 2.0 * mask)).astype(np.float32))
+        return _surface(
+            _plain(palette.SHADOW, mask), (0.62 * mask * mask * (3.0 - 2.0 * mask)).astype(np.float32)
+        )
 
     def _paint_trail(self, age: float) -> pygame.Surface:
         radius = self.radius * (0.85 - 0.45 * age)
@@ -124,6 +113,25 @@ class BallSprites:
         away = fields.circle(down, right, (middle, middle), 0.0)
         mask = np.clip(1.0 - (away / radius) ** 2, 0.0, 1.0) * 0.16 * (1.0 - age)
         return light_surface(mask[..., None] * tone(palette.TRAIL))
+
+
+def ball_image(radius: float, center: tuple[float, float], side: int) -> pygame.Surface:
+    """A silver ball in a square image; radius, centre (across, down) and side in pixels."""
+    right, down = _grid(side)
+    distance = fields.circle(down, right, (center[1], center[0]), radius)
+    u, v = (right - center[0]) / radius, (down - center[1]) / radius
+    # A mirror ball under a lamp: bright towards the upper left, dark at its rim, light from the floor below it.
+    tall = np.sqrt(np.clip(1.0 - u * u - v * v, 0.0, 1.0))
+    lit = np.clip(0.55 * tall - 0.42 * u - 0.62 * v + 0.28, 0.0, 1.0)[..., None]
+    colors = tone(palette.BALL_DARK) + lit * (tone(palette.BALL_MIDDLE) - tone(palette.BALL_DARK))
+    canvas = np.array(colors, np.float32)
+    glint = np.exp(-((u + 0.34) ** 2 + (v + 0.4) ** 2) / 0.1)
+    paint(canvas, palette.BALL_LIGHT, np.clip(1.25 * glint, 0.0, 1.0).astype(np.float32))
+    below = np.exp(-(((u - 0.28) / 0.5) ** 2 + ((v - 0.6) / 0.2) ** 2))
+    paint(canvas, palette.BALL_MIDDLE, (0.75 * below).astype(np.float32))
+    rim = np.clip((np.hypot(u, v) - 0.8) / 0.2, 0.0, 1.0) ** 2
+    shade(canvas, (-0.5 * rim).astype(np.float32), np.ones_like(distance))
+    return _surface(canvas, fields.cover(distance, 1.0))
 
 
 class Flash:

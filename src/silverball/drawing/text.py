@@ -12,6 +12,9 @@ import pygame
 
 from silverball.drawing.palette import Color
 
+SMALL = 30  # [pixel] sizes below it are drawn larger and shrunk
+ENLARGED = 4
+
 
 @lru_cache(maxsize=64)
 def font(size: int, bold: bool = False) -> pygame.font.Font:
@@ -26,7 +29,11 @@ def font(size: int, bold: bool = False) -> pygame.font.Font:
 @lru_cache(maxsize=1024)
 def line(text: str, size: int, color: Color) -> pygame.Surface:
     """One line of text. The surface is shared: blit it, do not change it."""
-    return font(size).render(text, True, color)
+    if size >= SMALL:
+        return font(size).render(text, True, color)
+    # The font's hints push small letters onto whole pixels, unevenly; drawn larger and shrunk, they stand evenly.
+    large = font(ENLARGED * size).render(text, True, color)
+    return pygame.transform.smoothscale_by(large, 1.0 / ENLARGED)
 
 
 def number(value: int, size: int, color: Color) -> list[pygame.Surface]:

@@ -93,7 +93,9 @@ def paint_rails(canvas: NDArray[np.float32], camera: Camera) -> None:
     shade(region, (0.55 * bevel * out_of).astype(np.float32), frame)
     shade(region, (0.14 * (1.0 - np.abs(2.0 * across - 1.0))).astype(np.float32), frame)
     shade(
-        region, (0.5 * np.sign(out_of) * fields.ring(inner - 0.02, 0.5 * pixel, pixel)).astype(np.float32), frame
+        region,
+        (0.5 * np.sign(out_of) * fields.ring(inner - 0.02, 0.5 * pixel, pixel)).astype(np.float32),
+        frame,
     )
 
 

@@ -27,7 +27,7 @@ LOG_SIZE = 64
 
 
 LOG_RESERVE = 8
-"""Of these, the slots that contacts leave free: a jam comes after many touches, and must not be lost among them."""
+"""Of these, the slots that contacts leave free: a jam comes after many touches and must not be lost."""
 
 
 class Part(IntEnum):
