@@ -1,10 +1,10 @@
-"""How much real time becomes how many ticks? Whole ticks, the rest is kept, and a stall is not caught up with."""
+"""How much real time becomes how many ticks? Whole ones; the rest is kept, a stall is not caught up."""
 
 from __future__ import annotations
 
 MOST_SECONDS = 0.05
-"""Real time [s] that one frame may make up for. Below 20 frames a second the game slows down; larger values make it
-jump after a stall, and a machine too slow for its ticks would hang."""
+"""Real time [s] that one frame may make up for. Below 20 frames a second the game slows down; larger values
+make it jump after a stall, and a machine too slow for its ticks would hang."""
 
 
 class TickClock:

@@ -66,7 +66,7 @@ _COMMANDS = pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META
 
 
 def action_of(key: int, modifiers: int = 0) -> Action | None:
-    """What a key asks for; None if nothing, or if it is a shortcut of the desktop (with Ctrl, Alt or Meta)."""
+    """What a key asks for; None if nothing, or if it is a shortcut of the desktop (Ctrl, Alt, Meta)."""
     if modifiers & _COMMANDS and key not in _PADDLE_KEYS:
         return None
     for binding in BINDINGS:
@@ -76,7 +76,7 @@ def action_of(key: int, modifiers: int = 0) -> Action | None:
 
 
 def says_something(key: int) -> bool:
-    """Whether a press of an unused key was meant for the game: a letter or a digit rather than, say, Caps Lock."""
+    """Whether an unused key deserves an answer: a letter or a digit does, Caps Lock does not."""
     return pygame.K_SPACE <= key < pygame.K_DELETE
 
 
@@ -128,7 +128,7 @@ class Buttons:
         return not self._down.isdisjoint(_PADDLES[action]) or (with_taps and action in self._tapped)
 
 
-_PADDLES = {
+_PADDLES: dict[Action, frozenset[int]] = {
     binding.action: frozenset(binding.keys)
     for binding in BINDINGS
     if binding.action in (Action.LEFT, Action.RIGHT)

@@ -1,7 +1,7 @@
-"""What did the player do, and what came of it? The inputs of one game as plain data, and how to play them again.
+"""What did the player do? The inputs of one game as plain data, and how to play them again.
 
-A log is the table, the seed, the tick rate and every change of input. As text it is JSON Lines: a header, one line for
-every change, and a last line with the number of ticks and the digest that they led to.
+A log is the table, the seed, the tick rate and every change of input. As text it is JSON Lines: a header, one
+line for every change, and a last line with the number of ticks and the digest that they led to.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Change(NamedTuple):
 
     Attributes:
         tick: Before this tick, counted from 0.
-        kind: "left" or "right" (a paddle button went down or up), "create" (a new ball), or "jitter" (a shove).
+        kind: "left" or "right" (a button went down or up), "create" (a new ball) or "jitter" (a shove).
         down: Whether a button went down; true for the others.
     """
 
@@ -70,9 +70,14 @@ class InputLog:
         from silverball.table import dump_table, table_digest
 
         return cls(
-            __version__, PHYSICS_VERSION, world.table.name, table_digest(world.table), dump_table(world.table),
-            world.seed, world.tick_rate,
-        )  # fmt: skip
+            program=__version__,
+            physics=PHYSICS_VERSION,
+            table=world.table.name,
+            table_digest=table_digest(world.table),
+            table_text=dump_table(world.table),
+            seed=world.seed,
+            tick_rate=world.tick_rate,
+        )
 
     def ended(self, world: World) -> InputLog:
         """This log, closed with the ticks and the digest that a world has reached."""

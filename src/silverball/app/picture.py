@@ -1,7 +1,7 @@
 """The table in a window of any size: always whole, in the middle, and never a frozen picture.
 
-Painting the still table takes a tenth of a second in a small window and a second on a very large one. A large one is
-therefore shown at once from a smaller painting, while a thread paints the sharp one.
+Painting the still table takes a tenth of a second in a small window and a second on a very large one. A large
+one is therefore shown at once from a smaller painting, while a thread paints the sharp one.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ def fitted(table: Table, window_size: tuple[int, int]) -> pygame.Rect:
     wide, high = best_size(table.board, max(height, 2))
     if wide > width:
         high = max(2, height * width // wide)
-        wide, high = min(best_size(table.board, high)[0], width), high
+        wide = min(best_size(table.board, high)[0], width)
     return pygame.Rect((width - wide) // 2, (height - high) // 2, wide, high)
 
 

@@ -1,6 +1,6 @@
 """The window of the operating system: how is it opened, how large is it, and is there a display at all?
 
-A pixel here is a real pixel of the screen: nothing is scaled, so the picture is sharp on high-density screens too.
+A pixel here is a real pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
 """
 
 from __future__ import annotations
@@ -106,8 +106,8 @@ def open_video(*, without_display: bool = False) -> None:
         pygame.display.quit()
         raise NoDisplay(_sentence(f"SDL uses the driver {driver!r}, which shows nothing"))
     if driver == "x11":
-        # SDL would put each frame through OpenGL, which without a GPU takes 4 ms instead of 0.3 ms. Other systems
-        # have no second way (Wayland) or choose well by themselves.
+        # SDL would put each frame through OpenGL, which without a GPU takes 4 ms instead of 0.3 ms. Other
+        # systems have no second way (Wayland) or choose well by themselves.
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
 

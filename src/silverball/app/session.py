@@ -1,4 +1,4 @@
-"""What is one game? A world, the log of its inputs, and a few things to tell the player. No window in here."""
+"""What is one game? A world, the log of its inputs, and what to tell the player. No window in here."""
 
 from __future__ import annotations
 

@@ -106,7 +106,7 @@ def film(
 
 
 def free_name(name: str) -> Path:
-    """A name in this folder that no file has: demo.gif, or else demo-2.gif, demo-3.gif, …"""
+    """A name in this folder that no file has: demo.gif, or else demo-2.gif, demo-3.gif and so on."""
     path = Path(name)
     number = 1
     while path.exists():

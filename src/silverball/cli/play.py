@@ -45,8 +45,8 @@ def play_or_demo() -> None:
         from silverball.cli.demo import free_name, make_demo
 
         typer.echo(
-            f"There is no display to open a window on; making a film of {DEMO_SECONDS:.0f} seconds of play instead "
-            "(`silverball demo --help` tells more).",
+            f"There is no display to open a window on; making a film of {DEMO_SECONDS:.0f} seconds of play "
+            "instead (`silverball demo --help` tells more).",
             err=True,
         )
         make_demo(free_name("demo.gif"), DEMO_SECONDS)

@@ -1,7 +1,8 @@
 """Where does a point of the board lie in the picture, and the other way round?
 
-The board is seen straight from above, x upwards and z to the right, with a rail around it and the score above it; the
-whole of it is always visible. Pixel coordinates (across, down) are real numbers; pixel (i, j) covers i … i + 1, j … j + 1.
+The board is seen straight from above, x upwards and z to the right, with a rail around it and the score above
+it; the whole of it is always visible. Pixel coordinates (across, down) are real numbers; pixel (i, j) covers
+i … i + 1 and j … j + 1.
 """
 
 from __future__ import annotations
@@ -98,7 +99,7 @@ class Camera:
 
 
 def best_size(board: Board, height: int) -> tuple[int, int]:
-    """The size (width, height) [pixel] of a picture of that height which the table just fills; even numbers."""
+    """Width and height [pixel], both even, of a picture of that height which the table just fills."""
     view_width, view_height = _view(board)
     return max(2, 2 * round(0.5 * height * view_width / view_height)), height - height % 2
 

@@ -41,7 +41,7 @@ def tone(color: Color | NDArray[np.float32]) -> NDArray[np.float32]:
     """A colour as three floats, 0 to 1; arrays of floats stay as they are."""
     if isinstance(color, np.ndarray):
         return color
-    return np.asarray(color, np.float32) / np.float32(255.0)
+    return np.array(color, np.float32) / np.float32(255.0)
 
 
 def to_bytes(canvas: NDArray[np.float32]) -> NDArray[np.uint8]:
@@ -50,5 +50,6 @@ def to_bytes(canvas: NDArray[np.float32]) -> NDArray[np.uint8]:
     # Half a step of ordered dither; the constants are the plastic number's powers, which spread points evenly
     # over a plane. Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
     row, column = np.arange(rows)[:, None], np.arange(columns)[None, :]
-    pattern = (0.7548776662 * column + 0.5698402910 * row) % 1.0
-    return np.clip(canvas * 255.0 + pattern[..., None].astype(np.float32), 0.0, 255.0).astype(np.uint8)
+    pattern = ((0.7548776662 * column + 0.5698402910 * row) % 1.0).astype(np.float32)
+    levels: NDArray[np.uint8] = np.clip(canvas * 255.0 + pattern[..., None], 0.0, 255.0).astype(np.uint8)
+    return levels

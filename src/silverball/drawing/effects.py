@@ -1,7 +1,7 @@
-"""What glows for a while: hits that light up a part, the trails of the balls, balls that dive under the apron.
+"""What is seen for a while? Hits light up a part, balls leave trails and dive under the apron.
 
-All of it is a function of the world's own time, so that a film of the same game always looks the same and a paused game
-holds still.
+All of it is a function of the world's own time, so that a film of the same game always looks the same and a
+paused game holds still.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ class Effects:
 
     def forget(self) -> None:
         """Forget everything: another game begins."""
-        self.__init__()  # type: ignore[misc]
+        self._hits.clear()
+        self._dives.clear()
+        self._paths.clear()
 
     def note(self, events: Iterable[Event], tick_rate: int) -> None:
         """Remember what happened."""

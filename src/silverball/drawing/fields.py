@@ -1,7 +1,7 @@
 """How far is each pixel from a shape? Signed distances [u] on a grid: negative inside, zero on the edge.
 
-Every function takes the grid's board coordinates x, shape [row, 1], and z, shape [1, column], and gives [row, column],
-float32. A distance gives an antialiased mask, a glow and a bevel alike, at any size of picture.
+Every function takes the grid's board coordinates x, shape [row, 1], and z, shape [1, column], and gives
+float32 of shape [row, column]. From a distance come antialiased masks, glows and bevels, at any size.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def ring(distance: Field, half_width: float, pixel: float) -> Field:
 
 
 def glow(distance: Field, reach: float) -> Field:
-    """A soft light around a shape: 1 within, falling off with the distance, gone at about three times `reach`."""
+    """A soft light around a shape: 1 within, 1/e at a distance of `reach`, gone at about five times it."""
     return _single(np.exp(-np.maximum(distance, 0.0) / np.float32(reach)))
 
 

@@ -59,7 +59,7 @@ def shadow_cylinder(canvas: NDArray[np.float32], camera: Camera, cylinder: Cylin
 
 
 def paint_cylinder(canvas: NDArray[np.float32], camera: Camera, cylinder: Cylinder, color: Color) -> None:
-    """A cylinder from above: a steel ring, a coloured cap with a star of light, and a ring of light on the floor."""
+    """A cylinder from above: a steel ring, a cap with a star of light, a ring of light on the floor."""
     x, z, radius = cylinder.circle()
     patch = cylinder_patch(camera, cylinder)
     region, pixel = canvas[patch.rows_columns], patch.pixel

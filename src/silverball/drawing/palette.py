@@ -29,7 +29,7 @@ APRON: Color = (46, 38, 78)
 DRAIN: Color = (255, 58, 92)
 
 PADDLE: Color = (255, 150, 34)
-PADDLE_PIVOT: Color = (232, 234, 244)
+PADDLE_PIVOT: Color = (168, 84, 14)  # dark, so that nobody takes it for a ball
 
 PRISMS: tuple[Color, ...] = ((246, 74, 46), (246, 74, 46), (34, 186, 246), (34, 186, 246))
 CYLINDERS: tuple[Color, ...] = ((255, 196, 40), (255, 58, 130), (66, 222, 110))

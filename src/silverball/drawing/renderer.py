@@ -32,7 +32,7 @@ class Renderer:
     Args:
         table: A finished table.
         size: Width and height of the picture [pixel]; the table is fitted into it.
-        still: The still table if it has been painted already, RGB [row, column, 3]; one of another size is stretched.
+        still: The still table if it is painted already, RGB [row, column, 3]; another size is stretched.
 
     Example:
         >>> import silverball as sb
@@ -77,12 +77,14 @@ class Renderer:
         if self._still.get_masks() != target.get_masks() or self._still.get_bitsize() != target.get_bitsize():
             self._still = self._still.convert(target)
         target.blit(self._still, (0, 0))
-        lights = [flash.at(strength) for flash, strength in self._lit(moment.time)]
+        lights = filter(None, (flash.at(strength) for flash, strength in self._lit(moment.time)))
         trails = [self._balls.trail_at(*spot) for spot in self.effects.trails(moment)]
         balls = [*moment.balls, *self.effects.dives(moment.time)]
-        target.blits([(*sprite, None, ADD) for sprite in lights if sprite], False)
+        for sprite in lights:
+            target.blit(*sprite, None, ADD)
         target.blits([self._balls.shadow_at(ball.x, ball.z) for ball in balls], False)
-        target.blits([(*sprite, None, ADD) for sprite in trails], False)
+        for sprite in trails:
+            target.blit(*sprite, None, ADD)
         target.blits([self._balls.at(ball.x, ball.z) for ball in balls], False)
         target.blit(self._still, self._apron, self._apron)
         target.blits(self._paddle_sprites(moment), False)

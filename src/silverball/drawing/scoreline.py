@@ -1,4 +1,4 @@
-"""What stands above and below the board? The score, the balls on the board, its seed, and the table's name."""
+"""What is written above and below the board? The score, the balls, the board's seed, the table's name."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What moves: how do balls, paddles, lights and the trail become small images that only need to be put in place?
+"""What moves: how do balls, paddles and lights become small images that only need to be put in place?
 
-A sprite is a surface and the picture's point of its upper left corner. Paddles are kept per angle, balls per quarter of a
-pixel, so that both move smoothly.
+A sprite is a surface and the picture's point of its upper left corner. Paddles are kept per angle, balls per
+quarter of a pixel, so that both move smoothly.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ def ball_image(radius: float, center: tuple[float, float], side: int) -> pygame.
     right, down = _grid(side)
     distance = fields.circle(down, right, (center[1], center[0]), radius)
     u, v = (right - center[0]) / radius, (down - center[1]) / radius
-    # A mirror ball under a lamp: bright towards the upper left, dark at its rim, light from the floor below it.
+    # A mirror ball under a lamp: bright towards the upper left, dark at its rim, some light from the floor.
     tall = np.sqrt(np.clip(1.0 - u * u - v * v, 0.0, 1.0))
     lit = np.clip(0.55 * tall - 0.42 * u - 0.62 * v + 0.28, 0.0, 1.0)[..., None]
     colors = tone(palette.BALL_DARK) + lit * (tone(palette.BALL_MIDDLE) - tone(palette.BALL_DARK))

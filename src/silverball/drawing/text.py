@@ -31,7 +31,7 @@ def line(text: str, size: int, color: Color) -> pygame.Surface:
     """One line of text. The surface is shared: blit it, do not change it."""
     if size >= SMALL:
         return font(size).render(text, True, color)
-    # The font's hints push small letters onto whole pixels, unevenly; drawn larger and shrunk, they stand evenly.
+    # The font's hints push small letters unevenly onto whole pixels; drawn large and shrunk they stand well.
     large = font(ENLARGED * size).render(text, True, color)
     return pygame.transform.smoothscale_by(large, 1.0 / ENLARGED)
 

@@ -20,7 +20,7 @@ TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies 
 
 
 def cast_shadow(canvas: NDArray[np.float32], patch: Patch, distance: Field, strength: float = 0.55) -> None:
-    """Darken the floor where a shape at this distance keeps the light off; the shape has been moved already."""
+    """Darken the floor where a shape keeps the light off; it has been `moved` to where its shadow falls."""
     mask = np.clip(0.5 - distance / np.float32(2.0 * SHADOW_SOFTNESS), 0.0, 1.0)
     mask *= mask * (3.0 - 2.0 * mask)
     paint(canvas[patch.rows_columns], palette.SHADOW, (strength * mask).astype(np.float32))
