@@ -45,7 +45,20 @@ def test_tables_lists_the_built_in_tables(silverball):
 
 def test_simulate_prints_everything_that_happened_and_nothing_went_wrong(silverball):
     result = silverball(
-        *"simulate --table random --seed 7 --seconds 30 --player reflex --balls 2 --json".split()
+        *[
+            "simulate",
+            "--table",
+            "random",
+            "--seed",
+            "7",
+            "--seconds",
+            "30",
+            "--player",
+            "reflex",
+            "--balls",
+            "2",
+            "--json",
+        ]
     )
     report = json.loads(result.stdout)
     assert report["seconds"] == 30
@@ -61,7 +74,18 @@ def test_simulate_prints_everything_that_happened_and_nothing_went_wrong(silverb
 
 
 def test_simulate_gives_the_same_digest_in_a_new_process_and_with_many_worlds_side_by_side(silverball):
-    arguments = "simulate --table random --seed 3 --seconds 10 --player random --json".split()
+    arguments = [
+        "simulate",
+        "--table",
+        "random",
+        "--seed",
+        "3",
+        "--seconds",
+        "10",
+        "--player",
+        "random",
+        "--json",
+    ]
     digests = {json.loads(silverball(*arguments).stdout)["digest"] for _ in range(2)}
     assert len(digests) == 1
     other = json.loads(silverball(*arguments, "--seed", "4").stdout)
@@ -152,7 +176,7 @@ def test_a_file_of_100_megabytes_is_refused_at_once(silverball, tmp_path):
 
 
 def test_bench_prints_a_median_and_what_it_was_measured_on(silverball):
-    result = silverball(*"bench --worlds 64 --frames 30 --rounds 3 --json".split())
+    result = silverball(*["bench", "--worlds", "64", "--frames", "30", "--rounds", "3", "--json"])
     report = json.loads(result.stdout)
     assert 0 < report["slowest"] <= report["frames_per_second"] <= report["fastest"]
     assert report["machine"]

@@ -65,7 +65,7 @@ class Session:
             BoardFull, NoRoom: There cannot be one more; the message says why.
         """
         self.world.create_ball()
-        self._events.extend(self.world.events)
+        self._events.append(self.world.events[-1])  # before it stand those of the last step, taken already
         self.log.changes.append(Change(self.world.tick, "create"))
 
     def jitter(self) -> None:

@@ -122,8 +122,7 @@ class Window:
 
     def close(self) -> None:
         """Keep the log of the last game and close the window."""
-        if self.session is not None and self.session.world.created:
-            keep(self.session.log.ended(self.session.world).to_text(), LAST_GAME, self._data_folder)
+        self._keep_last_game()
         self.session = None
         self._screen.close()
 
@@ -278,12 +277,18 @@ class Window:
         self._picture.renderer.effects.forget()
         self.is_paused = self.shows_help = self._hinted = False
         if self._startup is None:
+            self._keep_last_game()
             self.session = Session(table, seed)
 
     def _finished(self) -> Table:
         return self._recipe if self._recipe.random is None else generate_table(self.seed, self._recipe)
 
     # --- keeping logs -----------------------------------------------------------------------------
+
+    def _keep_last_game(self) -> None:
+        """Keep the log of the game that ends now, if anything was played."""
+        if self.session is not None and self.session.world.created:
+            keep(self.session.log.ended(self.session.world).to_text(), LAST_GAME, self._data_folder)
 
     def _keep_log(self, why: str) -> str:
         """Keep the log of a game that cannot go on, and say where."""
