@@ -6,6 +6,7 @@ A pixel here is a real pixel of the screen: nothing is scaled, so it is sharp on
 from __future__ import annotations
 
 import os
+import sys
 
 import pygame
 
@@ -97,6 +98,9 @@ def open_video(*, without_display: bool = False) -> None:
         NoDisplay: SDL finds no screen, or was told to use a driver that shows nothing.
     """
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # real pixels on Windows
+    if sys.platform == "linux" and not {"XDG_RUNTIME_DIR", "WAYLAND_DISPLAY"} & os.environ.keys():
+        # Wayland cannot work without these; asked nevertheless, its library prints an error of its own.
+        os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
     try:
         pygame.display.init()
     except pygame.error as error:
