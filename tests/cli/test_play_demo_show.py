@@ -128,7 +128,7 @@ def test_an_interruption_leaves_no_half_file(tmp_path, ending):
     process = subprocess.Popen(
         command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )
-    limit = time.monotonic() + 30.0
+    limit = time.monotonic() + 60.0
     while not list(tmp_path.iterdir()) and time.monotonic() < limit:
         time.sleep(0.02)
     assert list(tmp_path.iterdir()), "the film was never begun"

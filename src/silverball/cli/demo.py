@@ -66,9 +66,12 @@ def make_demo(
             "ask for fewer --seconds, a smaller --size, or an .mp4"
         )
     with compiling():
+        from silverball.app.startup import warm_up
         from silverball.players import make_player
+        from silverball.world import World
 
-        make_player("reflex")
+        warm_up(board)
+        make_player("reflex").press(World(board))
     with Progress(console=errors, transient=True) as bar:
         task = bar.add_task(f"playing into {out.name}", total=seconds)
 
