@@ -1,0 +1,139 @@
+"""The boards that the tests play on, and how a test looks at a flight.
+
+Nothing in here computes physics: every law is worked out in the test that checks it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from silverball.table import Board, Cylinder, Paddle, SlantWall, Table, TriangularPrism, table_digest
+from silverball.world import Event, World
+from silverball.world.state import pack
+
+LEFT = Paddle(side="left", pivot=(-7.2, -2.5))
+RIGHT = Paddle(side="right", pivot=(-7.2, 2.5))
+PADDLES = (LEFT, RIGHT)
+CONTACTS = ("hit", "touch", "ball_hit", "ball_touch")
+
+
+def table_of(*parts: Any, **board: Any) -> Table:
+    """A table of these parts; nothing checks whether they fit together."""
+    kinds = {
+        "slant_wall": SlantWall,
+        "paddle": Paddle,
+        "triangular_prism": TriangularPrism,
+        "cylinder": Cylinder,
+    }
+    lists = {key: tuple(part for part in parts if isinstance(part, kind)) for key, kind in kinds.items()}
+    return Table(name="of a test", board=Board(**board), **lists)
+
+
+def full_table(*more: Any, boost: float = 1.25, restitution: float | None = None, **board: Any) -> Table:
+    """Two paddles, four guides, four prisms and three cylinders."""
+    prisms = (
+        ((2.0, -1.0), (3.2, -1.4), (2.4, 0.2)),
+        ((-1.0, -3.0), (0.2, -3.4), (-0.6, -2.2)),
+        ((-1.0, 3.1), (0.2, 3.4), (-0.6, 2.2)),
+        ((5.0, 3.0), (6.2, 3.4), (5.4, 2.2)),
+    )
+    parts = [
+        SlantWall(start=(-4.5, -5.0), end=(-6.88, -2.76)),
+        SlantWall(start=(-6.88, 2.76), end=(-4.5, 5.0)),
+        SlantWall(start=(8.0, -5.0), end=(10.0, -3.0)),
+        SlantWall(start=(8.0, 5.0), end=(10.0, 3.0)),
+        *PADDLES,
+        *(TriangularPrism(vertices=vertices) for vertices in prisms),
+        Cylinder(center=(5.0, 0.9), radius=0.6, speed_factor=boost),
+        Cylinder(center=(5.2, -2.0), radius=0.6, speed_factor=boost),
+        Cylinder(center=(0.0, 0.5), radius=0.6, speed_factor=boost),
+        *more,
+    ]
+    if restitution is not None:
+        parts = [
+            part.model_copy(
+                update={"restitution": restitution, "restitution_falloff": 0.0}
+                | ({"speed_factor": boost} if hasattr(part, "speed_factor") else {})
+            )
+            for part in parts
+        ]
+        board |= {"wall_restitution": restitution, "ball_restitution": restitution}
+    return table_of(*parts, **board)
+
+
+def mirrored(table: Table) -> Table:
+    """The same table in the mirror: every z changes its sign, and the paddles change sides."""
+
+    def flip(point: tuple[float, float]) -> tuple[float, float]:
+        return point[0], -point[1]
+
+    other = {"left": "right", "right": "left"}
+    return table.model_copy(
+        update={
+            "slant_wall": tuple(
+                wall.model_copy(update={"start": flip(wall.start), "end": flip(wall.end)})
+                for wall in table.slant_wall
+            ),
+            "paddle": tuple(
+                paddle.model_copy(update={"side": other[paddle.side], "pivot": flip(paddle.pivot)})
+                for paddle in table.paddle
+            ),
+            "triangular_prism": tuple(
+                TriangularPrism.model_validate(
+                    prism.model_dump(exclude={"center", "size", "rotation", "mesh"})
+                    | {"vertices": tuple(flip(corner) for corner in prism.corners())}
+                )
+                for prism in table.triangular_prism
+            ),
+            "cylinder": tuple(
+                cylinder.model_copy(update={"center": flip(cylinder.circle()[:2])})
+                for cylinder in table.cylinder
+            ),
+        }
+    )
+
+
+def launched(
+    table: Table, *balls: tuple[float, float, float, float], tick_rate: int = 240, seed: int = 0
+) -> World:
+    """A world with balls (x, z, vx, vz)."""
+    world = World(table, seed=seed, tick_rate=tick_rate)
+    for x, z, vx, vz in balls:
+        world.create_ball((x, z), (vx, vz))
+    return world
+
+
+def edited(world: World, change: Callable[[Any], None]) -> bytes:
+    """The world's saved state with its record changed by hand, its checksum right."""
+    record = world.records[0].copy()
+    change(record)
+    return pack(record, table_digest(world.table), world.tick_rate)
+
+
+def contacts(world: World, ticks: int, **buttons: bool) -> Iterator[Event]:
+    """The contacts of balls in the next ticks, one by one, as they happen."""
+    for _ in range(ticks):
+        world.step(**buttons)
+        assert world.events_lost == 0
+        yield from (event for event in world.events if event.kind in CONTACTS)
+
+
+def first_contact(world: World, ticks: int = 1000, **buttons: bool) -> Event:
+    """The first contact of a ball; the world stands at the end of its tick."""
+    return next(contacts(world, ticks, **buttons))
+
+
+def moment(world: World, event: Event) -> float:
+    """When an event happened [s]."""
+    return event.tick / world.tick_rate + event.offset
+
+
+def place(item: Any) -> tuple[float, float]:
+    """The (x, z) of a ball or an event [u]."""
+    return item.position[0], item.position[2]
+
+
+def speed_of(ball: Any) -> tuple[float, float]:
+    """The (vx, vz) of a ball [u/s]."""
+    return ball.velocity[0], ball.velocity[2]

@@ -1,0 +1,204 @@
+"""What must not matter, and what must not grow: the mirror, the direction of time, the tick rate, the energy.
+
+A path between round obstacles magnifies the smallest difference at each bounce. Where it would magnify
+1e-13 u to more than 1e-10 u within the five bounces, rounding alone decides what comes out, so such starts
+are left out (a second flight beside the first tells).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from boards import CONTACTS, edited, full_table, launched, mirrored, moment, place, speed_of
+from silverball.physics.tolerances import HOP
+from silverball.table import SlantWall, Table, generate_table
+from silverball.world import World
+
+BOUNCES = 5
+SAME = 1e-9
+BESIDE = 1e-13  # [u] how far beside the first flight the second one starts
+
+starts = st.tuples(
+    st.floats(-4.5, 9.0), st.floats(-4.5, 4.5), st.floats(0, 2 * math.pi), st.floats(2, 16)
+).map(lambda s: (s[0], s[1], s[3] * math.sin(s[2]), s[3] * math.cos(s[2])))
+buttons = st.lists(st.tuples(st.booleans(), st.booleans()), min_size=1, max_size=12)
+
+
+def is_free(table: Table, *balls) -> bool:
+    world = World(table)
+    apart = len(balls) < 2 or math.dist(balls[0][:2], balls[1][:2]) > 0.51
+    return apart and all(world.clearance(*ball[:2]) > 1e-3 for ball in balls)
+
+
+def bounces(world: World, pressed=((False, False),), seconds: float = 2.5, count: int = BOUNCES):
+    """The first contacts: time, part, ball, place, velocity of the ball at the end of that tick. A button
+    stays for 0.1 s."""
+    seen = []
+    for tick in range(round(seconds * world.tick_rate)):
+        left, right = pressed[tick * 10 // world.tick_rate % len(pressed)]
+        world.step(left=left, right=right)
+        assert world.fault is None
+        seen += [
+            (moment(world, e), e.part, e.ball, *place(e), e.speed) for e in world.events if e.kind in CONTACTS
+        ]
+        if len(seen) >= count:
+            break
+    return seen[:count]
+
+
+def difference(one, other) -> float:
+    """The largest difference of two lists of bounces; infinite if they are of different parts."""
+    if [row[1:3] for row in one] != [row[1:3] for row in other]:
+        return math.inf
+    return max(
+        (
+            abs(x - y)
+            for a, b in zip(one, other, strict=True)
+            for x, y in zip(a[3:] + a[:1], b[3:] + b[:1], strict=True)
+        ),
+        default=0.0,
+    )
+
+
+def is_tame(table: Table, balls, seen, pressed=((False, False),), **how) -> bool:
+    """Whether a flight that starts a little beside meets the same, a little beside."""
+    (x, z, vx, vz), *rest = balls
+    beside = bounces(launched(table, (x + BESIDE, z - BESIDE, vx, vz), *rest, **how), pressed)
+    return difference(seen, beside) < 1000 * BESIDE
+
+
+@settings(max_examples=60)
+@given(st.integers(0, 30), starts, starts, st.booleans(), buttons)
+def test_the_mirrored_board_with_swapped_buttons_gives_the_mirrored_path(
+    board, one, other, two, pressed
+) -> None:
+    table = generate_table(board)
+    balls = (one, other) if two else (one,)
+    assume(is_free(table, *balls))
+    seen = bounces(launched(table, *balls), pressed)
+    assume(seen and is_tame(table, balls, seen, pressed))
+    swap = {"board.left": "board.right", "paddle.left": "paddle.right"}
+    swap |= {value: key for key, value in swap.items()}
+    flipped = [(x, -z, vx, -vz) for x, z, vx, vz in balls]
+    reflected = bounces(launched(mirrored(table), *flipped), [(right, left) for left, right in pressed])
+    back = [(t, swap.get(part, part), ball, x, -z, speed) for t, part, ball, x, z, speed in reflected]
+    assert difference(seen, back) <= SAME
+
+
+def test_a_mirrored_paddle_mirrors_to_the_bit() -> None:
+    table = full_table().model_copy(update={"triangular_prism": ()})
+    rng = np.random.default_rng(2)
+    world, other = World(table), World(mirrored(table))
+    world.create_ball((2.0, 3.0), (1.0, 2.0))
+    other.create_ball((2.0, -3.0), (1.0, -2.0))
+    for _ in range(600):
+        left, right = (rng.random(2) < 0.5).tolist()
+        world.step(left=left, right=right)
+        other.step(left=right, right=left)
+        assert world.paddles == other.paddles[::-1]
+        for a, b in zip(world.balls, other.balls, strict=True):
+            assert (place(a), speed_of(a)) == ((place(b)[0], -place(b)[1]), (speed_of(b)[0], -speed_of(b)[1]))
+
+
+def elastic_table() -> Table:
+    """Everything gives back what it gets; the cap is far away, and everything is a hit."""
+    return full_table(boost=1.0, restitution=1.0, speed_cap=200.0, hit_speed=0.01)
+
+
+@settings(max_examples=40)
+@given(starts, starts, st.booleans())
+def test_with_restitution_one_time_runs_back_as_well(one, other, two) -> None:
+    table = elastic_table()
+    balls = (one, other) if two else (one,)
+    assume(is_free(table, *balls))
+    world = launched(table, *balls)
+    seen = bounces(world)
+    assume(len(seen) == BOUNCES and len(world.balls) == len(balls) and min(row[-1] for row in seen) > 0.05)
+    assume(is_tame(table, balls, seen))
+
+    def turn_back(record) -> None:
+        record["ball"]["vx"] *= -1.0
+        record["ball"]["vz"] *= -1.0
+
+    # From the state at the end, with all velocities turned round, the same number of ticks leads to the
+    # start.
+    ticks = world.tick
+    world.restore(edited(world, turn_back))
+    world.step(ticks=ticks)
+    for ball, (x, z, vx, vz) in zip(world.balls, balls, strict=True):
+        assert math.dist(place(ball), (x, z)) <= SAME
+        assert (
+            math.dist(speed_of(ball), (-vx, -vz)) <= 10 * SAME
+        )  # in 1/10 s it changes as much as the place in one
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 30), starts, starts, st.booleans())
+def test_the_tick_rate_does_not_matter_while_no_tick_end_clamp_plays_a_part(board, one, other, two) -> None:
+    table = generate_table(board)
+    table = table.model_copy(update={"board": table.board.model_copy(update={"speed_cap": 100.0})})
+    balls = (one, other) if two else (one,)
+    assume(is_free(table, *balls))
+    seen = bounces(launched(table, *balls, tick_rate=60))
+    assume(seen and is_tame(table, balls, seen, tick_rate=60))
+    for tick_rate in (10, 240, 1000):
+        assert difference(seen, bounces(launched(table, *balls, tick_rate=tick_rate))) <= SAME
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 30), starts, starts)
+def test_energy_never_grows_without_a_moving_paddle_a_boost_or_a_hop(board, one, other) -> None:
+    """A touch may add the energy of a hop, ½·(2·g·HOP); all else takes energy or leaves it."""
+    table = generate_table(board)
+    calm = tuple(part.model_copy(update={"speed_factor": 1.0, "restitution": 1.0}) for part in table.cylinder)
+    table = table.model_copy(update={"cylinder": calm})
+    assume(is_free(table, one, other))
+    world = launched(table, one, other, tick_rate=60)
+
+    def energy() -> float:
+        return sum(
+            0.5 * (vx * vx + vz * vz) + 10.0 * x
+            for x, vx, vz in ((b.position[0], *speed_of(b)) for b in world.balls)
+        )
+
+    before, touches = energy(), 0
+    while world.balls and world.tick < 600:
+        count = len(world.balls)
+        world.step()
+        if len(world.balls) < count:  # the energy of a ball that is gone goes with it
+            before, touches = energy(), int(world.records[0]["touches"])
+        now = int(world.records[0]["touches"])
+        # Rounding: each contact at 22 u/s by some ulp(22²/2) = 3e-14.
+        assert energy() <= before + (now - touches) * 10.0 * HOP + 1e-11
+        before, touches = energy(), now
+
+
+def test_elastic_bouncing_keeps_its_energy_for_a_thousand_seconds() -> None:
+    """Restitution 1 everywhere, gutter out of reach of the flight: 0.5·v² + g·x stays to rounding."""
+    table = full_table(
+        SlantWall(start=(-8.9, -5.0), end=(-8.9, 5.0)),
+        boost=1.0,
+        restitution=1.0,
+        speed_cap=200.0,
+        hit_speed=0.01,
+    )
+    world = launched(table, (1.5, 2.0, 6.0, 7.0), tick_rate=60)
+    first = 0.5 * (36.0 + 49.0) + 10.0 * 1.5
+    worst = 0.0
+    for _ in range(1000):
+        world.step(ticks=60)
+        ((x, _), (vx, vz)) = place(world.balls[0]), speed_of(world.balls[0])
+        worst = max(worst, abs(0.5 * (vx * vx + vz * vz) + 10.0 * x - first))
+    hits = sum(world.hits.values())
+    print(
+        f"energy: off by {worst:.1e} of {first} u²/s² after 1000 s, {hits} bounces "
+        f"and {world.records[0]['touches']} touches"
+    )
+    assert hits > 2000
+    # 60,000 ticks, each rounding a speed by half of ulp(8) = 1.8e-15 at most, always the same way at worst,
+    # at 10 u/s; a touch below 0.01 u/s may add its hop.
+    assert worst <= 60_000 * 0.5 * 1.8e-15 * 10 + int(world.records[0]["touches"]) * 0.5 * (0.9 * 0.01) ** 2
