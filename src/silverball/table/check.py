@@ -52,6 +52,7 @@ TANGLE = 100  # overlaps that are spelt out; with more of them, nobody asks for 
 # paddle A is gravity and ω²·reach. The speed cap must leave room for it.
 # Source: the solver's rule for endless small bounces, with HOP = 5e-4 u.
 HOP = 5e-4
+HOP_SHARE = 0.9  # of the speed of a hit, at which a hop is cut off; the solver's rule too
 
 
 class Layout(NamedTuple):
@@ -97,7 +98,7 @@ def check_layout(layout: Layout) -> list[Problem]:
     """The same for a layout, which may be a part of a table only."""
     board_problems = _board_problems(layout.board)
     paddle_problems = _paddle_problems(layout)
-    problems = board_problems + paddle_problems
+    problems = board_problems + _hop_problems(layout.board) + paddle_problems
     standing, part_problems = _standing(layout)
     problems += part_problems
     if board_problems:
@@ -131,6 +132,18 @@ def _board_problems(board: Board) -> list[Problem]:
         message = f"must fit the board: between its borders are {room:g} u, too little for two balls abreast"
         problems.append(Problem("board.ball_radius", message))
     return problems
+
+
+def _hop_problems(board: Board) -> list[Problem]:
+    """A ball at rest hops; were that a hit, it would score for ever."""
+    hop = math.sqrt(2.0 * board.gravity * HOP)
+    if board.hit_speed >= hop / HOP_SHARE:
+        return []
+    message = (
+        f"must be at least {math.ceil(1000.0 * hop / HOP_SHARE) / 1000.0:g} u/s at gravity {board.gravity:g}, "
+        f"got {board.hit_speed:g}: a ball at rest hops with {hop:.3g} u/s, which must be no hit"
+    )
+    return [Problem("board.hit_speed", message)]
 
 
 def _paddle_problems(layout: Layout) -> list[Problem]:

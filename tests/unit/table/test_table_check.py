@@ -447,3 +447,11 @@ def test_a_recipe_that_cannot_work_names_the_rule(changes, path):
     assert [problem.path for problem in check_table(table)] == [path]
     with pytest.raises(TableError, match=path.replace(".", r"\.")):
         parse_table(dump_table(table))
+
+
+@pytest.mark.parametrize("gravity", [1.0, 10.0, 100.0])
+def test_a_hit_speed_that_a_ball_at_rest_would_reach_by_hopping_is_refused(gravity):
+    hop = math.sqrt(2.0 * gravity * HOP)
+    for hit_speed, is_refused in ((0.99 * hop, True), (1.2 * hop, False)):
+        board = Board(gravity=gravity, hit_speed=hit_speed)
+        assert bool(problems_at(Table(board=board), "board.hit_speed")) == is_refused
