@@ -139,8 +139,9 @@ def _hop_problems(board: Board) -> list[Problem]:
     hop = math.sqrt(2.0 * board.gravity * HOP)
     if board.hit_speed >= hop / HOP_SHARE:
         return []
+    least = math.ceil(1000.0 * hop / HOP_SHARE) / 1000.0
     message = (
-        f"must be at least {math.ceil(1000.0 * hop / HOP_SHARE) / 1000.0:g} u/s at gravity {board.gravity:g}, "
+        f"must be at least {least:g} u/s at gravity {board.gravity:g}, "
         f"got {board.hit_speed:g}: a ball at rest hops with {hop:.3g} u/s, which must be no hit"
     )
     return [Problem("board.hit_speed", message)]
