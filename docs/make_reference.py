@@ -23,9 +23,27 @@ Axes: x runs up the table from the gutter to the top, z to the player's right, t
 board. Points are written `[x, z]`. Angles are counter-clockwise as the player sees the board, from +z (right)
 towards +x (up). Lengths are table units [u], times seconds; a real table of 1.07 m is 20 u long.
 
-The smallest table is `format = 1` with two paddles. Every key below is optional unless its default is "–".
+Every key below is optional unless its default is "–"; a table without paddles is allowed, but no fun. Messages
+count parts from 0: `slant_wall[0]` is the first one in the file.
 
 This page is generated from `src/silverball/table/parts.py`.
+"""
+MESHES = """\
+## Obstacles from meshes
+
+`mesh = "wedge.stl"` (or .obj, .glb; relative to the table file) takes the footprint of a 3-D mesh, seen from above:
+for a prism the largest triangle among the corners of the convex hull, for a cylinder the smallest circle around it. It
+needs `.venv/bin/pip install '.[mesh]'`. The mesh's own axes and units are the table's: x up the table, **y out of
+the board**, z to the right, in u, and it stands where it is to stand on the board. A model drawn flat (X to the
+right, Y up, Z the height, in millimetres), as most CAD programs make it, becomes one of the board by
+
+    import trimesh
+
+    wedge = trimesh.load("drawn.stl", force="mesh")
+    wedge.apply_scale(20 / 1070)  # a table of 1.07 m is 20 u long
+    x, z = 2.0, -1.0  # where its origin comes to lie
+    wedge.apply_transform([[0, 1, 0, x], [0, 0, 1, 0], [1, 0, 0, z], [0, 0, 0, 1]])  # Y → x, Z → y, X → z
+    wedge.export("wedge.stl")
 """
 SECTIONS = (
     ("[board]", Board, "once"),
@@ -42,6 +60,7 @@ def page() -> str:
     elsewhere = ("board", "slant_wall", "paddle", "triangular_prism", "cylinder")
     parts = [HEAD, _table("Top level", Table, "", skip=elsewhere)]
     parts += [_table(f"`{title}`", model, note) for title, model, note in SECTIONS]
+    parts.append(MESHES)
     return "\n".join(parts)
 
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -155,3 +158,28 @@ def test_bench_prints_a_median_and_what_it_was_measured_on(silverball):
     assert 0 < report["slowest"] <= report["frames_per_second"] <= report["fastest"]
     assert report["machine"]
     assert report["numba"]
+
+
+def test_a_wrong_argument_ends_in_one_sentence_that_repeats_it(silverball):
+    for arguments in ("simulate --seconds soon", "simulate --seconds=soon"):
+        result = silverball(*arguments.split())
+        assert_friendly_refusal(result, "--seconds", "'soon'", "silverball simulate --help")
+        assert len(result.stderr.splitlines()) == 1
+
+
+def test_an_unknown_command_is_refused_with_the_nearest_name(silverball):
+    assert_friendly_refusal(silverball("simulat"), "simulate")
+
+
+def test_less_than_one_tick_is_refused(silverball):
+    assert_friendly_refusal(
+        silverball(*"simulate --seconds 0.01 --tick-rate 10".split()), "--seconds", "tick"
+    )
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="only Linux has a device that is always full")
+def test_output_that_cannot_be_written_ends_in_one_sentence():
+    command = [sys.executable, "-m", "silverball", "generate"]
+    with Path("/dev/full").open("w") as full:
+        result = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert_friendly_refusal(result, "No space left")

@@ -13,4 +13,4 @@ def main() -> None:
     """The entry point of `silverball` and `python -m silverball`."""
     from silverball.cli.app import run
 
-    run(sys.argv[1:])
+    sys.exit(run(sys.argv[1:]))

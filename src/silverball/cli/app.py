@@ -5,7 +5,9 @@ The modules of the commands import what they need when they run, so that `silver
 
 from __future__ import annotations
 
+import signal
 import sys
+from typing import Any
 
 import typer
 
@@ -21,12 +23,13 @@ from silverball.errors import SilverballError
 
 app = typer.Typer(
     add_completion=False,
-    rich_markup_mode="rich",
+    rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for command in (play, demo, tables, show, check, generate, simulate, bench):
     app.command()(command)
+COMMANDS = tuple(command.callback.__name__ for command in app.registered_commands if command.callback)
 
 
 @app.callback(invoke_without_command=True)
@@ -36,8 +39,7 @@ def silverball(
 ) -> None:
     """A pinball table: play it, build it, and run it a million times.
 
-    Without a command, [bold]silverball[/bold] opens the window, or makes a demo file where there is no
-    display.
+    Without a command, `silverball` opens the window, or makes a demo file where there is no display.
     """
     if version:
         from silverball import __version__
@@ -50,13 +52,59 @@ def silverball(
         play_or_demo()
 
 
-def run(arguments: list[str]) -> None:
-    """Run the command line; a mistake of a person ends with its message and exit code 2."""
+def run(arguments: list[str]) -> int:
+    """Run the command line and return the exit code.
+
+    0: done. 2: a mistake of a person, or a file or stream that cannot be written; one message says which.
+    130: stopped by Ctrl-C.
+    """
+    for name in ("SIGTERM", "SIGHUP"):  # a terminal that closes must not leave half files behind either
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
     try:
-        app(args=arguments, prog_name="silverball")
+        code = app(args=arguments, prog_name="silverball", standalone_mode=False)
+        sys.stdout.flush()
     except SilverballError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
-    except BrokenPipeError:  # the reader of our output has gone, as `head` does
-        sys.stderr.close()
-        sys.exit(0)
+        return complain(str(error))
+    except (KeyboardInterrupt, typer.Abort):
+        code = 130
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        return complain(f"silverball: {where}{error.strerror or error}")
+    except Exception as error:
+        if not hasattr(error, "format_message"):
+            raise
+        return complain(usage_message(error, arguments))
+    if code == 130:
+        print("stopped", file=sys.stderr)
+    return code if isinstance(code, int) else 0
+
+
+def complain(message: str) -> int:
+    """Print the message of a mistake; its exit code."""
+    print(message, file=sys.stderr)
+    return 2
+
+
+def usage_message(error: Any, arguments: list[str]) -> str:
+    """One sentence for arguments that do not fit: where, what, what was given, and where to look."""
+    command = next((word for word in arguments if word in COMMANDS), "")
+    name = f"silverball {command}".strip()
+    message = error.format_message().rstrip(".?")
+    given = given_value(getattr(error, "param", None), arguments)
+    if given is not None:
+        message += f", got {given!r}"
+    elif not command and "mean" not in message:
+        message += f"; there are {', '.join(COMMANDS)}"
+    return f"{name}: {message}. `{name} --help` shows what there is"
+
+
+def given_value(parameter: Any, arguments: list[str]) -> str | None:
+    """What was given for an option, if it was given."""
+    for option in getattr(parameter, "opts", ()):
+        for index, word in enumerate(arguments):
+            if word == option and index + 1 < len(arguments):
+                return arguments[index + 1]
+            if word.startswith(f"{option}="):
+                return word.split("=", 1)[1]
+    return None

@@ -18,7 +18,7 @@ def bench(
 ) -> None:
     """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
 
-    Example: [bold]silverball bench --json[/bold]
+    Example: `silverball bench --json`
     """
     from silverball.cli.console import compiling, errors
 

@@ -14,7 +14,7 @@ def check(
     turns, a board without a way to the gutter, and places where a ball could lie for ever. Exit code 0:
     none; 2: problems.
 
-    Example: [bold]silverball check mine.toml[/bold]
+    Example: `silverball check mine.toml`
     """
     from silverball.table import load_table
 

@@ -16,11 +16,12 @@ errors = Console(stderr=True)
 @contextmanager
 def compiling() -> Iterator[None]:
     """A moving line while the physics is compiled: on the first start only, later ones load it from disk."""
-    from silverball.physics.kernel import forget_old_code, is_compiled
+    from silverball.physics.kernel import cache_folder, forget_old_code, is_compiled
 
     if is_compiled():
         yield
         return
     forget_old_code()
-    with errors.status("Compiling the physics, once on this machine (about ten seconds) …"):
+    often = "once on this machine" if cache_folder() else "at every start, for its cache cannot be written"
+    with errors.status(f"Compiling the physics, {often} (about ten seconds) …"):
         yield

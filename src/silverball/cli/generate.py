@@ -17,7 +17,7 @@ def generate(
 ) -> None:
     """Make a random board: obstacles placed anew for every seed.
 
-    Example: [bold]silverball generate --seed 7 --out seven.toml[/bold]
+    Example: `silverball generate --seed 7 --out seven.toml`
     """
     from silverball.errors import OutputError
     from silverball.table import dump_table, generate_table, save_table

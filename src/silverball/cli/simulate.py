@@ -10,11 +10,13 @@ import typer
 
 def simulate(
     table: str = typer.Option("classic", help="A built-in table or a table file."),
-    seed: int = typer.Option(0, min=0, max=2**62, help="Of the board and of everything random on it."),
+    seed: int = typer.Option(
+        0, min=0, max=2**63 - 1_000_001, help="Of the board and of everything random on it."
+    ),
     seconds: float = typer.Option(60.0, min=0.01, max=1e9, help="To simulate in each world."),
     player: str = typer.Option("reflex", help="Who presses the buttons: idle, random or reflex."),
     worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side; world i gets seed + i."),
-    balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board."),
+    balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board, if the table allows them."),
     tick_rate: int = typer.Option(240, min=10, max=100_000, help="Ticks per simulated second."),
     audit: bool = typer.Option(
         True, help="Check every tick, independently of the solver, for a ball inside anything."
@@ -23,23 +25,32 @@ def simulate(
 ) -> None:
     """Let a player play without a window and say what came of it.
 
-    Example: [bold]silverball simulate --table random --seed 7 --seconds 600 --player reflex --json[/bold]
+    Example: `silverball simulate --table random --seed 7 --seconds 600 --player reflex --json`
     """
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
+    from silverball.errors import SilverballError
     from silverball.players import player_kind
-    from silverball.table import load_table
+    from silverball.table import generate_table, load_table
 
+    if round(seconds * tick_rate) < 1:
+        raise SilverballError(
+            f"--seconds: {seconds:g} s is less than one tick of 1/{tick_rate} s; ask for more"
+        )
     kind = player_kind(player)
     loaded = load_table(table)
     with compiling():
         from silverball.players.games import play
         from silverball.world import WorldBatch
 
-        batch = WorldBatch(loaded, worlds, seed, tick_rate)
-        play(batch, kind, 0.0, 0, audit)
-    with Progress(console=errors, transient=True) as bar:
+        play(WorldBatch("classic"), kind, 0.0, 0, audit)
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+        boards = [loaded] * worlds
+        if loaded.random is not None:
+            numbers = bar.track(range(seed, seed + worlds), description="making boards")
+            boards = [generate_table(number, loaded) for number in numbers]
+        batch = WorldBatch(boards, worlds, seed, tick_rate)
         task = bar.add_task(f"simulating {worlds} world{'s' * (worlds > 1)}", total=seconds)
         played = play(batch, kind, seconds, balls, audit, lambda done: bar.update(task, completed=done))
     report: dict[str, Any] = {

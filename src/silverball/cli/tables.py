@@ -8,7 +8,7 @@ import typer
 def tables() -> None:
     """List the built-in tables.
 
-    Example: [bold]silverball tables[/bold]
+    Example: `silverball tables`
     """
     from silverball.table import load_table, table_names
 

@@ -16,6 +16,7 @@ Options, and why:
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import shutil
@@ -97,6 +98,20 @@ def _compile(function: F, *, forceinline: bool) -> F:
         # Numba picks the place of the cache when the decorator runs, from this one setting.
         if folder is not None:
             SETTINGS.CACHE_DIR = str(folder)
-        return cast(F, numba.njit(**options)(function))
+        compiled = numba.njit(**options)(function)
     finally:
         SETTINGS.CACHE_DIR = before
+    if hasattr(compiled, "_cache"):
+        _save_if_possible(compiled._cache)
+    return cast(F, compiled)
+
+
+def _save_if_possible(store: Any) -> None:
+    """Let a full disk cost the next start some seconds, not this one its life."""
+    save = store.save_overload
+
+    def save_or_go_on(signature: Any, code: Any) -> None:
+        with contextlib.suppress(OSError):
+            save(signature, code)
+
+    store.save_overload = save_or_go_on

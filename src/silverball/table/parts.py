@@ -80,11 +80,11 @@ class Board(_Model):
     gravity: Annotated[float, Quantity(0.1, 100.0, "u/s²")] = 10.0
     """[u/s²] in the board, towards −x, of a sliding ball."""
     slope: Annotated[float, Quantity(1.0, 60.0, "deg")] = 6.5
-    """[deg] of the board: the force onto it is gravity / tan(slope); only friction needs it."""
+    """[deg] of the board: the force onto it is gravity / tan(slope); used by friction, so not yet."""
     rolling: Annotated[bool, Field(strict=True)] = False
-    """Whether balls roll; with friction = 0 and rolling = false the physics is the original's."""
+    """Whether balls roll. Reserved: balls slide in this version, so it must be false."""
     friction: Annotated[float, Quantity(0.0, 2.0)] = 0.0
-    """Coefficient of friction at every contact; 0 lets balls slide."""
+    """Coefficient of friction at every contact. Reserved: there is none in this version, so it must be 0."""
     ball_radius: Annotated[float, Quantity(0.1, 2.0, "u")] = 0.25
     """[u] radius of every ball."""
     ball_restitution: _Restitution = 0.95

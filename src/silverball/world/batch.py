@@ -42,7 +42,7 @@ class WorldBatch:
 
     def __init__(
         self,
-        table: Table | str | Sequence[Table],
+        table: Table | str | os.PathLike[str] | Sequence[Table],
         count: int = 1,
         seed: int | Sequence[int] = 0,
         tick_rate: int = 60,
@@ -63,7 +63,7 @@ class WorldBatch:
             ValueError: A count, seed, tick rate or number of tables that cannot be.
             TableError: The table has problems.
         """
-        self.count = checked_int("count", count, 1, 2**31)
+        self.count = checked_int("count", count, 1, 2**22)
         self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
         self.threads = _cores() if threads is None else checked_int("threads", threads, 1, 4096)
         seeds = _seeds(seed, self.count)
@@ -79,6 +79,9 @@ class WorldBatch:
             self.state["paddle"]["angle"][:, side] = rest
             self.state["paddle"]["angle_commanded"][:, side] = rest
 
+    def __repr__(self) -> str:
+        return f"<WorldBatch of {self.count} at {self.tick_rate} ticks/s on {len(self.tables)} board(s)>"
+
     def __len__(self) -> int:
         """The number of worlds."""
         return self.count
@@ -88,7 +91,7 @@ class WorldBatch:
 
         Args:
             actions: bool [world, 3]: left, right, jitter, held for all ticks with one shove on the first;
-                or [ticks, world, 3], one row for every tick.
+                or [ticks, world, 3], one row for every tick. For example `np.zeros((count, 3), bool)`.
             ticks: How many ticks.
 
         Raises:
@@ -205,16 +208,20 @@ def _seeds(seed: int | Sequence[int], count: int) -> list[int]:
 
 
 def _finished(
-    table: Table | str | Sequence[Table], seeds: list[int], count: int
+    table: Table | str | os.PathLike[str] | Sequence[Table], seeds: list[int], count: int
 ) -> tuple[tuple[Table, ...], NDArray[np.int64]]:
     """The distinct finished tables of a batch, and which world plays on which."""
-    if isinstance(table, str):
+    if isinstance(table, str | os.PathLike):
         table = load_table(table)
     if isinstance(table, Table):
         if table.random is None:
             return (table,), np.zeros(count, np.int64)
         return tuple(generate_table(seed, table) for seed in seeds), np.arange(count)
-    tables = tuple(table)
+    given = tuple(table) if isinstance(table, Sequence) else ()
+    tables = [t for t in given if isinstance(t, Table)]
+    if not tables or len(tables) < len(given):
+        got = type(table).__name__
+        raise TypeError(f"table must be a Table, a built-in name, a path, or a list of Tables, got {got}")
     if len(tables) != count:
         raise ValueError(f"table must be one table or {count} of them, one for each world, got {len(tables)}")
     finished = [

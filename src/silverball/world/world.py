@@ -6,6 +6,8 @@ A World is a `WorldBatch` of one; there is no second code path. Time moves in ti
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -49,7 +51,7 @@ class World:
         0.1
     """
 
-    def __init__(self, table: Table | str, seed: int = 0, tick_rate: int = 240) -> None:
+    def __init__(self, table: Table | str | os.PathLike[str], seed: int = 0, tick_rate: int = 240) -> None:
         self._batch = WorldBatch(table, 1, seed, tick_rate, threads=1)
         self.table: Table = self._batch.tables[0]
         self.seed = int(seed)
@@ -61,6 +63,23 @@ class World:
         self._height = self.table.board.height
         self._actions: NDArray[np.bool_] = np.zeros((1, 1, 3), np.bool_)
         self._static = (self._board, self._batch.boards.collider)
+
+    def __repr__(self) -> str:
+        return (
+            f"<World {self.table.name!r} seed {self.seed}: {self.time:g} s, balls {len(self.balls)}, "
+            f"score {self.score}>"
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """How `copy` and `pickle` make another: the records are views into arrays and must be made anew."""
+        made = (self.table, self.seed, self.tick_rate, self.save(), self._batch.tallies.copy())
+        return _made_again, made
+
+    def copy(self) -> World:
+        """Another world in the same state, which goes its own way from here."""
+        make, made = self.__reduce__()
+        world: World = make(*made)
+        return world
 
     # --- what moves it
     # -------------------------------------------------------------------------------------------
@@ -86,13 +105,13 @@ class World:
             self._raise_fault()
 
     def create_ball(
-        self, position: tuple[float, float] | None = None, velocity: tuple[float, float] = (0.0, 0.0)
+        self, position: Sequence[float] | None = None, velocity: Sequence[float] = (0.0, 0.0)
     ) -> Ball:
         """Put one more ball on the board.
 
         Args:
-            position: Centre (x, z) [u]; None: a random free place, at rest.
-            velocity: (vx, vz) [u/s] for a given position.
+            position: Centre (x, z), or (x, y, z) at the board's height [u]; None: some free place, at rest.
+            velocity: (vx, vz), or (vx, 0, vz) [u/s], for a given position.
 
         Returns:
             The new ball.
@@ -104,6 +123,8 @@ class World:
         """
         if position is not None:
             return self._put_ball(position, velocity)
+        if any(velocity):
+            raise ValueError(f"a velocity needs a position too, got velocity {tuple(velocity)} alone")
         outcome = create_ball(self._record, *self._static, self._batch.boards.place, self._log)
         if outcome == Outcome.BOARD_FULL:
             self._raise_full()
@@ -239,9 +260,9 @@ class World:
             self.save(),
         )
 
-    def _put_ball(self, position: tuple[float, float], velocity: tuple[float, float]) -> Ball:
-        x, z = _pair("position", position)
-        vx, vz = _pair("velocity", velocity)
+    def _put_ball(self, position: Sequence[float], velocity: Sequence[float]) -> Ball:
+        x, z = _pair("position", position, self._height)
+        vx, vz = _pair("velocity", velocity, 0.0)
         cap = self.table.board.speed_cap
         if math.hypot(vx, vz) > cap:
             raise ValueError(
@@ -299,11 +320,23 @@ class World:
                 raise StateError(f"the state holds a ball {-gap:.3g} u deep inside {self._names[part]}")
 
 
-def _pair(name: str, value: Any) -> tuple[float, float]:
+def _made_again(table: Table, seed: int, tick_rate: int, state: bytes, tallies: NDArray[np.int64]) -> World:
+    world = World(table, seed, tick_rate)
+    world.restore(state)
+    world._batch.tallies[:] = tallies
+    return world
+
+
+def _pair(name: str, value: Any, middle: float) -> tuple[float, float]:
+    """Two finite numbers of (x, z), or of (x, y, z) with the only y there is."""
     try:
-        first, second = (float(number) for number in value)
+        numbers = [float(number) for number in value]
     except (TypeError, ValueError):
         raise ValueError(f"{name} must be two numbers (x, z), got {value!r}") from None
-    if not (math.isfinite(first) and math.isfinite(second)):
-        raise ValueError(f"{name} must be two finite numbers (x, z), got {value!r}")
-    return first, second
+    if len(numbers) == 3 and numbers[1] == middle:
+        del numbers[1]
+    if len(numbers) != 2 or not all(map(math.isfinite, numbers)):
+        raise ValueError(
+            f"{name} must be two finite numbers (x, z), or three with y = {middle:g}, got {value!r}"
+        )
+    return numbers[0], numbers[1]

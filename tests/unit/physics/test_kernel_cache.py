@@ -50,3 +50,16 @@ def kernel_margin() -> float:
     from silverball.physics.tolerances import CAP_MARGIN
 
     return CAP_MARGIN
+
+
+def test_a_full_disk_costs_the_cache_and_nothing_else():
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    class Store:
+        save_overload = staticmethod(full)
+
+    store = Store()
+    kernel._save_if_possible(store)
+    store.save_overload("signature", "code")
+    assert hasattr(kernel.kernel(kernel_margin), "_cache"), "numba keeps its cache elsewhere: mend kernel.py"
