@@ -62,12 +62,12 @@ def main() -> None:
     while before < end:
         world = window.session.world
         if len(world.balls) < 2:
-            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0))
+            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
         for side, held in enumerate(player.press(world)):
             if held != down[side]:
                 down[side] = held
                 kind = pygame.KEYDOWN if held else pygame.KEYUP
-                pygame.event.post(pygame.Event(kind, key=keys[side], mod=0))
+                pygame.event.post(pygame.Event(kind, key=keys[side], mod=0, scancode=0))
         now = time.perf_counter()
         window.frame(now - before)
         work.append(time.perf_counter() - now)

@@ -32,6 +32,13 @@ def test_play_without_a_display_names_the_demo_in_one_sentence(silverball, drive
     assert_refused(result, "no display", "silverball demo")
 
 
+def test_play_complains_of_the_table_before_the_display(silverball):
+    result = silverball("play", "--table", "clasic", env=NO_DISPLAY)
+    assert result.returncode == 2
+    assert "classic" in result.stderr
+    assert "no display" not in result.stderr
+
+
 def test_bare_silverball_without_a_display_makes_a_demo_and_overwrites_nothing(silverball, tmp_path):
     (tmp_path / "demo.gif").write_text("mine")
     result = silverball(env=NO_DISPLAY, cwd=tmp_path)
@@ -99,6 +106,8 @@ def test_show_draws_a_table(silverball, tmp_path):
         ("demo", "nowhere/film.gif", "nowhere"),
         ("show", "table.gif", ".png"),
         ("show", "nowhere/table.png", "nowhere"),
+        ("demo", "film.gif/", "folder"),
+        ("show", "table.png/.", "folder"),
     ],
 )
 def test_a_file_that_cannot_be_written_is_refused_at_once(silverball, tmp_path, command, name, word):
@@ -122,8 +131,9 @@ def test_a_gif_too_large_to_make_is_refused(silverball, tmp_path):
     assert_refused(result, ".mp4")
 
 
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("ending", ["gif", "mp4"])
-def test_an_interruption_leaves_no_half_file(tmp_path, ending):
+def test_an_interruption_leaves_no_half_file(tmp_path, ending, sent):
     command = [sys.executable, "-m", "silverball", "demo", "--out", f"film.{ending}", "--seconds", "60"]
     process = subprocess.Popen(
         command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
@@ -133,7 +143,7 @@ def test_an_interruption_leaves_no_half_file(tmp_path, ending):
         time.sleep(0.02)
     assert list(tmp_path.iterdir()), "the film was never begun"
     time.sleep(0.2)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(sent)
     _, errors = process.communicate(timeout=30)
     assert process.returncode not in (0, 2)
     assert "Traceback" not in errors

@@ -61,6 +61,58 @@ def test_help_pause_hint_and_frame_rate_change_the_picture(player):
         assert (seen[-1] != seen[-2]).any()
 
 
+def covered(player):
+    """Where a message changes the picture while time stands still."""
+    player.tap(pygame.K_p)
+    before = pixels(player).astype(int)
+    player.window.messages.say("two balls are the most")
+    player.frames(1, 0.0)
+    return (pixels(player).astype(int) != before).any(axis=2)
+
+
+def test_a_message_hides_no_play_and_lies_above_the_veil_of_the_pause(player):
+    player.tap(pygame.K_SPACE)
+    changed = covered(player)
+    apron = player.window._picture.apron.top + player.window._picture.area.top
+    assert changed.any()
+    assert not changed[:, : apron - 1].any()
+    assert pixels(player)[:, apron:].max() > 220  # its letters, not dimmed
+
+
+def test_a_long_seed_can_be_read_in_full_with_the_keys_and_with_the_frame_rate(open_window, monkeypatch):
+    from silverball.app import overlay
+
+    written = []
+    real = overlay.line
+    monkeypatch.setattr(overlay, "line", lambda text, *rest: written.append(text) or real(text, *rest))
+    player = open_window("random", seed=1234567890123456789)
+    for key in (pygame.K_F1, pygame.K_F1, pygame.K_F3):
+        written.clear()
+        player.tap(key)
+        assert ("seed 1234567890123456789" in written) == (
+            player.window.shows_help or player.window.shows_frame_rate
+        )
+
+
+def test_the_frame_rate_stands_above_the_apron(player):
+    player.tap(pygame.K_p)
+    before = pixels(player)
+    player.tap(pygame.K_F3)
+    apron = player.window._picture.apron.top + player.window._picture.area.top
+    assert (pixels(player) != before)[:, :apron].any()
+    assert (pixels(player) == before)[:, apron:].all()
+
+
+def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
+    from silverball.app.startup import compiling_words
+    from silverball.physics import kernel
+
+    assert "once" in compiling_words()
+    monkeypatch.setattr(kernel, "cache_folder", lambda: None)
+    assert "every start" in compiling_words()
+    assert "once" not in compiling_words()
+
+
 def test_the_first_window_fits_a_screen_of_768_pixels(player):
     screen = player.window._screen
     screen.desktop = (1366, 768)

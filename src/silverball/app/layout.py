@@ -55,6 +55,13 @@ def panel(content: pygame.Surface, padding: int) -> pygame.Surface:
     return result
 
 
+def plate(content: pygame.Surface, width: int, height: int) -> pygame.Surface:
+    """A dark rounded plate of a given size with something in its middle."""
+    result = _rounded(width, height, height // 6, (*palette.PANEL, 255), palette.PANEL_INNER)
+    result.blit(content, content.get_rect(center=(width // 2, height // 2)))
+    return result
+
+
 @lru_cache(maxsize=256)
 def key_cap(label: str, size: int) -> pygame.Surface:
     """A key as it looks on a keyboard; "<" and ">" are the arrow keys."""

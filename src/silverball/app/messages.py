@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 LEAST_SECONDS = 2.2
+MOST_SECONDS_IN_PLAY = 2.5  # while a ball needs the player's eyes
 SECONDS_PER_LETTER = 0.045  # an unhurried reader; chosen by reading them aloud
 FADE_SECONDS = 0.4
 
 
 class Messages:
-    """The message on screen; a new one takes its place."""
+    """The message on screen; a new one takes its place, the same one again changes nothing."""
 
     def __init__(self) -> None:
         self.text = ""
@@ -17,16 +18,20 @@ class Messages:
     def say(self, text: str) -> None:
         """Show a message; its first letter is made a capital, a full stop is added."""
         text = text[:1].upper() + text[1:]
-        self.text = text if text.endswith((".", "!", "?", "…")) else f"{text}."
+        text = text if text.endswith((".", "!", "?", "…")) else f"{text}."
+        if text == self.text and self._left > 0.0:
+            return
+        self.text = text
         self._left = LEAST_SECONDS + SECONDS_PER_LETTER * len(text)
 
     def clear(self) -> None:
         """Show none."""
         self._left = 0.0
 
-    def pass_time(self, seconds: float) -> None:
-        """Let real time pass."""
-        self._left = max(0.0, self._left - seconds)
+    def pass_time(self, seconds: float, *, in_play: bool = False) -> None:
+        """Let real time pass; while a ball is in play no message stays long."""
+        most = MOST_SECONDS_IN_PLAY if in_play else self._left
+        self._left = max(0.0, min(self._left, most) - seconds)
 
     @property
     def strength(self) -> float:

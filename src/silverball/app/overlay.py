@@ -11,12 +11,15 @@ from functools import lru_cache
 import pygame
 
 from silverball.app.controls import BINDINGS, Action, Binding
-from silverball.app.layout import column, in_columns, key_cap, panel, row
+from silverball.app.framerate import FrameTimes
+from silverball.app.layout import column, in_columns, key_cap, panel, plate, row
 from silverball.drawing import palette
 from silverball.drawing.text import line, wrapped
 
 TEXT_SIZE = 0.5  # [u] of ordinary text
 LEAST_TEXT_SIZE = 11  # [pixel]
+HINT_AT = 0.72  # of the height, 0 is the top: below the middle, above the paddles of most tables
+LEAST_MESSAGE_SIZE = 8  # [pixel] to which a message shrinks before it grows beyond its place
 DIM = (0, 0, 0, 120)  # over the table behind the help and the pause
 
 
@@ -27,24 +30,27 @@ def text_size(scale: float) -> int:
 
 def draw_first_hint(target: pygame.Surface, scale: float) -> None:
     """Before the first ball: what to press."""
-    _place(target, _first_hint(text_size(scale)), 0.6)
+    _place(target, _first_hint(text_size(scale)), HINT_AT)
 
 
 def draw_next_ball_hint(target: pygame.Surface, scale: float, seconds: float) -> None:
     """When no ball is left: how to get another; it breathes slowly."""
-    _place(target, _next_ball_hint(text_size(scale)), 0.6, 0.62 + 0.38 * math.cos(3.0 * seconds))
+    _place(target, _next_ball_hint(text_size(scale)), HINT_AT, 0.62 + 0.38 * math.cos(3.0 * seconds))
 
 
-def draw_message(target: pygame.Surface, scale: float, text: str, strength: float) -> None:
-    """A short message below the score."""
-    width = round(0.8 * target.get_width())
-    _place(target, _message(text, text_size(scale), width), 0.15, strength)
+def draw_message(
+    target: pygame.Surface, apron: pygame.Rect, scale: float, text: str, strength: float
+) -> None:
+    """A short message on the apron, where no play is; a long one grows upwards from there."""
+    image = _message(text, text_size(scale), target.get_width(), target.get_height() - apron.top)
+    image.set_alpha(round(255 * min(max(strength, 0.0), 1.0)))
+    target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, target.get_height())))
 
 
-def draw_help(target: pygame.Surface, scale: float) -> None:
-    """All keys."""
+def draw_help(target: pygame.Surface, scale: float, seed: int) -> None:
+    """All keys, and the seed in full."""
     _dim(target)
-    _place(target, _help(text_size(scale), round(0.94 * target.get_width())), 0.5)
+    _place(target, _help(text_size(scale), round(0.94 * target.get_width()), seed), 0.5)
 
 
 def draw_pause(target: pygame.Surface, scale: float) -> None:
@@ -53,11 +59,16 @@ def draw_pause(target: pygame.Surface, scale: float) -> None:
     _place(target, _pause(text_size(scale)), 0.5)
 
 
-def draw_frame_rate(target: pygame.Surface, scale: float, per_second: float, slowest: float) -> None:
-    """Frames per second, and the longest time between two of them in the last second [s]."""
-    text = f"{per_second:.0f} frames/s, slowest {1000.0 * slowest:.0f} ms"
-    image = line(text, max(round(0.36 * scale), 10), palette.TEXT)
-    target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, target.get_height() - 2)))
+def draw_frame_rate(
+    target: pygame.Surface, apron: pygame.Rect, scale: float, times: FrameTimes, seed: int
+) -> None:
+    """Above the apron: frames per second, the longest time between two of them, and the seed in full."""
+    texts = (
+        f"{times.per_second:.0f} frames/s, slowest {1000.0 * times.slowest:.0f} ms",
+        f"seed {seed}",
+    )
+    image = column([line(text, text_size(scale), palette.TEXT) for text in texts], 0)
+    target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, apron.top - round(0.1 * scale))))
 
 
 @lru_cache(maxsize=4)
@@ -83,13 +94,17 @@ def _next_ball_hint(size: int) -> pygame.Surface:
 
 
 @lru_cache(maxsize=16)
-def _message(text: str, size: int, width: int) -> pygame.Surface:
-    lines = wrapped(text, size, width - 2 * size)
-    return panel(column([line(words, size, palette.TEXT) for words in lines], size // 6), round(0.8 * size))
+def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
+    padding = size // 2
+    lines = wrapped(text, size, width - 2 * padding)
+    words = column([line(text, size, palette.TEXT) for text in lines], 0)
+    if words.get_height() + 2 > height and size > LEAST_MESSAGE_SIZE:
+        return _message(text, size - 1, width, height)
+    return plate(words, width, max(height, words.get_height() + 2))
 
 
 @lru_cache(maxsize=4)
-def _help(size: int, width: int) -> pygame.Surface:
+def _help(size: int, width: int, seed: int) -> pygame.Surface:
     gap = size // 2
     rows = [
         [
@@ -99,10 +114,11 @@ def _help(size: int, width: int) -> pygame.Surface:
         for binding in BINDINGS
     ]
     title = line("KEYS", round(1.2 * size), palette.SCORE)
-    content = column([title, column(in_columns(rows, gap), gap // 2, centered=False)], gap)
+    keys = column(in_columns(rows, gap), gap // 2, centered=False)
+    content = column([title, keys, line(f"seed {seed}", size, palette.FAINT_TEXT)], gap)
     whole = panel(content, size)
     if whole.get_width() > width and size > 7:
-        return _help(size - 1, width)
+        return _help(size - 1, width, seed)
     return whole
 
 

@@ -31,10 +31,12 @@ class Picture:
     Args:
         table: A finished table.
         window_size: Width and height of the window [pixel].
+        board_seed: What the board was made from, if it is not always the same.
     """
 
-    def __init__(self, table: Table, window_size: tuple[int, int]) -> None:
+    def __init__(self, table: Table, window_size: tuple[int, int], board_seed: int | None = None) -> None:
         self.table = table
+        self._board_seed = board_seed
         self._window_size = window_size
         self.area = fitted(table, window_size)
         self._painting: _Painting | None = None
@@ -44,6 +46,11 @@ class Picture:
     def scale(self) -> float:
         """Pixels per table unit."""
         return self.renderer.camera.scale
+
+    @property
+    def apron(self) -> pygame.Rect:
+        """The plate below the gutter [pixel of the table's area]: whatever covers it hides no play."""
+        return self.renderer.apron
 
     @property
     def is_sharp(self) -> bool:
@@ -80,13 +87,13 @@ class Picture:
         pixels = size[0] * size[1]
         if pixels <= AT_ONCE:
             self._painting = None
-            return Renderer(self.table, size)
+            return Renderer(self.table, size, board_seed=self._board_seed)
         shrink = (AT_ONCE / pixels) ** 0.5
         small = (max(1, round(size[0] * shrink)), max(1, round(size[1] * shrink)))
         rough = paint_still(self.table, Camera(self.table.board, small))
         if self._painting is None or self._painting.is_done:
             self._painting = _Painting(self.table, size)
-        return Renderer(self.table, size, rough)
+        return Renderer(self.table, size, rough, board_seed=self._board_seed)
 
     def _sharpen(self) -> None:
         painting = self._painting

@@ -58,6 +58,15 @@ class Startup:
             self._error = error
 
 
+def compiling_words() -> str:
+    """What to tell while the physics is compiled; asked only then, for it loads the compiler."""
+    from silverball.physics.kernel import cache_folder
+
+    if cache_folder() is None:
+        return "compiling the physics, as at every start: its cache folder cannot be written…"
+    return "compiling the physics for this machine, once; this takes some seconds…"
+
+
 def warm_up(table: Table) -> None:
     """Call once what every game calls, so that no later call has to load or compile."""
     from silverball.app.controls import Held

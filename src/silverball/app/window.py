@@ -15,14 +15,14 @@ import pygame
 
 from silverball.app import overlay
 from silverball.app.clock import TickClock
-from silverball.app.controls import Action, Buttons, action_of, says_something
+from silverball.app.controls import Action, Buttons, action_of, is_latin, meant, says_something
 from silverball.app.framerate import FrameTimes
 from silverball.app.keep import LAST_GAME, keep
 from silverball.app.messages import Messages
 from silverball.app.picture import Picture
 from silverball.app.screen import Screen
 from silverball.app.session import TICK_RATE, Session
-from silverball.app.startup import Startup
+from silverball.app.startup import Startup, compiling_words
 from silverball.drawing import Moment, best_size
 from silverball.errors import BoardFull, FaultError, NoRoom, SilverballError
 from silverball.table import Table, generate_table, load_table
@@ -59,14 +59,14 @@ class Window:
         on_compile: Callable[[], None] = lambda: None,
         on_ready: Callable[[], None] = lambda: None,
     ) -> None:
-        self._screen = Screen("Silverball", without_display=without_display)
         self._recipe = load_table(table) if isinstance(table, str) else table
+        self._screen = Screen("Silverball", without_display=without_display)
         self.seed = secrets.randbelow(SEEDS) if seed is None else seed
         self.table = self._finished()
         self._on_ready = on_ready
         self._startup: Startup | None = Startup(self.table, on_compile)
         self._screen.open(best_size(self.table.board, height or self._screen.first_height))
-        self._picture = Picture(self.table, self._screen.surface.get_size())
+        self._picture = self._new_picture()
         self.session: Session | None = None
         self.messages = Messages()
         self._buttons = Buttons()
@@ -75,7 +75,6 @@ class Window:
         self._data_folder = data_folder
         self._seconds = 0.0  # real time so far
         self._wants_ball = False  # Space was pressed before the physics was ready
-        self._hinted = False  # about a ball that lies still
         self.is_paused = self.shows_help = self.shows_frame_rate = self.is_over = False
         self._answers: dict[Action, Callable[[], None]] = {
             Action.CREATE: self._create_ball,
@@ -83,11 +82,11 @@ class Window:
             Action.PAUSE: self._pause,
             Action.NEW_BOARD: self._new_board,
             Action.SAME_BOARD: self._same_board,
-            Action.MUTE: lambda: self.messages.say("there are no sounds yet, so there is nothing to mute"),
+            Action.MUTE: lambda: self.messages.say("no sounds yet, so there is nothing to mute"),
             Action.HELP: self._help,
             Action.FRAME_RATE: self._show_frame_rate,
             Action.FULL_SCREEN: self._screen.toggle_full,
-            Action.QUIT: self._quit,
+            Action.QUIT: self._go_back,
         }
 
     # --- the loop ---------------------------------------------------------------------------------
@@ -117,7 +116,7 @@ class Window:
         for event in pygame.event.get():
             self._answer(event)
         self._play(elapsed)
-        self.messages.pass_time(elapsed)
+        self.messages.pass_time(elapsed, in_play=self._is_playing and self._has_ball)
         self._draw()
 
     def close(self) -> None:
@@ -142,13 +141,22 @@ class Window:
             if self._wants_ball:
                 self._create_ball()
         elif self._startup is not None and self._startup.is_compiling and self.messages.strength < 1.0:
-            self.messages.say(
-                "the physics is being compiled for this machine. This takes some seconds, once…"
-            )
+            self.messages.say(compiling_words())
+
+    @property
+    def _is_playing(self) -> bool:
+        """Whether time goes on for the balls."""
+        waits = self.is_paused or self.shows_help
+        return self.session is not None and not waits and not self.session.world.fault
+
+    @property
+    def _has_ball(self) -> bool:
+        return self.session is not None and bool(self.session.world.balls)
 
     def _play(self, elapsed: float) -> None:
         session = self.session
-        if session is None or self.is_paused or self.shows_help or session.world.fault:
+        if session is None or not self._is_playing:
+            self._buttons.forget_taps()
             return
         ticks = self._clock.advance(elapsed)
         if ticks == 0:
@@ -160,22 +168,17 @@ class Window:
                 f"{error.fault}: this board had to stop. {self._keep_log('fault')} R makes a new one"
             )
         self._picture.note(session.take_events(), session.world.tick_rate)
-        if not session.has_still_ball:
-            self._hinted = False
-        elif not self._hinted:
-            self._hinted = True
+        if session.has_still_ball and self.messages.strength < 1.0:  # it stays there, and is soon said again
             self.messages.say("the ball lies still: Z gives it a shove")
 
     def _draw(self) -> None:
-        moment = (
-            Moment.before(self.table, self.seed) if self.session is None else Moment.of(self.session.world)
-        )
+        moment = Moment.before(self.table) if self.session is None else Moment.of(self.session.world)
         target = self._picture.draw(moment, self._screen.surface)
-        scale = self._picture.scale
-        if self.messages.strength > 0.0:
-            overlay.draw_message(target, scale, self.messages.text, self.messages.strength)
+        scale, apron = self._picture.scale, self._picture.apron
+        if self.shows_frame_rate:
+            overlay.draw_frame_rate(target, apron, scale, self._frame_times, self.seed)
         if self.shows_help:
-            overlay.draw_help(target, scale)
+            overlay.draw_help(target, scale, self.seed)
         elif self.is_paused:
             overlay.draw_pause(target, scale)
         elif self.session is not None and not moment.balls:
@@ -183,31 +186,38 @@ class Window:
                 overlay.draw_next_ball_hint(target, scale, self._seconds)
             else:
                 overlay.draw_first_hint(target, scale)
-        if self.shows_frame_rate:
-            times = self._frame_times
-            overlay.draw_frame_rate(target, scale, times.per_second, times.slowest)
+        if self.messages.strength > 0.0:
+            overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
         self._screen.flip()
 
     # --- answers to the player --------------------------------------------------------------------
 
     def _answer(self, event: pygame.Event) -> None:
         if event.type == pygame.KEYDOWN:
-            self._answer_key(event.key, event.mod)
+            self._answer_key(meant(event.key, event.scancode), event.key, event.mod)
         elif event.type == pygame.KEYUP:
-            self._buttons.release(event.key)
+            self._buttons.release(meant(event.key, event.scancode))
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._buttons.release_all()
         elif event.type in (pygame.QUIT, pygame.WINDOWCLOSE):
             self._quit()
 
-    def _answer_key(self, key: int, modifiers: int) -> None:
+    def _answer_key(self, key: int, label: int, modifiers: int) -> None:
         action = action_of(key, modifiers)
-        if action in (Action.LEFT, Action.RIGHT):
-            self._buttons.press(key)
+        if action is Action.LEFT or action is Action.RIGHT:
+            self._press(key, "left" if action is Action.LEFT else "right")
         elif action is not None:
             self._answers[action]()
         elif says_something(key) and not modifiers & (pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META):
-            self.messages.say(f"{pygame.key.name(key)} does nothing here; F1 shows the keys")
+            name = chr(label) if is_latin(label) else "this key"
+            self.messages.say(f"{name} does nothing here; F1 shows the keys")
+
+    def _press(self, key: int, side: str) -> None:
+        self._buttons.press(key)
+        if not self._is_playing:
+            self._buttons.forget_taps()
+        elif all(paddle.side != side for paddle in self.table.paddle):
+            self.messages.say(f"this table has no {side} paddle")
 
     def _create_ball(self) -> None:
         self._wants_ball = self.session is None
@@ -216,12 +226,9 @@ class Window:
                 session.create_ball()
             except BoardFull:
                 count = session.world.table.board.max_balls
-                there = "one ball is" if count == 1 else f"{count} balls are"
-                self.messages.say(
-                    f"{there} on the board already, and it takes no more. Wait until one is gone"
-                )
-            except NoRoom as reason:
-                self.messages.say(str(reason))
+                self.messages.say("one ball is the most" if count == 1 else f"{count} balls are the most")
+            except NoRoom:
+                self.messages.say("there is no room for a ball now")
 
     def _jitter(self) -> None:
         if session := self._session_in_play():
@@ -245,13 +252,29 @@ class Window:
         return None
 
     def _pause(self) -> None:
-        self.is_paused = not self.is_paused
+        if self.shows_help:
+            self.messages.say("the game waits while the keys are shown; F1 goes on")
+        else:
+            self.is_paused = not self.is_paused
+            self.messages.clear()  # it may tell of the state that has just ended
 
     def _help(self) -> None:
         self.shows_help = not self.shows_help
+        self.messages.clear()
 
     def _show_frame_rate(self) -> None:
         self.shows_frame_rate = not self.shows_frame_rate
+
+    def _go_back(self) -> None:
+        """One step out: of the help, of the pause, of the full screen, and only then of the game."""
+        if self.shows_help:
+            self._help()
+        elif self.is_paused:
+            self._pause()
+        elif self._screen.is_full:
+            self._screen.toggle_full()
+        else:
+            self._quit()
 
     def _quit(self) -> None:
         self.is_over = True
@@ -264,6 +287,8 @@ class Window:
             self.messages.say(f"board {self.seed}. Shift+R plays it again")
 
     def _same_board(self) -> None:
+        for shift in (pygame.K_LSHIFT, pygame.K_RSHIFT):  # it was meant for R, not for a paddle
+            self._buttons.release(shift)
         self._begin(self.seed)
         self.messages.say(f"board {self.seed} from the start")
 
@@ -273,15 +298,19 @@ class Window:
         table = self._finished()
         if table != self.table:
             self.table = table
-            self._picture = Picture(table, self._screen.surface.get_size())
+            self._picture = self._new_picture()
         self._picture.renderer.effects.forget()
-        self.is_paused = self.shows_help = self._hinted = False
+        self.is_paused = self.shows_help = False
         if self._startup is None:
             self._keep_last_game()
             self.session = Session(table, seed)
 
     def _finished(self) -> Table:
         return self._recipe if self._recipe.random is None else generate_table(self.seed, self._recipe)
+
+    def _new_picture(self) -> Picture:
+        board_seed = None if self._recipe.random is None else self.seed
+        return Picture(self.table, self._screen.surface.get_size(), board_seed)
 
     # --- keeping logs -----------------------------------------------------------------------------
 

@@ -7,6 +7,8 @@ from typing import Any
 
 import typer
 
+MOST_ACTIONS = 300_000_000  # three bytes each
+
 
 def bench(
     worlds: int = typer.Option(4096, min=1, max=1_000_000, help="Worlds side by side."),
@@ -21,7 +23,13 @@ def bench(
     Example: `silverball bench --json`
     """
     from silverball.cli.console import compiling, errors
+    from silverball.errors import SilverballError
 
+    if worlds * frames > MOST_ACTIONS:
+        raise SilverballError(
+            f"--worlds {worlds} times --frames {frames} are more actions than memory should hold; "
+            f"keep the product below {MOST_ACTIONS:,}"
+        )
     with compiling():
         from silverball.players.benchmark import measure
         from silverball.table import load_table

@@ -14,11 +14,11 @@ errors = Console(stderr=True)
 
 
 @contextmanager
-def compiling() -> Iterator[None]:
+def compiling(kernel: str = "run_worlds") -> Iterator[None]:
     """A moving line while the physics is compiled: on the first start only, later ones load it from disk."""
     from silverball.physics.kernel import cache_folder, forget_old_code, is_compiled
 
-    if is_compiled():
+    if is_compiled(kernel):
         yield
         return
     forget_old_code()

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from silverball.cli.output import file_name
+
 if TYPE_CHECKING:
+    from silverball.drawing import Renderer
     from silverball.drawing.film import Picture
-    from silverball.table import Table
 
 TICK_RATE = 240
 SECOND_BALL_AFTER = 3.0  # [s]
@@ -20,7 +22,10 @@ GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in m
 
 def demo(
     out: Path | None = typer.Option(
-        None, metavar="FILE", help="Ends in .gif, .mp4 or .png; demo.gif in this folder if not given."
+        None,
+        parser=file_name,
+        metavar="FILE",
+        help="Ends in .gif, .mp4 or .png; demo.gif in this folder if not given.",
     ),
     seconds: float = typer.Option(20.0, min=0.1, max=600.0, help="Of play. A PNG shows the last moment."),
     table: str = typer.Option("classic", help="A built-in table or a table file."),
@@ -30,7 +35,7 @@ def demo(
 ) -> None:
     """Let the program play by itself and make a film of it; no display is needed.
 
-    Example: [bold]silverball demo --out demo.gif --seconds 20[/bold]
+    Example: `silverball demo --out demo.gif --seconds 20`
     """
     make_demo(out or free_name("demo.gif"), seconds, table, seed, size, force=force)
 
@@ -48,7 +53,7 @@ def make_demo(
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
-    from silverball.drawing import best_size
+    from silverball.drawing import Renderer, best_size
     from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
     from silverball.errors import OutputError
     from silverball.table import generate_table, load_table
@@ -56,10 +61,11 @@ def make_demo(
     check_output(out, (".gif", ".mp4", ".png"), force=force)
     ending = out.suffix.lower()
     board = load_table(table)
+    board_seed = None if board.random is None else seed
     if board.random is not None:
         board = generate_table(seed, board)
     height = size or HEIGHTS[ending]
-    width, _ = best_size(board.board, height)
+    width, height = best_size(board.board, height)
     if ending == ".gif" and width * height * seconds * FILM_RATES[ending] > GIF_LIMIT:
         raise OutputError(
             f"{out}: a GIF of {seconds:g} s at {width} × {height} pixels is too large to make; "
@@ -72,6 +78,7 @@ def make_demo(
 
         warm_up(board)
         make_player("reflex").press(World(board))
+    renderer = Renderer(board, (width, height), board_seed=board_seed)
     with Progress(console=errors, transient=True) as bar:
         task = bar.add_task(f"playing into {out.name}", total=seconds)
 
@@ -79,28 +86,26 @@ def make_demo(
             bar.update(task, completed=done)
 
         if ending == ".png":
-            pictures = film(board, seed, seconds, 1.0 / seconds, height, advance)
-            write_picture(out, list(pictures)[-1])
+            write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, advance))[-1])
         else:
-            write_film(out, film(board, seed, seconds, FILM_RATES[ending], height, advance))
+            write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], advance))
     typer.echo(f"wrote {out}")
 
 
 def film(
-    table: Table, seed: int, seconds: float, rate: float, height: int, advance: Callable[[float], None]
+    renderer: Renderer, seed: int, seconds: float, rate: float, advance: Callable[[float], None]
 ) -> Iterator[Picture]:
     """The pictures of the program playing, `rate` for every second of play."""
-    from silverball.drawing import Moment, Renderer, best_size
+    from silverball.drawing import Moment
     from silverball.players import make_player
     from silverball.world import World
 
-    world = World(table, seed, TICK_RATE)
-    renderer = Renderer(table, best_size(table.board, height))
+    world = World(renderer.table, seed, TICK_RATE)
     player = make_player("reflex")
     for number in range(1, max(round(seconds * rate), 1) + 1):
         while world.tick < round(number * TICK_RATE / rate):
             wanted = 2 if world.time > SECOND_BALL_AFTER else 1
-            if len(world.balls) < min(wanted, table.board.max_balls):
+            if len(world.balls) < min(wanted, world.table.board.max_balls):
                 world.create_ball()
             world.step(*player.press(world))
             renderer.note(world.events, TICK_RATE)

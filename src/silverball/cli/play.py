@@ -19,18 +19,24 @@ def play(
 ) -> None:
     """Play in a window: A and D move the paddles, Space brings a ball, F1 shows all keys.
 
-    Example: [bold]silverball play --table random --seed 7[/bold]
+    Example: `silverball play --table random --seed 7`
     """
     open_window(table, seed)
 
 
 def open_window(table: str = "random", seed: int | None = None) -> None:
     """Open the window and play, telling the terminal while the physics is being compiled."""
+    from silverball.app.startup import compiling_words
     from silverball.app.window import Window
     from silverball.cli.console import errors
 
-    status = errors.status("compiling the physics for this machine, once; this takes some seconds …")
-    window = Window(table, seed, on_compile=status.start, on_ready=status.stop)
+    status = errors.status("compiling the physics…")
+
+    def tell() -> None:
+        status.update(compiling_words())
+        status.start()
+
+    window = Window(table, seed, on_compile=tell, on_ready=status.stop)
     try:
         window.run()
     finally:

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import typer
 
+from silverball.cli.output import file_name
+
 
 def show(
-    out: Path = typer.Option(..., metavar="FILE.png", help="Where to write the picture."),
+    out: Path = typer.Option(..., parser=file_name, metavar="FILE.png", help="Where to write the picture."),
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(0, min=0, max=2**63 - 1, help="Of the board, if the table makes random ones."),
     size: int = typer.Option(1152, min=100, max=8640, help="Height of the picture in pixels."),
@@ -16,7 +18,7 @@ def show(
 ) -> None:
     """Draw a table into a picture.
 
-    Example: [bold]silverball show --table random --seed 7 --out seven.png[/bold]
+    Example: `silverball show --table random --seed 7 --out seven.png`
     """
     from silverball.drawing import Moment, Renderer, best_size
     from silverball.drawing.film import check_output, write_picture
@@ -24,8 +26,9 @@ def show(
 
     check_output(out, (".png",), force=force)
     board = load_table(table)
+    board_seed = None if board.random is None else seed
     if board.random is not None:
         board = generate_table(seed, board)
-    picture = Renderer(board, best_size(board.board, size)).array(Moment.before(board, seed))
-    write_picture(out, picture)
+    renderer = Renderer(board, best_size(board.board, size), board_seed=board_seed)
+    write_picture(out, renderer.array(Moment.before(board)))
     typer.echo(f"wrote {out}")

@@ -34,13 +34,13 @@ def simulate(
     from silverball.players import player_kind
     from silverball.table import generate_table, load_table
 
-    if round(seconds * tick_rate) < 1:
+    if not seconds * tick_rate >= 1.0:  # also refuses what is no number
         raise SilverballError(
             f"--seconds: {seconds:g} s is less than one tick of 1/{tick_rate} s; ask for more"
         )
     kind = player_kind(player)
     loaded = load_table(table)
-    with compiling():
+    with compiling("play_worlds"):
         from silverball.players.games import play
         from silverball.world import WorldBatch
 

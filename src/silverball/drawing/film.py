@@ -1,24 +1,24 @@
 """How do pictures become a file? PNG for one, GIF or MP4 for many.
 
-A file is written under a temporary name beside its place and renamed when it is whole: an interruption leaves
-nothing.
+A file is written under a temporary name beside its place and renamed when all of it is on the disk: an
+interruption or a full disk leaves nothing, and a file that was there stays as it was.
 """
 
 from __future__ import annotations
 
-import contextlib
+import io
 import os
-import tempfile
+import secrets
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import IO, TYPE_CHECKING, TypeAlias, cast
 
 import numpy as np
-import pygame
 from numpy.typing import NDArray
 
-from silverball.errors import MissingExtra, OutputError
+from silverball.drawing.video import require_ffmpeg, write_mp4
+from silverball.errors import OutputError
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -57,7 +57,7 @@ def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> 
     if not os.access(path.parent, os.W_OK):
         raise OutputError(f"{path}: no permission to write into the folder {str(path.parent)!r}")
     if path.suffix.lower() == ".mp4":
-        _ffmpeg()
+        require_ffmpeg()
 
 
 def write_picture(path: Path, picture: Picture) -> None:
@@ -66,9 +66,11 @@ def write_picture(path: Path, picture: Picture) -> None:
     Raises:
         OutputError: It cannot be written.
     """
-    rows, columns = picture.shape[:2]
-    surface = pygame.image.frombuffer(picture.tobytes(), (columns, rows), "RGB")
-    _write_whole(path, lambda place: pygame.image.save(surface, place))
+    from PIL import Image
+
+    encoded = io.BytesIO()
+    Image.fromarray(picture).save(encoded, "PNG")
+    _write_whole(path, lambda place: place.write_bytes(encoded.getbuffer()))
 
 
 def write_film(path: Path, pictures: Iterable[Picture]) -> None:
@@ -82,39 +84,38 @@ def write_film(path: Path, pictures: Iterable[Picture]) -> None:
     _write_whole(path, lambda place: write(place, iter(pictures)))
 
 
-def _write_whole(path: Path, write: Callable[[str], None]) -> None:
+def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
+    temporary = path.with_name(f".silverball-{secrets.token_hex(8)}{path.suffix.lower()}")
     try:
-        handle, temporary = tempfile.mkstemp(
-            prefix=".silverball-", suffix=path.suffix.lower(), dir=path.parent
-        )
-        os.close(handle)
         try:
             write(temporary)
-            os.chmod(temporary, 0o666 & ~_umask())
+            with open(temporary, "rb+") as file:
+                os.fsync(file.fileno())  # some disks tell only now that they are full
             os.replace(temporary, path)
         finally:
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(temporary)
+            temporary.unlink(missing_ok=True)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written ({error.strerror or error})") from None
 
 
-def _write_gif(place: str, pictures: Iterator[Picture]) -> None:
+def _write_gif(place: Path, pictures: Iterator[Picture]) -> None:
     beginning = list(islice(pictures, PALETTE_PICTURES))
     palette = _palette(beginning[::PALETTE_EVERY])
     pattern = _pattern(beginning[0].shape)
     images = (_with_palette(picture, palette, pattern) for picture in chain(beginning, pictures))
     first = next(images)
     hundredths = 100 // FILM_RATES[".gif"]
-    first.save(
-        place,
-        save_all=True,
-        append_images=images,
-        duration=10 * hundredths,
-        loop=0,
-        disposal=1,
-        optimize=True,
-    )
+    with open(place, "wb") as file:
+        first.save(
+            cast(IO[bytes], _Sink(file)),
+            "GIF",
+            save_all=True,
+            append_images=images,
+            duration=10 * hundredths,
+            loop=0,
+            disposal=1,
+            optimize=True,
+        )
 
 
 def _palette(pictures: list[Picture]) -> Image:
@@ -151,33 +152,17 @@ def _pattern(shape: tuple[int, ...]) -> NDArray[np.int16]:
     return np.rint(DITHER * even).astype(np.int16)[..., None]
 
 
-def _write_mp4(place: str, pictures: Iterator[Picture]) -> None:
+def _write_mp4(place: Path, pictures: Iterator[Picture]) -> None:
     first = next(pictures)
-    writer = _ffmpeg().write_frames(
-        place,
-        (first.shape[1], first.shape[0]),
-        fps=FILM_RATES[".mp4"],
-        quality=7,
-        macro_block_size=2,
-        output_params=["-movflags", "+faststart"],
-    )
-    writer.send(None)
-    try:
-        for picture in chain([first], pictures):
-            writer.send(np.ascontiguousarray(picture))
-    finally:
-        writer.close()
+    write_mp4(place, chain([first], pictures), (first.shape[1], first.shape[0]), FILM_RATES[".mp4"])
 
 
-def _ffmpeg() -> Any:
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        raise MissingExtra("writing an MP4", "video") from None
-    return imageio_ffmpeg
+class _Sink:
+    """A file as Pillow may have it: without a descriptor, into which it would write past Python.
 
+    Its own writing does not notice when only a part of the bytes finds room.
+    """
 
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+    def __init__(self, file: IO[bytes]) -> None:
+        self.write = file.write
+        self.flush = file.flush

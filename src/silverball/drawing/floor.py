@@ -75,14 +75,14 @@ def _emblem(canvas: NDArray[np.float32], camera: Camera) -> None:
     size = 0.125 * board.width
     patch = camera.patch(center[0] - 2 * size, -2 * size, center[0] + 2 * size, 2 * size)
     region, pixel = canvas[patch.rows_columns], patch.pixel
-    for radius, strength in ((size, 0.5), (0.86 * size, 0.25)):
+    for radius, strength in ((size, 0.16), (0.86 * size, 0.08)):
         edge = fields.circle(patch.x, patch.z, center, radius)
         light(region, palette.EMBLEM, 0.35 * strength * fields.glow(np.abs(edge), 0.12 * size))
         paint(region, palette.EMBLEM, strength * fields.ring(edge, 0.016 * size, pixel))
     star = fields.polygon(patch.x, patch.z, _star(center, 0.66 * size)) - np.float32(0.05 * size)
-    light(region, palette.EMBLEM_HEART, 0.22 * fields.glow(star, 0.12 * size))
-    paint(region, palette.EMBLEM_HEART, 0.32 * fields.cover(star, pixel))
-    paint(region, palette.EMBLEM_HEART, 0.55 * fields.ring(star, 0.018 * size, pixel))
+    light(region, palette.EMBLEM_HEART, 0.05 * fields.glow(star, 0.12 * size))
+    paint(region, palette.EMBLEM_HEART, 0.08 * fields.cover(star, pixel))
+    paint(region, palette.EMBLEM_HEART, 0.16 * fields.ring(star, 0.018 * size, pixel))
 
 
 def _star(center: tuple[float, float], radius: float) -> tuple[tuple[float, float], ...]:

@@ -30,26 +30,22 @@ class Moment(NamedTuple):
         balls: The balls on the board.
         angles: Of the left and the right paddle, up is positive [deg].
         score: Points so far.
-        seed: Of the board.
     """
 
     time: float
     balls: tuple[BallAt, ...]
     angles: tuple[float, float]
     score: int
-    seed: int
 
     @classmethod
     def of(cls, world: World) -> Self:
         """The moment that a world is in."""
         left, right = world.paddles
         balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in world.balls)
-        return cls(
-            world.time, balls, (math.degrees(left.angle), math.degrees(right.angle)), world.score, world.seed
-        )
+        return cls(world.time, balls, (math.degrees(left.angle), math.degrees(right.angle)), world.score)
 
     @classmethod
-    def before(cls, table: Table, seed: int = 0) -> Self:
+    def before(cls, table: Table) -> Self:
         """The moment before play starts: no ball, paddles at rest."""
         rest = {paddle.side: paddle.rest_angle for paddle in table.paddle}
-        return cls(0.0, (), (rest.get("left", 0.0), rest.get("right", 0.0)), 0, seed)
+        return cls(0.0, (), (rest.get("left", 0.0), rest.get("right", 0.0)), 0)

@@ -33,6 +33,11 @@ class Renderer:
         table: A finished table.
         size: Width and height of the picture [pixel]; the table is fitted into it.
         still: The still table if it is painted already, RGB [row, column, 3]; another size is stretched.
+        board_seed: Written beside the score if the board was made from it.
+
+    Attributes:
+        apron: The plate below the gutter [pixel], under which no play is seen.
+        score_panel: The strip above the board [pixel].
 
     Example:
         >>> import silverball as sb
@@ -42,11 +47,19 @@ class Renderer:
         (680, 330, 3)
     """
 
-    def __init__(self, table: Table, size: tuple[int, int], still: NDArray[np.uint8] | None = None) -> None:
+    def __init__(
+        self,
+        table: Table,
+        size: tuple[int, int],
+        still: NDArray[np.uint8] | None = None,
+        *,
+        board_seed: int | None = None,
+    ) -> None:
         self.table = table
         self.camera = Camera(table.board, size)
         self.effects = Effects()
-        self._score_line = ScoreLine(table, self.camera)
+        self._score_line = ScoreLine(table, self.camera, board_seed)
+        self.score_panel = self._score_line.panel
         self.set_still(paint_still(table, self.camera) if still is None else still)
         self._balls = BallSprites(self.camera)
         self._paddles = {paddle.side: PaddleSprites(self.camera, paddle) for paddle in table.paddle}
@@ -57,7 +70,7 @@ class Renderer:
         for index, cylinder in enumerate(table.cylinder):
             flash = cylinder_flash(self.camera, cylinder, in_turn(CYLINDERS, index))
             self._flashes[f"cylinder[{index}]"] = Flash(*flash)
-        self._apron = self._apron_area()
+        self.apron = self._apron_area()
 
     def set_still(self, pixels: NDArray[np.uint8]) -> None:
         """Use another painting of the still table, RGB [row, column, 3]."""
@@ -86,7 +99,7 @@ class Renderer:
         for sprite in trails:
             target.blit(*sprite, None, ADD)
         target.blits([self._balls.at(ball.x, ball.z) for ball in balls], False)
-        target.blit(self._still, self._apron, self._apron)
+        target.blit(self._still, self.apron, self.apron)
         target.blits(self._paddle_sprites(moment), False)
         self._score_line.draw(target, moment)
 

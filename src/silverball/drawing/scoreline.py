@@ -15,10 +15,17 @@ SEED_DIGITS = 7  # longer seeds are shortened in the middle
 
 
 class ScoreLine:
-    """The strip above the board."""
+    """The strip above the board.
 
-    def __init__(self, table: Table, camera: Camera) -> None:
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        board_seed: What the board was made from; a table that is always the same has none to show.
+    """
+
+    def __init__(self, table: Table, camera: Camera, board_seed: int | None = None) -> None:
         self._scale = camera.scale
+        self._board_seed = board_seed
         self._max_balls = table.board.max_balls
         left, top = camera.to_pixel(
             0.5 * table.board.length + RAIL + SCORE_HEIGHT, -0.5 * table.board.width - RAIL
@@ -26,11 +33,11 @@ class ScoreLine:
         right, bottom = camera.to_pixel(
             0.5 * table.board.length + RAIL + 0.14, 0.5 * table.board.width + RAIL
         )
-        self._panel = pygame.Rect(round(left), round(top), round(right - left), round(bottom - top))
+        self.panel = pygame.Rect(round(left), round(top), round(right - left), round(bottom - top))
 
     def paint_panel(self, still: pygame.Surface) -> None:
         """Paint what does not change onto the still table."""
-        scale, panel = self._scale, self._panel
+        scale, panel = self._scale, self.panel
         rounding = round(0.3 * scale)
         gap = max(round(0.1 * scale), 2)
         thin = max(round(0.035 * scale), 1)
@@ -40,7 +47,7 @@ class ScoreLine:
 
     def draw(self, target: pygame.Surface, moment: Moment) -> None:
         """Draw the score of a moment."""
-        panel, scale = self._panel, self._scale
+        panel, scale = self.panel, self._scale
         inset = round(0.42 * scale)
         size = round(0.92 * scale)
         glyphs = number(moment.score, size, palette.SCORE)
@@ -56,10 +63,12 @@ class ScoreLine:
         for number_ in range(self._max_balls):
             spot = (left + round((0.15 + 0.42 * number_) * scale), panel.centery + round(0.21 * scale))
             self._draw_ball(target, spot, number_ < len(moment.balls))
+        if self._board_seed is None:
+            return
         right = panel.right - inset
         label = line("BOARD", small, palette.LABEL)
         target.blit(label, label.get_rect(midright=(right, upper)))
-        seed = line(_short(moment.seed), small, palette.TEXT)
+        seed = line(_short(self._board_seed), small, palette.TEXT)
         target.blit(seed, seed.get_rect(midright=(right, panel.centery + round(0.21 * scale))))
 
     def _draw_ball(self, target: pygame.Surface, spot: tuple[int, int], there: bool) -> None:

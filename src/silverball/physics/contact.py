@@ -33,7 +33,8 @@ def first_contact(
 ) -> Contact:
     """The first of all contacts of a ball with the parts and the gutter line before `limit` [s].
 
-    At equal times the earlier part in the order of the table is met first, which is the same in the mirror.
+    At equal times the earlier part in the order of the table is met first, which is the same in the mirror;
+    only of the two paddles, at the very same moment, the left one always comes first.
     """
     best = Contact(limit, NOTHING, 0.0, 0.0)
     if ball.id == 0:

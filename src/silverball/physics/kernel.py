@@ -11,7 +11,8 @@ Options, and why:
 * ``no_cfunc_wrapper=True``: nobody passes kernels as function pointers; it saves 8 % of the compilation.
 * the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
   code after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
-  cache directory that is named after a hash of the sources of all packages that hold kernels.
+  cache directory that is named after a hash of the sources of all packages that hold kernels, and of what
+  else machine code depends on.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import contextlib
 import hashlib
 import os
 import shutil
+import sys
 import time
 from collections.abc import Callable
 from functools import cache
@@ -51,7 +53,7 @@ def cache_folder() -> Path | None:
     """The folder for compiled code of exactly these sources; None where no folder can be written."""
     import platformdirs
 
-    digest = hashlib.sha256(b"checked" if SETTINGS.BOUNDSCHECK else b"")
+    digest = hashlib.sha256(repr(_machine()).encode())
     package = Path(__file__).resolve().parent.parent
     for source in sorted(path for name in KERNEL_PACKAGES for path in (package / name).rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode())
@@ -66,10 +68,18 @@ def cache_folder() -> Path | None:
     return folder if os.access(folder, os.W_OK) else None
 
 
-def is_compiled() -> bool:
-    """Whether compiled code of these sources is already on disk (a first start compiles for some seconds)."""
+def is_compiled(name: str = "run_worlds") -> bool:
+    """Whether the compiled code of a kernel is on disk; a first start compiles it and all it calls."""
     folder = cache_folder()
-    return folder is not None and any(folder.rglob("*run_worlds-*.nbc"))
+    return folder is not None and any(folder.rglob(f"*.{name}-*.nbc"))
+
+
+def _machine() -> tuple[Any, ...]:
+    """What machine code depends on besides the sources."""
+    import llvmlite.binding
+
+    processor = SETTINGS.CPU_NAME or llvmlite.binding.get_host_cpu_name()
+    return sys.implementation.cache_tag, numba.__version__, processor, bool(SETTINGS.BOUNDSCHECK)
 
 
 def forget_old_code() -> None:

@@ -146,10 +146,9 @@ COLLIDER = np.dtype(
         ("kind", "i8"),
         # Reach: a circle around (x, z) that holds the whole part. A wall keeps its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
-        # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2 (counter-
-        # clockwise),
-        # sides 01, 12, 20 with unit directions along_* and lengths. A paddle's lie in its own frame (see
-        # paddle.py).
+        # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
+        # (counter-clockwise) and sides 01, 12, 20 with unit directions along_* and lengths. A paddle's lie in
+        # its own frame (see paddle.py).
         ("radius", "f8"),
         ("x0", "f8"), ("z0", "f8"), ("x1", "f8"), ("z1", "f8"), ("x2", "f8"), ("z2", "f8"),
         ("along_x0", "f8"), ("along_z0", "f8"), ("along_x1", "f8"), ("along_z1", "f8"),

@@ -207,8 +207,7 @@ def run_worlds(
         logs: LOG records [world]; emptied first.
         tallies: Hits of each part [world, part], added to.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
-            ticks and
-            the jitter comes on the first.
+            ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
         ticks: How many ticks.

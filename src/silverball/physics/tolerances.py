@@ -17,7 +17,7 @@ hits lose digits."""
 
 HOP = 5e-4
 """[u] Height of the hop that a touch leaves at least, so that a resting ball does not bounce ever faster.
-Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/500 of a ball high: nobody sees it.
+Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: nobody sees it.
 Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
 
 HOP_SHARE = 0.9

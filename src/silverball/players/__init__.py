@@ -27,7 +27,7 @@ def player_kind(name: str) -> PlayerKind:
         return PlayerKind[name.upper()]
     near = difflib.get_close_matches(name, PLAYERS, 1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise SilverballError(f"--player: no player is called {name!r}, there are {', '.join(PLAYERS)}{hint}")
+    raise SilverballError(f"no player is called {name!r}, there are {', '.join(PLAYERS)}{hint}")
 
 
 def make_player(name: str) -> Player:

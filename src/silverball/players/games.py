@@ -20,7 +20,7 @@ from silverball.physics.step import step_world
 from silverball.players.press import PlayerKind, pressed
 from silverball.world import WorldBatch
 
-CHUNK_TICKS = 2400  # between two calls of `progress`
+CHUNK_TICKS = 2_000_000  # of all worlds together, between two calls of `progress`
 
 
 class Played(NamedTuple):
@@ -78,10 +78,11 @@ def play(
     depths = np.zeros(batch.count)
     _run(batch, player, 0, balls, audit, depths)  # compiles, moves nothing
     started = time.perf_counter()
-    for done in range(0, ticks, CHUNK_TICKS):
-        _run(batch, player, min(CHUNK_TICKS, ticks - done), balls, audit, depths)
+    chunk = max(1, CHUNK_TICKS // batch.count)
+    for done in range(0, ticks, chunk):
+        _run(batch, player, min(chunk, ticks - done), balls, audit, depths)
         if progress is not None:
-            progress(min(done + CHUNK_TICKS, ticks) / batch.tick_rate)
+            progress(min(done + chunk, ticks) / batch.tick_rate)
     wall = time.perf_counter() - started
     return _totals(batch, ticks / batch.tick_rate, wall, float(depths.max()) if audit else float("nan"))
 

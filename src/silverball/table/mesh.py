@@ -26,6 +26,7 @@ from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
 KINDS = ("stl", "obj", "glb")
+CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle among them is found in a second
 NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
 _ROUNDED = 6  # decimals [u] that are kept of a footprint: STL stores single precision
 
@@ -37,7 +38,12 @@ def triangle_footprint(path: Path) -> Triangle:
         TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
         MissingExtra: trimesh is not installed.
     """
-    corners = largest_triangle(convex_hull(_points(path)))
+    hull = convex_hull(_points(path))
+    if len(hull) > CORNERS_LIMIT:
+        count = f"a footprint of {len(hull):,} corners, a prism's has at most {CORNERS_LIMIT:,}"
+        message = f"has {count}: simplify {path}"
+        raise _unusable(str(path), message)
+    corners = largest_triangle(hull)
     a, b, c = (tuple(float(value) + 0.0 for value in np.round(corner, _ROUNDED)) for corner in corners)
     return (a[0], a[1]), (b[0], b[1]), (c[0], c[1])
 

@@ -65,7 +65,7 @@ class _Part(_Model):
     """What everything that a ball can hit has in common."""
 
     name: _Name = ""
-    """A name for people; it changes nothing."""
+    """A name for people; it changes nothing in play."""
 
 
 class Board(_Model):
@@ -140,7 +140,7 @@ class SlantWall(_Part):
         right if the wall runs straight up the board.
         """
         dx, dz = self.end[0] - self.start[0], self.end[1] - self.start[1]
-        length = math.hypot(dx, dz)
+        length = math.sqrt(dx * dx + dz * dz)  # not hypot, whose last bit differs between systems
         if length == 0.0:
             raise ValueError("a slant wall whose two ends are the same point has no normal")
         nx, nz = dz / length, -dx / length

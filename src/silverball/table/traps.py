@@ -34,7 +34,7 @@ from silverball.table.geometry import (
 from silverball.table.parts import Board, Point
 from silverball.table.reach import Space
 
-LEVEL = 2.0  # [deg] a face is level below this slope; chosen: a ball there needs 5 s to roll a table's width
+LEVEL = 2.0  # [deg] a face is level below this slope; chosen: a ball there needs 8 s to slide a table's width
 SHALLOW = 1e-4  # [u] a ball hops out of a less deep pocket; chosen: a fifth of the least hop of a touch
 CONTACT = 1e-7  # [u] a gap below this is a contact; the crossings themselves are good to 1e-12
 CROSSINGS_AT_ONCE = 4096  # pairs of shapes that are crossed in one go, to bound the memory

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.layout import LOG, WORLD, Outcome, Part, records
+from silverball.physics.layout import LOG, WORLD, Fault, Outcome, Part, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
 from silverball.world.compile import Boards, compile_tables
@@ -61,7 +61,8 @@ class WorldBatch:
 
         Raises:
             ValueError: A count, seed, tick rate or number of tables that cannot be.
-            TableError: The table has problems.
+            TableError: A file has problems, or parts that make no sense. A table made in Python is otherwise
+                taken as it is: `check_table` tells what is wrong with it.
         """
         self.count = checked_int("count", count, 1, 2**22)
         self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
@@ -169,7 +170,7 @@ def _create_balls(
 ) -> None:
     """Create a ball in each wanted world; write an Outcome for each."""
     for index in range(len(worlds)):
-        if wanted[index]:
+        if wanted[index] and worlds[index].fault == Fault.NONE:
             board = boards[board_of[index]]
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
 
@@ -184,6 +185,10 @@ def _cores() -> int:
 @cache
 def _pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
+
+
+if hasattr(os, "register_at_fork"):  # threads do not survive a fork; the child makes its own
+    os.register_at_fork(after_in_child=_pool.cache_clear)
 
 
 def checked_int(name: str, value: Any, least: int, greatest: int) -> int:

@@ -1,8 +1,9 @@
 """How does a table come to life: from the parts a person wrote to the arrays that the step reads?
 
 Every board takes a run of rows of one shared array of colliders, in the order of `physics.layout.Part`:
-three borders, two paddles, then slant walls, prisms and cylinders in the order of the file. Nothing is
-checked here: a table that reaches this place has passed `table.check`.
+three borders, two paddles, then slant walls, prisms and cylinders in the order of the file. Tables
+from files and from the generator have passed `check_table`; one made in Python is taken as it is, so that
+strange boards can be tried, unless its parts make no sense at all.
 """
 
 from __future__ import annotations
@@ -14,8 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.errors import Problem, TableError
 from silverball.physics.layout import BOARD, COLLIDER, Kind, Part, records
-from silverball.table import Paddle, Table, ball_places, table_digest
+from silverball.physics.trigonometry import sine_cosine
+from silverball.table import Paddle, Table, TriangularPrism, ball_places, table_digest
 
 FAR = 1e9  # [u] where the paddle lies that a table does not have: out of every ball's reach
 
@@ -84,6 +87,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
 def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
     """The COLLIDER records of one table, and the names of its parts."""
     count = Part.FIRST_SHAPE + len(table.slant_wall) + len(table.triangular_prism) + len(table.cylinder)
+    _refuse_nonsense(table)
     rows = records(count, COLLIDER)
     rows["speed_factor"] = 1.0
     names = ["board.left", "board.right", "board.top", "paddle.left", "paddle.right"]
@@ -101,7 +105,7 @@ def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
     for index, prism in enumerate(table.triangular_prism):
         row = next(next_row)
         row["kind"] = Kind.TRIANGULAR_PRISM
-        corners = prism.corners()
+        corners = _corners(prism)
         _set_triangle(row, corners)
         row["x"], row["z"], row["reach"] = _circle_around(corners)
         _set_surface(row, prism)
@@ -114,6 +118,32 @@ def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
         _set_surface(row, cylinder)
         names.append(f"cylinder[{index}]")
     return rows, tuple(names)
+
+
+def _refuse_nonsense(table: Table) -> None:
+    """Refuse parts that have no outline or no side, which only a table made in Python can have."""
+    problems = []
+    sides = [paddle.side for paddle in table.paddle]
+    if len(set(sides)) < len(sides):
+        problems.append(Problem("paddle", f"there can be one paddle a side, got {', '.join(sides)}"))
+    for index, wall in enumerate(table.slant_wall):
+        if wall.start == wall.end:
+            problems.append(Problem(f"slant_wall[{index}]", "must have two different ends"))
+    for index, prism in enumerate(table.triangular_prism):
+        a, b, c = prism.corners()
+        if (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
+            problems.append(Problem(f"triangular_prism[{index}]", "must not be flat"))
+    if problems:
+        raise TableError(table.name, problems)
+
+
+def _corners(prism: TriangularPrism) -> Sequence[tuple[float, float]]:
+    """The corners of a prism, those of an equilateral one by our own sine: the same bits on every machine."""
+    if prism.center is None or prism.size is None:
+        return prism.corners()
+    x, z = prism.center
+    turns = (sine_cosine(math.radians(prism.rotation + third)) for third in (0.0, 120.0, 240.0))
+    return [(x + prism.size * sine, z + prism.size * cosine) for sine, cosine in turns]
 
 
 def _set_borders(rows: NDArray[Any], table: Table) -> None:
@@ -142,7 +172,7 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
     row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
     swing = row["angle_up"] - row["angle_rest"]
     row["lift_speed"], row["return_speed"] = swing / paddle.stroke, swing / paddle.return_stroke
-    row["restitution"], row["restitution_falloff"] = paddle.restitution, paddle.restitution_falloff
+    _set_surface(row, paddle)
 
 
 def _set_surface(row: Any, part: Any) -> None:
@@ -153,7 +183,7 @@ def _set_surface(row: Any, part: Any) -> None:
 
 def _set_side(row: Any, number: int, start: Sequence[float], end: Sequence[float]) -> None:
     dx, dz = end[0] - start[0], end[1] - start[1]
-    length = math.hypot(dx, dz)
+    length = math.sqrt(dx * dx + dz * dz)  # not hypot, whose last bit differs between systems
     row[f"x{number}"], row[f"z{number}"] = start
     row[f"along_x{number}"], row[f"along_z{number}"], row[f"length{number}"] = (
         dx / length,
@@ -182,4 +212,5 @@ def _circle_around(corners: Sequence[Sequence[float]]) -> tuple[float, float, fl
     """Centroid of the corners, and the distance of the farthest: not the smallest circle, but simple."""
     x = sum(corner[0] for corner in corners) / 3
     z = sum(corner[1] for corner in corners) / 3
-    return x, z, max(math.hypot(corner[0] - x, corner[1] - z) for corner in corners) * (1 + 1e-12)
+    farthest = max((corner[0] - x) ** 2 + (corner[1] - z) ** 2 for corner in corners)
+    return x, z, math.sqrt(farthest) * (1 + 1e-12)

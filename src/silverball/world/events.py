@@ -49,7 +49,8 @@ class Event(NamedTuple):
 
     Attributes:
         kind: "hit", "touch", "ball_hit", "ball_touch", "gutter", "created", "jitter" or "jam".
-        part: The part's path in the table, such as "cylinder[1]"; "gutter", "ball", or "" for none.
+        part: The part's path in the table, such as "cylinder[1]"; for what each board has once "board.left",
+            "board.right", "board.top", "paddle.left", "paddle.right"; "gutter", "ball", or "" for none.
         ball: The ball's id.
         tick: The tick in which it happened, counted from 0.
         offset: Time since that tick began [s].

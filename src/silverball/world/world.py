@@ -54,7 +54,6 @@ class World:
     def __init__(self, table: Table | str | os.PathLike[str], seed: int = 0, tick_rate: int = 240) -> None:
         self._batch = WorldBatch(table, 1, seed, tick_rate, threads=1)
         self.table: Table = self._batch.tables[0]
-        self.seed = int(seed)
         self.tick_rate = self._batch.tick_rate
         self._record = self._batch.state[0]
         self._log = self._batch.logs[0]
@@ -97,7 +96,7 @@ class World:
             FaultError: The world's state has become impossible and it has stopped.
             ValueError: The number of ticks is not a whole number of at least 0.
         """
-        if ticks.__class__ is not int or ticks < 0:
+        if ticks.__class__ is not int or not 0 <= ticks <= 2**40:
             ticks = checked_int("ticks", ticks, 0, 2**40)
         self._actions[0, 0] = left, right, jitter
         self._batch.run(self._actions, ticks)
@@ -118,9 +117,12 @@ class World:
 
         Raises:
             BoardFull: The board already holds `max_balls`; nothing has changed.
+            FaultError: The world has stopped.
             NoRoom: No place is free, or the given one overlaps something; nothing has changed.
             ValueError: A position or velocity that is not two finite numbers, or faster than the speed cap.
         """
+        if self._record["fault"]:
+            self._raise_fault()
         if position is not None:
             return self._put_ball(position, velocity)
         if any(velocity):
@@ -172,6 +174,11 @@ class World:
     def score(self) -> int:
         """Points of all hits so far."""
         return int(self._record["score"])
+
+    @property
+    def seed(self) -> int:
+        """The seed of everything random in this world."""
+        return int(self._record["seed"])
 
     @property
     def created(self) -> int:
@@ -339,4 +346,4 @@ def _pair(name: str, value: Any, middle: float) -> tuple[float, float]:
         raise ValueError(
             f"{name} must be two finite numbers (x, z), or three with y = {middle:g}, got {value!r}"
         )
-    return numbers[0], numbers[1]
+    return numbers[0] + 0.0, numbers[1] + 0.0  # −0.0 becomes 0.0: equal places have equal digests

@@ -175,10 +175,36 @@ def test_the_score_is_shown(renderer, picture):
     assert (scored[top:] == picture[top:]).all()
 
 
+def test_a_seed_is_written_only_beside_a_board_that_was_made_from_one(picture):
+    seeded = Renderer(TABLE, SIZE, board_seed=7).array(START).astype(int)
+    other = Renderer(TABLE, SIZE, board_seed=8).array(START).astype(int)
+    unseeded = Renderer(TABLE, SIZE).array(START._replace(time=1.0)).astype(int)
+    assert (seeded != other).any()
+    assert (seeded != picture).any()
+    assert (unseeded == picture).all()
+
+
+def test_the_emblem_is_too_faint_to_be_taken_for_a_target(picture, renderer):
+    """It stands out from the floor less than a quarter as much as a cylinder's ring of light."""
+    camera = renderer.camera
+    turn = np.linspace(0.0, 2.0 * np.pi, 60)
+    x, z = -0.07 * TABLE.board.length, 0.125 * TABLE.board.width
+
+    def contrast(around_x, around_z, radius):
+        on, off = (
+            np.array([at(picture, camera, around_x + r * np.sin(a), around_z + r * np.cos(a)) for a in turn])
+            for r in (radius, radius + 0.25)
+        )
+        return np.abs(on - off).max(axis=1).mean()
+
+    top_x, top_z, radius = TABLE.cylinder[0].circle()
+    assert contrast(x, 0.0, z) < 0.25 * contrast(top_x, top_z, radius + 0.3)
+
+
 def test_every_generated_board_can_be_drawn():
     for seed in range(5):
         table = generate_table(seed)
-        assert Renderer(table, (120, 240)).array(Moment.before(table, seed)).std() > 10
+        assert Renderer(table, (120, 240)).array(Moment.before(table)).std() > 10
 
 
 def test_a_table_that_touches_the_borders_everywhere_can_be_drawn():

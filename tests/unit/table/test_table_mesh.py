@@ -9,6 +9,7 @@ import pytest
 
 from silverball.errors import MissingExtra, TableError
 from silverball.table import Cylinder, TriangularPrism, dump_table, load_table, parse_table, table_digest
+from silverball.table import mesh as meshes
 from silverball.table.mesh import (
     MESH_LIMIT,
     circle_footprint,
@@ -138,3 +139,10 @@ def test_the_smallest_circle_holds_all_points_and_cannot_shrink(seed):
     rim = np.sort(np.arctan2(*away[distance > radius - 1e-9].T))
     gaps = np.diff(np.append(rim, rim[0] + 2 * math.pi))
     assert gaps.max() <= math.pi + 1e-6
+
+
+def test_a_prism_with_a_footprint_of_too_many_corners_is_refused_at_once(tmp_path, monkeypatch):
+    turn = np.linspace(0.0, 2.0 * np.pi, meshes.CORNERS_LIMIT + 2)[:-1]
+    monkeypatch.setattr(meshes, "_points", lambda path: np.stack([np.cos(turn), np.sin(turn)], axis=-1))
+    with pytest.raises(TableError, match="simplify"):
+        meshes.triangle_footprint(tmp_path / "round.stl")

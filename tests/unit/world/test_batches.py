@@ -173,3 +173,20 @@ def test_create_balls_obeys_its_mask_and_says_where() -> None:
     assert batch.state.tobytes() == before
     with pytest.raises(ValueError, match="mask"):
         batch.create_balls([True])
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="only some systems fork")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_batch_that_has_used_its_threads_goes_on_in_a_forked_child():
+    script = """
+import os, sys, numpy as np, silverball as sb
+batch = sb.WorldBatch("classic", 64, threads=2)
+still = np.zeros((64, 3), bool)
+batch.step(still, ticks=64)
+child = os.fork()
+if child == 0:
+    batch.step(still, ticks=64)
+    os._exit(7)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+    assert subprocess.run([sys.executable, "-c", script], timeout=60, check=False).returncode == 7

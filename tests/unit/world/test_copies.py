@@ -65,3 +65,28 @@ def test_a_ball_can_be_put_where_another_was_reported(world):
 def test_a_velocity_without_a_position_is_refused(world):
     with pytest.raises(ValueError, match="needs a position"):
         world.create_ball(velocity=(5.0, 0.0))
+
+
+def test_the_seed_is_that_of_the_state():
+    world, other = sb.World("classic", seed=1), sb.World("classic", seed=2)
+    world.restore(other.save())
+    assert world.seed == 2
+
+
+def test_equal_places_have_equal_digests_whatever_the_sign_of_their_zeros():
+    worlds = [sb.World("classic"), sb.World("classic")]
+    worlds[0].create_ball(position=(0.0, 0.0))
+    worlds[1].create_ball(position=(0.0, -0.0))
+    assert worlds[0].digest() == worlds[1].digest()
+
+
+def test_parts_that_make_no_sense_are_refused_with_their_paths():
+    paddle = sb.load_table("classic").paddle[0]
+    prism = sb.load_table("classic").triangular_prism[0]
+    flat = prism.model_copy(update={"vertices": ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))})
+    table = sb.load_table("classic").model_copy(
+        update={"paddle": (paddle, paddle), "triangular_prism": (flat,)}
+    )
+    with pytest.raises(sb.TableError) as refusal:
+        sb.World(table)
+    assert [problem.path for problem in refusal.value.problems] == ["paddle", "triangular_prism[0]"]
