@@ -10,7 +10,7 @@ import pytest
 from silverball.cli.app import app
 
 ROOT = Path(__file__).parent.parent
-README = (ROOT / "README.md").read_text()
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 
 
@@ -36,12 +36,12 @@ def test_the_example_in_readme_runs_and_scores(example, capsys):
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
 def test_every_local_link_leads_somewhere(document):
-    links = re.findall(r"\]\((?!https?:)([^)#]+)\)", document.read_text())
+    links = re.findall(r"\]\((?!https?:)([^)#]+)\)", document.read_text(encoding="utf-8"))
     assert [link for link in links if not (document.parent / link).exists()] == []
 
 
 def test_every_file_and_folder_that_architecture_names_exists():
-    named = re.findall(r"`([a-z_/]+(?:\.py|/))`", (ROOT / "ARCHITECTURE.md").read_text())
+    named = re.findall(r"`([a-z_/]+(?:\.py|/))`", (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8"))
     package = ROOT / "src" / "silverball"
     everything = {path.name for path in package.rglob("*")}
     missing = [name for name in named if not (package / name).exists() and Path(name).name not in everything]
@@ -52,5 +52,5 @@ def test_every_file_and_folder_that_architecture_names_exists():
 def test_the_reference_of_the_table_file_is_what_the_models_say():
     script = ROOT / "docs" / "make_reference.py"
     names: dict = {"__name__": "reference", "__file__": str(script)}
-    exec(compile(script.read_text(), script.name, "exec"), names)
-    assert names["PAGE"].read_text() == names["page"](), "run: python docs/make_reference.py"
+    exec(compile(script.read_text(encoding="utf-8"), script.name, "exec"), names)
+    assert names["PAGE"].read_text(encoding="utf-8") == names["page"](), "run: python docs/make_reference.py"

@@ -74,17 +74,17 @@ def test_generate_writes_the_same_board_for_the_same_seed_and_check_accepts_it(s
     for path in (first, second):
         assert silverball("generate", "--seed", "7", "--out", str(path)).returncode == 0
     assert first.read_bytes() == second.read_bytes()
-    assert silverball("generate", "--seed", "7").stdout == first.read_text()
-    table = tomllib.loads(first.read_text())
+    assert silverball("generate", "--seed", "7").stdout == first.read_text(encoding="utf-8")
+    table = tomllib.loads(first.read_text(encoding="utf-8"))
     assert (len(table["triangular_prism"]), len(table["cylinder"])) == (4, 3)
     assert silverball("check", str(first)).returncode == 0
 
 
 def test_generate_does_not_overwrite_a_file_unless_told_to(silverball, tmp_path):
     path = tmp_path / "mine.toml"
-    path.write_text("precious")
+    path.write_text("precious", encoding="utf-8")
     assert_friendly_refusal(silverball("generate", "--out", str(path)), "exists", "--force")
-    assert path.read_text() == "precious"
+    assert path.read_text(encoding="utf-8") == "precious"
     assert silverball("generate", "--out", str(path), "--force").returncode == 0
 
 
@@ -120,7 +120,8 @@ radius = 0.6
 restitution = 7
 [[bumper]]
 center = [1.0, 1.0]
-"""
+""",
+        encoding="utf-8",
     )
     result = silverball("check", str(path))
     assert_friendly_refusal(

@@ -40,12 +40,12 @@ def test_play_complains_of_the_table_before_the_display(silverball):
 
 
 def test_bare_silverball_without_a_display_makes_a_demo_and_overwrites_nothing(silverball, tmp_path):
-    (tmp_path / "demo.gif").write_text("mine")
+    (tmp_path / "demo.gif").write_text("mine", encoding="utf-8")
     result = silverball(env=NO_DISPLAY, cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     assert "no display" in result.stderr
     assert "demo-2.gif" in result.stdout
-    assert (tmp_path / "demo.gif").read_text() == "mine"
+    assert (tmp_path / "demo.gif").read_text(encoding="utf-8") == "mine"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["demo-2.gif", "demo.gif"]
     assert (tmp_path / "demo-2.gif").stat().st_size < 6_000_000
     with Image.open(tmp_path / "demo-2.gif") as film:
@@ -118,10 +118,10 @@ def test_a_file_that_cannot_be_written_is_refused_at_once(silverball, tmp_path, 
 @pytest.mark.parametrize("command", ["demo", "show"])
 def test_a_file_that_exists_is_kept_unless_forced(silverball, tmp_path, command):
     out = tmp_path / "there.png"
-    out.write_text("mine")
+    out.write_text("mine", encoding="utf-8")
     options = ["--out", str(out), "--size", "200", *(["--seconds", "0.2"] if command == "demo" else [])]
     assert_refused(silverball(command, *options), "--force")
-    assert out.read_text() == "mine"
+    assert out.read_text(encoding="utf-8") == "mine"
     assert silverball(command, *options, "--force").returncode == 0
     assert out.read_bytes().startswith(b"\x89PNG")
 

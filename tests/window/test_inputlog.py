@@ -7,8 +7,8 @@ import pytest
 from silverball.app.controls import Held
 from silverball.app.inputlog import InputLog, replay
 from silverball.app.session import Session
-from silverball.errors import StateError
-from silverball.table import load_table
+from silverball.errors import FaultError, StateError
+from silverball.table import Board, Table, load_table
 
 REST = (False, False)
 
@@ -73,3 +73,15 @@ def test_a_log_whose_table_was_changed_is_refused():
     log.table_text = log.table_text.replace("radius = 0.65", "radius = 0.66")
     with pytest.raises(StateError, match="table_digest"):
         replay(log)
+
+
+def test_a_log_of_a_fault_leads_to_the_same_fault_again():
+    below_the_board = Table(board=Board(gutter=-12.0))  # no check would let it pass: balls leave the board
+    session = Session(below_the_board, 3)
+    session.create_ball()
+    with pytest.raises(FaultError, match="outside"):
+        session.advance(Held(REST, REST), 2000)
+    log = InputLog.from_text(session.log.ended(session.world).to_text())
+    world = replay(log)
+    assert (world.fault, world.tick) == ("outside", session.world.tick)
+    assert world.digest() == session.world.digest() == log.digest

@@ -138,7 +138,7 @@ def test_closing_keeps_a_log_that_plays_the_same_game_again(open_window, tmp_pat
     player.window.close()
     folder = tmp_path / "data"
     assert [path.name for path in folder.iterdir()] == ["last-game.jsonl"]
-    log = InputLog.from_text((folder / "last-game.jsonl").read_text())
+    log = InputLog.from_text((folder / "last-game.jsonl").read_text(encoding="utf-8"))
     assert log.digest == digest
     assert replay(log).digest() == digest
 
@@ -151,11 +151,11 @@ def test_closing_without_a_game_writes_nothing(open_window, tmp_path):
 
 def test_a_folder_that_cannot_be_written_is_no_trouble(open_window, tmp_path):
     in_the_way = tmp_path / "file"
-    in_the_way.write_text("not a folder")
+    in_the_way.write_text("not a folder", encoding="utf-8")
     player = open_window(data_folder=in_the_way / "data")
     player.tap(pygame.K_SPACE)
     player.window.close()
-    assert in_the_way.read_text() == "not a folder"
+    assert in_the_way.read_text(encoding="utf-8") == "not a folder"
 
 
 def test_a_fault_stops_the_board_keeps_a_log_and_says_where(open_window, tmp_path, monkeypatch):

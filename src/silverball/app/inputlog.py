@@ -6,7 +6,9 @@ line for every change, and a last line with the number of ticks and the digest t
 
 from __future__ import annotations
 
+import contextlib
 import json
+import tomllib
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
@@ -49,6 +51,7 @@ class InputLog:
         changes: What the player did, in order.
         ticks: How many ticks were played.
         digest: The world's digest after them; empty while the game goes on.
+        fault: The name of the fault that ended the game; empty if none did.
     """
 
     program: str
@@ -61,6 +64,7 @@ class InputLog:
     changes: list[Change] = field(default_factory=list)
     ticks: int = 0
     digest: str = ""
+    fault: str = ""
 
     @classmethod
     def begin(cls, world: World) -> Self:
@@ -81,12 +85,17 @@ class InputLog:
 
     def ended(self, world: World) -> InputLog:
         """This log, closed with the ticks and the digest that a world has reached."""
-        return replace(self, changes=list(self.changes), ticks=world.tick, digest=world.digest())
+        changes, digest = list(self.changes), world.digest()
+        return replace(self, changes=changes, ticks=world.tick, digest=digest, fault=world.fault or "")
 
     def to_text(self) -> str:
         """The log as JSON Lines."""
         header = {"format": FORMAT} | {key: getattr(self, key) for key in _HEADER[1:]}
-        lines: list[Any] = [header, *self.changes, {"ticks": self.ticks, "digest": self.digest}]
+        lines: list[Any] = [
+            header,
+            *self.changes,
+            {"ticks": self.ticks, "digest": self.digest, "fault": self.fault},
+        ]
         return "".join(json.dumps(line, ensure_ascii=False) + "\n" for line in lines)
 
     @classmethod
@@ -105,6 +114,7 @@ class InputLog:
                 changes=[Change(int(tick), str(kind), bool(down)) for tick, kind, down in changes],
                 ticks=int(end["ticks"]),
                 digest=str(end["digest"]),
+                fault=str(end["fault"]),
             )
         except (ValueError, KeyError, TypeError) as error:
             raise StateError(f"input log: this is no input log, or a damaged one ({error})") from None
@@ -119,14 +129,21 @@ class InputLog:
 def replay(log: InputLog) -> World:
     """Play a log again: the world that it leads to, the same bit for bit.
 
+    A game that ended at a fault ends there again, with the fault in `world.fault`. The table is taken as
+    it was played, checked or not.
+
     Raises:
         StateError: The table in the log is not the one that was played.
-        FaultError: The world stopped at a fault, as it may have in the original game.
+        FaultError: The world stopped at a fault where the game did not.
     """
-    from silverball.table import parse_table, table_digest
+    from silverball.errors import FaultError
+    from silverball.table import Table, table_digest
     from silverball.world import World
 
-    table = parse_table(log.table_text, "input log: table_text")
+    try:
+        table = Table.model_validate(tomllib.loads(log.table_text))
+    except ValueError:
+        raise StateError("input log: table_text is no table; the log was changed or damaged") from None
     if table_digest(table) != log.table_digest:
         raise StateError("input log: table_text does not belong to table_digest; the log was changed")
     world = World(table, log.seed, log.tick_rate)
@@ -142,4 +159,7 @@ def replay(log: InputLog) -> World:
             shove = True
         elif change.kind in down:
             down[change.kind] = change.down
+    if log.fault:  # the world stood still in its next tick
+        with contextlib.suppress(FaultError):
+            world.step(down["left"], down["right"], shove)
     return world

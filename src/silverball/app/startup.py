@@ -48,9 +48,10 @@ class Startup:
 
     def _load(self) -> None:
         try:
-            from silverball.physics.kernel import is_compiled
+            from silverball.physics.kernel import forget_old_code, is_compiled
 
             if not is_compiled():
+                forget_old_code()
                 self.is_compiling = True
                 self._on_compile()
             warm_up(self._table)

@@ -101,9 +101,8 @@ class Window:
                 self.frame(now - before)
                 before = now
                 pacer.tick(self._screen.frame_rate if self.is_ready else LOADING_FRAME_RATE)
-        except BaseException as error:
-            if not isinstance(error, KeyboardInterrupt):
-                self._keep_after_crash()
+        except Exception:
+            self._keep_after_crash()
             raise
         finally:
             self.close()

@@ -43,7 +43,7 @@ def ffmpeg(tmp_path, monkeypatch):
 
     def become(script: str) -> None:
         program = tmp_path / "ffmpeg.sh"
-        program.write_text(f"#!/bin/sh\nfor film; do :; done\n{script}\n")
+        program.write_text(f"#!/bin/sh\nfor film; do :; done\n{script}\n", encoding="utf-8")
         program.chmod(program.stat().st_mode | stat.S_IXUSR)
         monkeypatch.setattr(imageio_ffmpeg, "get_ffmpeg_exe", lambda: str(program))
 
@@ -53,10 +53,10 @@ def ffmpeg(tmp_path, monkeypatch):
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_a_full_disk_is_an_error_and_what_was_there_stays(tmp_path, full_disk, ending):
     path = tmp_path / f"out.{ending}"
-    path.write_text("mine")
+    path.write_text("mine", encoding="utf-8")
     with pytest.raises(OutputError, match="cannot be written"):
         write(path)
-    assert path.read_text() == "mine"
+    assert path.read_text(encoding="utf-8") == "mine"
     assert list(tmp_path.iterdir()) == [path]
 
 

@@ -19,7 +19,7 @@ def test_every_package_that_holds_kernels_takes_part_in_the_name_of_the_cache():
     holders = {
         path.relative_to(PACKAGE).parts[0]
         for path in PACKAGE.rglob("*.py")
-        if re.search(r"^\s*@(kernel|inlined)\b", path.read_text(), re.MULTILINE)
+        if re.search(r"^\s*@(kernel|inlined)\b", path.read_text(encoding="utf-8"), re.MULTILINE)
     }
     assert holders == set(kernel.KERNEL_PACKAGES)
 
@@ -42,7 +42,9 @@ def test_a_change_in_a_callee_of_another_file_is_seen_by_cached_code(tmp_path):
 
     before = speed()
     tolerances = package / "physics" / "tolerances.py"
-    tolerances.write_text(re.sub(r"CAP_MARGIN = .*", "CAP_MARGIN = 0.5", tolerances.read_text()))
+    tolerances.write_text(
+        re.sub(r"CAP_MARGIN = .*", "CAP_MARGIN = 0.5", tolerances.read_text(encoding="utf-8"))
+    )
     assert (before, speed()) == (4.0 * kernel_margin(), 2.0)
 
 

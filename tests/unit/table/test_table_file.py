@@ -109,7 +109,7 @@ def test_a_saved_table_loads_as_an_equal_one_and_writes_only_what_is_special(tmp
     path = tmp_path / "mine.toml"
     save_table(table, path)
     assert load_table(path) == table
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     assert "restitution" not in text
     assert max(len(line) for line in text.splitlines()) < 80
     assert os.listdir(tmp_path) == ["mine.toml"]
@@ -140,7 +140,7 @@ def test_saving_says_what_is_wrong_with_the_path(tmp_path):
 
 def test_eight_different_mistakes_are_all_reported_with_their_paths(tmp_path):
     path = tmp_path / "eight.toml"
-    path.write_text(EIGHT_MISTAKES)
+    path.write_text(EIGHT_MISTAKES, encoding="utf-8")
     with pytest.raises(TableError) as caught:
         load_table(path)
     problems = {problem.path: problem.message for problem in caught.value.problems}
@@ -221,10 +221,10 @@ def test_a_file_of_100_mb_is_refused_unread(tmp_path):
 
 
 def test_unreadable_files_are_refused_in_one_sentence(tmp_path):
-    (tmp_path / "empty.toml").write_text("  \n")
+    (tmp_path / "empty.toml").write_text("  \n", encoding="utf-8")
     (tmp_path / "latin.toml").write_bytes(b'name = "caf\xe9"')
-    (tmp_path / "broken.toml").write_text('format = 1\nname = "open\n')
-    (tmp_path / "deep.toml").write_text("x = " + "[" * 5000)
+    (tmp_path / "broken.toml").write_text('format = 1\nname = "open\n', encoding="utf-8")
+    (tmp_path / "deep.toml").write_text("x = " + "[" * 5000, encoding="utf-8")
     (tmp_path / "folder.toml").mkdir()
     os.mkfifo(tmp_path / "pipe.toml")
     for name, reason in {

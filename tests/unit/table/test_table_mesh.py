@@ -64,7 +64,8 @@ def test_a_table_file_finds_its_meshes_beside_it_and_keeps_their_footprints(tmp_
     write_post(tmp_path / "post.obj")
     path = tmp_path / "mine.toml"
     path.write_text(
-        '[[triangular_prism]]\nmesh = "wedge.stl"\n\n[[cylinder]]\nmesh = "post.obj"\npoints = 7\n'
+        '[[triangular_prism]]\nmesh = "wedge.stl"\n\n[[cylinder]]\nmesh = "post.obj"\npoints = 7\n',
+        encoding="utf-8",
     )
     table = load_table(path)
     assert table.triangular_prism[0].mesh is None
@@ -94,7 +95,7 @@ def test_all_meshes_that_are_no_good_are_reported_with_their_paths(tmp_path):
     flat.export(tmp_path / "upright.stl")
     names = ["missing.stl", "damaged.glb", "noise.obj", "empty.stl", "code.pkl", "huge.stl", "upright.stl"]
     text = "".join(f'[[triangular_prism]]\nmesh = "{name}"\n' for name in names)
-    (tmp_path / "mine.toml").write_text(text)
+    (tmp_path / "mine.toml").write_text(text, encoding="utf-8")
     with pytest.raises(TableError) as caught:
         load_table(tmp_path / "mine.toml")
     problems = {problem.path: problem.message for problem in caught.value.problems}
