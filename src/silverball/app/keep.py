@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
-import tempfile
 from pathlib import Path
+
+from silverball.wholefile import write_whole
 
 LAST_GAME = "last-game.jsonl"
 
@@ -30,15 +30,7 @@ def keep(text: str, name: str, folder: Path | None = None) -> Path | None:
     path = (folder or data_folder()) / name
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(prefix=f".{name}.", dir=path.parent)
-        try:
-            with open(handle, "w", encoding="utf-8") as file:
-                file.write(text)
-            os.replace(temporary, path)
-        except BaseException:
-            with contextlib.suppress(OSError):
-                os.unlink(temporary)
-            raise
+        write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
     except OSError:
         return None
     return path

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import io
 import os
-import secrets
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from pathlib import Path
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from silverball.drawing.video import require_ffmpeg, write_mp4
 from silverball.errors import OutputError
+from silverball.wholefile import write_whole
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -85,15 +85,8 @@ def write_film(path: Path, pictures: Iterable[Picture]) -> None:
 
 
 def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
-    temporary = path.with_name(f".silverball-{secrets.token_hex(8)}{path.suffix.lower()}")
     try:
-        try:
-            write(temporary)
-            with open(temporary, "rb+") as file:
-                os.fsync(file.fileno())  # some disks tell only now that they are full
-            os.replace(temporary, path)
-        finally:
-            temporary.unlink(missing_ok=True)
+        write_whole(path, write)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written ({error.strerror or error})") from None
 

@@ -10,14 +10,12 @@ Something is a path when it is a `Path`, ends in ``.toml`` or contains a separat
 
 from __future__ import annotations
 
-import contextlib
 import difflib
 import functools
 import hashlib
 import json
 import os
 import stat
-import tempfile
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -30,6 +28,7 @@ from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.table.check import Layout, check_layout
 from silverball.table.explain import PART_KINDS, explain
 from silverball.table.parts import Board, Cylinder, RandomRecipe, Table, TriangularPrism
+from silverball.wholefile import write_whole
 
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
 
@@ -116,22 +115,11 @@ def save_table(table: Table, path: str | os.PathLike[str]) -> None:
         raise OutputError(f"{os.fspath(path)}: a table file ends in .toml, for example {target.stem}.toml")
     if not target.parent.is_dir():
         raise OutputError(f"{os.fspath(path)}: there is no folder {target.parent}: make it first")
-    temporary: str | None = None
+    text = dump_table(table)
     try:
-        mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask()
-        handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        with os.fdopen(handle, "wb") as file:
-            file.write(dump_table(table).encode("utf-8"))
-            file.flush()
-            os.fsync(file.fileno())
-        os.chmod(temporary, mode)
-        os.replace(temporary, target)
+        write_whole(target, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
     except OSError as error:
         raise OutputError(f"{os.fspath(path)}: cannot be written ({error.strerror or error})") from error
-    finally:
-        if temporary is not None:
-            with contextlib.suppress(FileNotFoundError):
-                os.unlink(temporary)
 
 
 def dump_table(table: Table) -> str:
@@ -284,9 +272,3 @@ def _literal(value: Any) -> str:
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {_literal(item)}" for key, item in value.items()) + " }"
     return tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
