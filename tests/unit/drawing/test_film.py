@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import stat
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -26,14 +27,16 @@ def write(path: Path) -> None:
         write_film(path, PICTURES)
 
 
-@pytest.fixture
+@contextmanager
 def full_disk():
-    """No file of this process or of its children can grow beyond 4 kB."""
+    """No file of this process or of its children can grow beyond 4 kB; not even one that pytest prints to."""
     resource = pytest.importorskip("resource")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
-    yield
-    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 @pytest.fixture
@@ -51,10 +54,10 @@ def ffmpeg(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
-def test_a_full_disk_is_an_error_and_what_was_there_stays(tmp_path, full_disk, ending):
+def test_a_full_disk_is_an_error_and_what_was_there_stays(tmp_path, ending):
     path = tmp_path / f"out.{ending}"
     path.write_text("mine", encoding="utf-8")
-    with pytest.raises(OutputError, match="cannot be written"):
+    with full_disk(), pytest.raises(OutputError, match="cannot be written"):
         write(path)
     assert path.read_text(encoding="utf-8") == "mine"
     assert list(tmp_path.iterdir()) == [path]
