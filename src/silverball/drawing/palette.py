@@ -26,7 +26,7 @@ RAIL: Color = (84, 72, 132)
 SLANT_WALL: Color = (112, 92, 178)
 CORNER: Color = (78, 68, 124)
 APRON: Color = (46, 38, 78)
-DRAIN: Color = (255, 58, 92)
+GUTTER: Color = (255, 58, 92)
 
 PADDLE: Color = (255, 150, 34)
 PADDLE_PIVOT: Color = (168, 84, 14)  # dark, so that nobody takes it for a ball

@@ -113,10 +113,10 @@ def paint_apron(canvas: NDArray[np.float32], camera: Camera) -> None:
     region, pixel = canvas[patch.rows_columns], patch.pixel
     distance = np.broadcast_to(patch.x - np.float32(top), region.shape[:2])
     mask = fields.cover(distance, pixel)
-    light(region, palette.DRAIN, 0.3 * fields.glow(distance, 0.14))
+    light(region, palette.GUTTER, 0.3 * fields.glow(distance, 0.14))
     paint(region, palette.APRON, mask)
     shade(region, (0.25 * np.exp(np.minimum(distance, 0.0) / 0.3)).astype(np.float32), mask)
-    light(region, palette.DRAIN, 0.8 * fields.ring(distance, 0.02, pixel))
+    light(region, palette.GUTTER, 0.8 * fields.ring(distance, 0.02, pixel))
 
 
 def moved(point: tuple[float, float]) -> tuple[float, float]:

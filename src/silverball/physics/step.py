@@ -58,12 +58,8 @@ def step_world(
         a, b = flown(a, board.pull_x, board.pull_z, h), flown(b, board.pull_x, board.pull_z, h)
         turn_left, turn_right = left.turn, right.turn
         left, right = turned(left, left_stop, h), turned(right, right_stop, h)
-        if (
-            meet.part == NOTHING
-            and meet_a.part == NOTHING
-            and meet_b.part == NOTHING
-            and limit == tick - time
-        ):
+        free = meet.part == NOTHING and meet_a.part == NOTHING and meet_b.part == NOTHING
+        if free and limit == tick - time:
             break
         time += h
 
@@ -88,11 +84,10 @@ def step_world(
                 break
             busy_a, busy_b, stalled = 0, 0, True
 
-    store(world.ball[0], capped(a, board.speed_cap))
-    store(world.ball[1], capped(b, board.speed_cap))
-    world.paddle[0].angle, world.paddle[0].angle_commanded = left.angle, left_stop
-    world.paddle[1].angle, world.paddle[1].angle_commanded = right.angle, right_stop
-    world.paddle[0].angular_velocity, world.paddle[1].angular_velocity = left.turn, right.turn
+    store_ball(world.ball[0], capped(a, board.speed_cap))
+    store_ball(world.ball[1], capped(b, board.speed_cap))
+    store_paddle(world.paddle[0], left, left_stop)
+    store_paddle(world.paddle[1], right, right_stop)
     world.tick += 1
 
 
@@ -103,7 +98,13 @@ def loaded(record: Any) -> Ball:
 
 
 @inlined
-def store(record: Any, ball: Ball) -> None:
+def store_paddle(record: Any, paddle: Paddle, stop: float) -> None:
+    """Write a paddle back, with the stop that its button commands."""
+    record.angle, record.angle_commanded, record.angular_velocity = paddle.angle, stop, paddle.turn
+
+
+@inlined
+def store_ball(record: Any, ball: Ball) -> None:
     """Write a ball back; an empty slot is all zeros."""
     if record.id == 0:
         return
