@@ -28,8 +28,12 @@ WEDGE = [(2.0, -1.0), (3.2, -1.4), (2.4, 0.2)]
 def write_wedge(path, corners=WEDGE, height=1.5):
     """An upright prism over a triangle: the mesh's axes are the table's, y up."""
     vertices = [(x, y, z) for y in (0.0, height) for x, z in corners]
-    mesh = trimesh.convex.convex_hull(np.array(vertices))
-    mesh.export(path)
+    count = len(corners)
+    caps = [(0, i, i + 1) for i in range(1, count - 1)]
+    sides = [(i, (i + 1) % count, i + count) for i in range(count)]
+    sides += [((i + 1) % count, (i + 1) % count + count, i + count) for i in range(count)]
+    faces = [*caps, *((a + count, b + count, c + count) for a, b, c in caps), *sides]
+    trimesh.Trimesh(vertices, faces).export(path)
 
 
 def write_post(path, center=(5.0, 1.5), radius=0.6):
