@@ -13,6 +13,7 @@ that equal tables have equal texts and digests.
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from numbers import Integral, Real
 from typing import Any, Never
@@ -46,16 +47,16 @@ def refuse(message: str) -> Never:
     raise PydanticCustomError("silverball", "{message}", {"message": message})
 
 
-class Rule:
+class Rule(ABC):
     """One rule for one value: `check` returns the canonical value or refuses."""
 
+    @abstractmethod
     def check(self, value: Any) -> Any:
         """The canonical value, or a refusal that says what was expected and what was given."""
-        raise NotImplementedError
 
+    @abstractmethod
     def json_schema(self) -> JsonSchemaValue:
         """The same rule as JSON Schema, for editors and generated reference pages."""
-        raise NotImplementedError
 
     def __get_pydantic_core_schema__(self, _source: Any, _handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.check)
