@@ -1,8 +1,8 @@
 """Many worlds moved by one call: `WorldBatch`, on all cores.
 
 A batch holds one flat record per world; world i of a batch with seed s is, bit for bit, the single world
-with seed s + i. Slices of worlds go to threads (the kernels hold no lock), which cannot change a bit, since
-no world reads another.
+with seed s + i at the same tick rate. Slices of worlds go to threads (the kernels hold no lock), which cannot
+change a bit, since no world reads another.
 """
 
 from __future__ import annotations
@@ -52,8 +52,7 @@ class WorldBatch:
 
         Args:
             table: One table for all worlds, or one each. From a recipe (a table with a `[random]` section)
-                every world gets a
-                board of its own, made with its own seed.
+                every world gets a board of its own, made with its own seed.
             count: How many worlds.
             seed: World i gets seed + i; or one seed each. 0 to 2⁶³ − 1.
             tick_rate: Ticks per second, 10 to 100,000. 240 plays finely; 60 is enough for agents.

@@ -1,9 +1,10 @@
 """How does a table come to life: from the parts a person wrote to the arrays that the step reads?
 
 Every board takes a run of rows of one shared array of colliders, in the order of `physics.layout.Part`:
-three borders, two paddles, then slant walls, prisms and cylinders in the order of the file. Tables
-from files and from the generator have passed `check_table`; one made in Python is taken as it is, so that
-strange boards can be tried, unless its parts make no sense at all.
+three borders, two paddles, then slant walls, prisms and cylinders in the order of the file.
+
+Tables from files and from the generator have passed `check_table`; one made in Python is taken as it is, so
+that strange boards can be tried, unless its parts make no sense at all.
 """
 
 from __future__ import annotations
