@@ -3,7 +3,8 @@
 It moves the balls in tiny steps and looks for overlaps: just what the solver must never do. When a step
 ends in an overlap it is cut in half again and again until the overlap is gone or the step is nothing; then
 the contact is where the ball stands. Shapes are lists of corners taken from the table; distances come from
-the nearest point of each side. It shares no code with the solver.
+the nearest point of each side. Friction is the law itself, in three dimensions. It shares no code with the
+solver.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from silverball.table import Paddle, Table
+from silverball.table import Board, Paddle, Table
 
 STEP = 1e-4  # [s] at 22 u/s a ball moves 1/110 of its radius
 SHORTEST = 1e-13  # [s] a cut step this short is none
@@ -29,17 +30,92 @@ class Bounce(NamedTuple):
     speed: float
 
 
+Vector = tuple[float, float, float]
+"""(x, y, z): x up the table, y out of it, z to the right; a right-handed frame."""
+
+INERTIA = 2 / 5  # of a solid sphere, by mass and radius²
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """a·b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """a × b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def plus(a: Vector, b: Vector, share: float = 1.0) -> Vector:
+    """a + share·b."""
+    return a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2]
+
+
+def surface_slip(velocity: Vector, spin: Vector, arm: Vector) -> Vector:
+    """Velocity [u/s] of the point of a ball that lies at `arm` [u] from its centre:  v + ω × r."""
+    return plus(velocity, cross(spin, arm))
+
+
+def pushed(velocity: Vector, spin: Vector, arm: Vector, impulse: Vector) -> tuple[Vector, Vector]:
+    """Velocity and spin after an impulse [u/s, by the mass] at `arm`; the playfield takes what is along y."""
+    turn = cross(arm, impulse)
+    moment = INERTIA * dot(arm, arm)
+    return plus(velocity, (impulse[0], 0.0, impulse[2])), plus(spin, turn, 1 / moment)
+
+
+def rubbing(slip: Vector, normal: Vector, most: float, bodies: int = 1) -> Vector:
+    """The impulse of friction against a slip between so many balls: what stops it, or all there is.
+
+    An impulse J along the surface changes the slip there by J for the ball's speed and by J/INERTIA for its
+    spin; along y by the latter alone.
+    """
+    along = cross((0.0, 1.0, 0.0), normal)
+    slip_along, slip_up = dot(slip, along), slip[1]
+    stop_along = -slip_along / ((1 + 1 / INERTIA) * bodies)
+    stop_up = -slip_up * INERTIA / bodies
+    if math.hypot(stop_along, stop_up) <= most:
+        return plus((0.0, stop_up, 0.0), along, stop_along)
+    share = -most / math.hypot(slip_along, slip_up)
+    return plus((0.0, share * slip_up, 0.0), along, share * slip_along)
+
+
 class Body:
     """A ball."""
 
-    def __init__(self, x: float, z: float, vx: float, vz: float) -> None:
-        self.x, self.z, self.vx, self.vz = x, z, vx, vz
+    def __init__(self, x: float, z: float, vx: float, vz: float, spin: Vector = (0.0, 0.0, 0.0)) -> None:
+        self.x, self.z, self.vx, self.vz, self.spin = x, z, vx, vz, spin
 
-    def moved(self, h: float, gravity: float) -> Body:
-        """The ball h seconds later, in free flight."""
+    @property
+    def velocity(self) -> Vector:
+        """Velocity as a vector [u/s]."""
+        return self.vx, 0.0, self.vz
+
+    def moved(self, h: float, board: Board) -> Body:
+        """The ball h seconds later, with the acceleration that it has now."""
+        ax, az, spin = -board.gravity, 0.0, self.spin
+        if board.rolling:
+            arm = (0.0, -board.ball_radius, 0.0)
+            slip = surface_slip(self.velocity, spin, arm)
+            speed = math.hypot(slip[0], slip[2])
+            grip = board.friction * board.gravity / math.tan(math.radians(board.slope))
+            if speed > (1 + 1 / INERTIA) * (grip + board.gravity) * h:
+                fx, fz = -grip * slip[0] / speed, -grip * slip[2] / speed
+            else:  # all slip goes away; what gravity then needs for rolling is less than the grip
+                away = h * (1 + 1 / INERTIA)
+                fx, fz = -slip[0] / away - ax / (1 + 1 / INERTIA), -slip[2] / away
+            _, spin = pushed(self.velocity, spin, arm, (fx * h, 0.0, fz * h))
+            ax, az = ax + fx, az + fz
         return Body(
-            self.x + self.vx * h - gravity * h * h / 2, self.z + self.vz * h, self.vx - gravity * h, self.vz
+            self.x + self.vx * h + ax * h * h / 2,
+            self.z + self.vz * h + az * h * h / 2,
+            self.vx + ax * h,
+            self.vz + az * h,
+            spin,
         )
+
+    def push(self, arm: Vector, impulse: Vector) -> None:
+        """Give the ball an impulse at a point of its surface."""
+        (self.vx, _, self.vz), self.spin = pushed(self.velocity, self.spin, arm, impulse)
 
 
 class Shape:
@@ -66,9 +142,12 @@ class Shape:
 class Twin:
     """A table with balls, in tiny steps."""
 
-    def __init__(self, table: Table, balls: list[tuple[float, float, float, float]]) -> None:
+    def __init__(
+        self, table: Table, balls: list[tuple[float, float, float, float]], spins: list[Vector] | None = None
+    ) -> None:
         self.table, self.board = table, table.board
-        self.balls: list[Body | None] = [Body(*ball) for ball in balls]
+        spins = spins or [(0.0, 0.0, 0.0)] * len(balls)
+        self.balls: list[Body | None] = [Body(*ball, spin) for ball, spin in zip(balls, spins, strict=True)]
         self.angles = {paddle.side: math.radians(paddle.rest_angle) for paddle in table.paddle}
         self.time = 0.0
         self.bounces: list[Bounce] = []
@@ -97,7 +176,7 @@ class Twin:
         none."""
         part, is_cut = h, False
         while h > 0.0:
-            balls = [ball and ball.moved(part, self.board.gravity) for ball in self.balls]
+            balls = [ball and ball.moved(part, self.board) for ball in self.balls]
             angles = {paddle.side: self.turned(paddle, part, held) for paddle in self.table.paddle}
             met = self.overlap(balls, angles, held)
             if met is not None and part > SHORTEST:
@@ -176,7 +255,7 @@ class Twin:
         return None
 
     def bounce(self, index: int, path: str, normal, surface, part) -> None:
-        """Turn the normal part of the velocity round."""
+        """Turn the normal part of the velocity round, and let the surfaces rub."""
         board = self.board
         ball = self.balls[index]
         nx, nz = normal
@@ -188,6 +267,7 @@ class Twin:
             other = self.balls[1]
             w = -(nx * (ball.vx - other.vx) + nz * (ball.vz - other.vz))
             push = (1 + board.ball_restitution) * w / 2
+            self.rub_balls(ball, other, (nx, 0.0, nz), push)
             ball.vx, ball.vz = ball.vx + push * nx, ball.vz + push * nz
             other.vx, other.vz = other.vx - push * nx, other.vz - push * nz
             self.cap(other)
@@ -199,9 +279,29 @@ class Twin:
                 else part.restitution / (1 + part.restitution_falloff * w)
             )
             factor = getattr(part, "speed_factor", 1.0) if w > board.hit_speed else 1.0
+            self.rub_surface(ball, (nx, 0.0, nz), (1 + e) * w, (surface[0], 0.0, surface[1]))
             ball.vx, ball.vz = (ball.vx + (1 + e) * w * nx) * factor, (ball.vz + (1 + e) * w * nz) * factor
         self.cap(ball)
         self.bounces.append(Bounce(self.time, index, path, ball.x, ball.z, w))
+
+    def rub_surface(self, ball: Body, normal: Vector, push: float, surface: Vector) -> None:
+        """Friction at a surface with a velocity of its own."""
+        arm = plus((0.0, 0.0, 0.0), normal, -self.board.ball_radius)
+        slip = plus(surface_slip(ball.velocity, ball.spin, arm), surface, -1.0)
+        ball.push(arm, rubbing(slip, normal, self.board.friction * push))
+
+    def rub_balls(self, ball: Body, other: Body, normal: Vector, push: float) -> None:
+        """Friction between two balls: equal and opposite impulses at one point."""
+        nowhere, radius = (0.0, 0.0, 0.0), self.board.ball_radius
+        arm, other_arm = plus(nowhere, normal, -radius), plus(nowhere, normal, radius)
+        slip = plus(
+            surface_slip(ball.velocity, ball.spin, arm),
+            surface_slip(other.velocity, other.spin, other_arm),
+            -1.0,
+        )
+        impulse = rubbing(slip, normal, self.board.friction * push, bodies=2)
+        ball.push(arm, impulse)
+        other.push(other_arm, plus(nowhere, impulse, -1.0))
 
     def cap(self, ball: Body) -> None:
         """No ball is faster than the cap."""

@@ -107,7 +107,7 @@ def soak(tables: list[Table], ticks: int, tick_rate: int = 60, seed: int = 0, wi
     state = batch.state
     return Soak(
         count * ticks, float(seen[0]), float(seen[1]), float(seen[2]), int((state["fault"] != 0).sum()),
-        int(state["jams"].sum()), int(state["created"].sum()), beyond, hits, int(seen[4]),
+        int((state["jams"] > 0).sum()), int(state["created"].sum()), beyond, hits, int(seen[4]),
         float(seen[3]),
     )  # fmt: skip
 

@@ -1,13 +1,15 @@
-"""`silverball bench`: how fast is the step here?"""
+"""`silverball bench`: how fast is the step here, and how does it compare with other engines?"""
 
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import typer
 
 MOST_ACTIONS = 300_000_000  # three bytes each
+ENDINGS = (".png", ".md")
 
 
 def bench(
@@ -16,11 +18,19 @@ def bench(
     rounds: int = typer.Option(9, min=1, max=1000, help="Timed calls; the median counts."),
     threads: int = typer.Option(1, min=1, max=1024, help="Threads; 1 gives the speed of one core."),
     table: str = typer.Option("random", help="A built-in table or a table file."),
+    peers: bool = typer.Option(
+        False, "--peers", help="Play the same table in pymunk and Box2D too; takes some minutes."
+    ),
+    quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
+    out: list[str] = typer.Option(
+        [], metavar="FILE.png|.md", help="With --peers: also write a plot or a Markdown table; repeatable."
+    ),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
     """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
 
-    Example: `silverball bench --json`
+    Example: `silverball bench --json`, or beside other engines
+    `silverball bench --peers --out peers.png --out peers.md`
     """
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
@@ -30,8 +40,17 @@ def bench(
             f"--worlds {worlds} times --frames {frames} are more actions than memory should hold; "
             f"keep the product below {MOST_ACTIONS:,}"
         )
+    if peers:
+        if threads != 1 or frames != 60:
+            raise SilverballError(
+                "--peers compares on one core, 60 frames a call; leave --threads and --frames out"
+            )
+        compare(table, worlds, rounds, quick, out, as_json)
+        return
+    if quick or out:
+        raise SilverballError("--quick and --out belong to the comparison; add --peers or leave them out")
     with compiling():
-        from silverball.players.benchmark import measure
+        from silverball.benchmarks.speed import measure
         from silverball.table import load_table
 
         loaded = load_table(table)
@@ -52,3 +71,77 @@ def bench(
     typer.echo(
         f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}"
     )
+
+
+def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:
+    """Let all engines that are installed play the same tables, and show what came of it."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from silverball.benchmarks.peers.contestants import PEERS, present_peers
+    from silverball.cli.console import compiling, errors
+    from silverball.errors import SilverballError
+    from silverball.table import load_table
+
+    paths = [output_path(text) for text in out]
+    loaded = load_table(table)
+    if not loaded.paddle:
+        raise SilverballError(f"--table {table}: the comparison presses paddles, and this table has none")
+    engines = present_peers()
+    for engine in PEERS:
+        if engine not in engines:
+            errors.print(engine.missing, markup=False, highlight=False)
+    with compiling():
+        from silverball.benchmarks.peers import contest, plot, report
+
+        if any(path.suffix == ".png" for path in paths):
+            plot.require_matplotlib()
+    plan = contest.Plan(worlds=worlds, rounds=rounds)
+    if quick:
+        plan = plan._replace(
+            worlds=min(worlds, 512), rounds=min(rounds, 3), seconds=0.1, calls=1, boards=2, frames=1000,
+            scenes=3, energy_seconds=30,
+        )  # fmt: skip
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+        task = bar.add_task("", total=contest.units(plan, engines))
+
+        def advance(doing: str) -> None:
+            bar.update(task, advance=1, description=doing)
+
+        result = contest.run(loaded, plan, engines, advance)
+    if as_json:
+        typer.echo(report.as_json(result))
+    else:
+        console = Console() if Console().is_terminal else Console(width=200)
+        console.print(report.terminal_table(result))
+        for line in (*report.conclusions(result), *report.footing(result)):
+            typer.echo(line)
+    write(paths, result)
+
+
+def output_path(text: str) -> Path:
+    """A file to write, whose ending says what."""
+    from silverball.cli.output import file_name
+    from silverball.errors import OutputError
+
+    path = file_name(text)
+    if path.suffix not in ENDINGS:
+        raise OutputError(
+            f"{path}: a comparison is written as {' or '.join(ENDINGS)}, choose one of these endings"
+        )
+    if not path.absolute().parent.is_dir():
+        raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
+    return path
+
+
+def write(paths: list[Path], result: Any) -> None:
+    """Write the plot and the Markdown table."""
+    from silverball.benchmarks.peers import plot, report
+    from silverball.wholefile import write_whole
+
+    for path in paths:
+        if path.suffix == ".png":
+            write_whole(path, lambda place: plot.draw(result, place))
+        else:
+            write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
+        typer.echo(f"wrote {path}", err=True)

@@ -3,30 +3,57 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 
 import typer
 
+# What stands for an option of a soak that was not given, and which options belong to one kind of run alone.
+SOAK_DEFAULTS = {"table": "random", "worlds": 256, "tick_rate": 60}
+SOAK_ONLY = ("frames", "hostile", "progress", "again")
+PLAY_ONLY = ("seconds", "player", "balls", "audit")
+
 
 def simulate(
-    table: str = typer.Option("classic", help="A built-in table or a table file."),
+    ctx: typer.Context,
+    table: str = typer.Option("classic", help="A built-in table or a table file (of a soak: random)."),
     seed: int = typer.Option(
         0, min=0, max=2**63 - 1_000_001, help="Of the board and of everything random on it."
     ),
     seconds: float = typer.Option(60.0, min=0.01, max=1e9, help="To simulate in each world."),
     player: str = typer.Option("reflex", help="Who presses the buttons: idle, random or reflex."),
-    worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side; world i gets seed + i."),
+    worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side (of a soak: 256)."),
     balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board, if the table allows them."),
-    tick_rate: int = typer.Option(240, min=10, max=100_000, help="Ticks per simulated second."),
+    tick_rate: int = typer.Option(
+        240, min=10, max=100_000, help="Ticks per simulated second (of a soak: 60)."
+    ),
     audit: bool = typer.Option(
         True, help="Check every tick, independently of the solver, for a ball inside anything."
     ),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+    soak: bool = typer.Option(
+        False, "--soak", help="Try to break the solver: random boards, presses and speeds; 1 if it breaks."
+    ),
+    frames: int = typer.Option(10_000_000, min=1, help="Soak until so many frames are done, in all runs."),
+    hostile: bool = typer.Option(False, "--hostile", help="Soak boards that break every rule."),
+    progress: Path = typer.Option(None, help="File of a soak's progress [default: in the data folder]."),
+    again: Path = typer.Option(None, help="File of a finding: does it still happen?"),
 ) -> None:
-    """Let a player play without a window and say what came of it.
+    """Let a player play without a window and say what came of it; or soak the solver.
 
     Example: `silverball simulate --table random --seed 7 --seconds 600 --player reflex --json`
+
+    Example: `silverball simulate --soak --frames 1000000000`
     """
+    given = {name for name in ctx.params if str(ctx.get_parameter_source(name)).endswith("COMMANDLINE")}
+    refuse_what_does_not_fit(given, soak)
+    if soak:
+        from silverball.cli.soak import print_soak, run_soak, soak_again
+
+        if again is not None:
+            soak_again(again, as_json)
+        chosen = {name: ctx.params[name] if name in given else SOAK_DEFAULTS[name] for name in SOAK_DEFAULTS}
+        print_soak(run_soak(**chosen, seed=seed, hostile=hostile, frames=frames, progress=progress), as_json)
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
@@ -77,6 +104,18 @@ def simulate(
         typer.echo(json.dumps(report, indent=2))
     else:
         print_report(report)
+
+
+def refuse_what_does_not_fit(given: set[str], soak: bool) -> None:
+    """Refuse options that would change nothing."""
+    from silverball.errors import SilverballError
+
+    for name in PLAY_ONLY if soak else SOAK_ONLY:
+        if name in given:
+            kind = "is not for a soak, which presses at random; leave it out" if soak else "needs --soak too"
+            raise SilverballError(f"silverball simulate: --{name.replace('_', '-')} {kind}")
+    if {"hostile", "table"} <= given:
+        raise SilverballError("silverball simulate: --table does not go with --hostile, which makes its own")
 
 
 def digest_of(batch: Any) -> str:

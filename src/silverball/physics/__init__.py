@@ -7,4 +7,4 @@ windows or players; it imports math, numpy and numba only.
 `PHYSICS_VERSION` is raised whenever the same table, seed and inputs would give other bits than before.
 """
 
-PHYSICS_VERSION = 1
+PHYSICS_VERSION = 2

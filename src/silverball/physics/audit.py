@@ -2,16 +2,16 @@
 
 The solver trusts `shapes.py`; this check does not. It takes a part's corners alone, turns a paddle's with
 the library's sine, finds the nearest point of each side by clamping the foot, and tells inside from outside
-by the signs of three cross products. It is slow, and runs only where somebody asks for it: in tests, soaks
-and `silverball simulate`.
+by the signs of three cross products. A part whose box lies further away than a ball's radius is passed over.
+It runs only where somebody asks for it: in tests, soaks and `silverball simulate`.
 """
 
 from __future__ import annotations
 
-from math import cos, hypot, inf, sin
+from math import cos, hypot, inf, sin, sqrt
 from typing import Any
 
-from silverball.physics.kernel import kernel
+from silverball.physics.kernel import inlined, kernel
 from silverball.physics.layout import BALL_COUNT, Kind, Part
 
 
@@ -62,22 +62,107 @@ def part_gap(c: Any, angle: float, x: float, z: float) -> float:
 
 
 @kernel
+def gap_to(c: Any, part: int, angle: float, x: float, z: float) -> float:
+    """Distance of (x, z) from any part, the borders included; `part` is its number on the board."""
+    if part == Part.LEFT_WALL:
+        return z - c.z
+    if part == Part.RIGHT_WALL:
+        return c.z - z
+    if part == Part.TOP_WALL:
+        return c.x - x
+    return part_gap(c, angle, x, z)
+
+
+@kernel
+def box(c: Any) -> tuple[float, float, float, float]:
+    """The least and greatest x, the least and greatest z of a part that stands still [u]."""
+    if c.kind == Kind.CYLINDER:
+        return c.x - c.radius, c.x + c.radius, c.z - c.radius, c.z + c.radius
+    low_x, high_x = min(c.x0, c.x1), max(c.x0, c.x1)
+    low_z, high_z = min(c.z0, c.z1), max(c.z0, c.z1)
+    if c.kind == Kind.SLANT_WALL:
+        return low_x - c.radius, high_x + c.radius, low_z - c.radius, high_z + c.radius
+    return min(low_x, c.x2), max(high_x, c.x2), min(low_z, c.z2), max(high_z, c.z2)
+
+
+@inlined
+def is_off(c: Any, x: float, z: float, radius: float) -> bool:
+    """Whether (x, z) is further than `radius` from the box of a part that stands still."""
+    low_x, high_x, low_z, high_z = box(c)
+    return x < low_x - radius or x > high_x + radius or z < low_z - radius or z > high_z + radius
+
+
+@inlined
+def is_out_of_reach(c: Any, x: float, z: float, radius: float) -> bool:
+    """Whether (x, z) is further than `radius` from all that a paddle can sweep, or there is no paddle."""
+    if c.kind != Kind.PADDLE:
+        return True
+    far = max(c.x0 * c.x0 + c.z0 * c.z0, c.x1 * c.x1 + c.z1 * c.z1, c.x2 * c.x2 + c.z2 * c.z2)
+    reach = sqrt(far) + radius
+    return (x - c.x) ** 2 + (z - c.z) ** 2 > reach * reach
+
+
+@kernel
+def depth_in_borders(board: Any, colliders: Any, x: float, z: float) -> float:
+    """How deep a ball at (x, z) is inside a border [u]; 0 if it is not."""
+    first, radius = board.collider_first, board.ball_radius
+    return max(
+        0.0,
+        colliders[first + Part.LEFT_WALL].z - (z - radius),
+        (z + radius) - colliders[first + Part.RIGHT_WALL].z,
+        (x + radius) - colliders[first + Part.TOP_WALL].x,
+    )
+
+
+@kernel
+def depth_in_standing(board: Any, colliders: Any, x: float, z: float) -> float:
+    """How deep a ball at (x, z) is inside a part that stands still [u]; 0 if it is not."""
+    depth, radius = 0.0, board.ball_radius
+    for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
+        c = colliders[index]
+        if not is_off(c, x, z, radius):
+            depth = max(depth, radius - part_gap(c, 0.0, x, z))
+    return depth
+
+
+@kernel
+def depth_in_paddle(c: Any, angle: float, x: float, z: float, radius: float) -> float:
+    """How deep a ball at (x, z) is inside a paddle that stands at `angle` [rad]; 0 if it is not [u]."""
+    if is_out_of_reach(c, x, z, radius):
+        return 0.0
+    return max(0.0, radius - part_gap(c, angle, x, z))
+
+
+@kernel
+def depth_in_each_other(world: Any, radius: float) -> float:
+    """How deep the two balls are inside each other [u]; 0 if they are not."""
+    a, b = world.ball[0], world.ball[1]
+    if a.id == 0 or b.id == 0:
+        return 0.0
+    return max(0.0, 2.0 * radius - hypot(a.x - b.x, a.z - b.z))
+
+
+@kernel
 def deepest(world: Any, board: Any, colliders: Any) -> float:
     """How deep any ball is inside any part, border or other ball [u]; 0 if none is."""
-    depth = 0.0
-    first, radius = board.collider_first, board.ball_radius
+    depth = depth_in_each_other(world, board.ball_radius)
+    paddles = board.collider_first + Part.LEFT_PADDLE
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        x, z = ball.x, ball.z
-        depth = max(depth, colliders[first + Part.LEFT_WALL].z - (z - radius))
-        depth = max(depth, (z + radius) - colliders[first + Part.RIGHT_WALL].z)
-        depth = max(depth, (x + radius) - colliders[first + Part.TOP_WALL].x)
-        for index in range(first + Part.LEFT_PADDLE, board.collider_end):
-            side = 1 if index - first == Part.RIGHT_PADDLE else 0
-            depth = max(depth, radius - part_gap(colliders[index], world.paddle[side].angle, x, z))
-    a, b = world.ball[0], world.ball[1]
-    if a.id != 0 and b.id != 0:
-        depth = max(depth, 2.0 * radius - hypot(a.x - b.x, a.z - b.z))
+        depth = max(depth, depth_in_borders(board, colliders, ball.x, ball.z))
+        depth = max(depth, depth_in_standing(board, colliders, ball.x, ball.z))
+        for side in range(2):
+            angle = world.paddle[side].angle
+            inside = depth_in_paddle(colliders[paddles + side], angle, ball.x, ball.z, board.ball_radius)
+            depth = max(depth, inside)
     return depth
+
+
+@kernel
+def turned_for(c: Any, start: float, end: float, time: float) -> float:
+    """The angle of a paddle `time` [s] after `start` [rad] on its way to `end` [rad], where it stays."""
+    if end > start:
+        return min(start + c.lift_speed * time, end)
+    return max(start - c.return_speed * time, end)

@@ -11,13 +11,15 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from silverball.physics.bounce import capped
 from silverball.physics.kernel import kernel
 from silverball.physics.layout import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
 from silverball.physics.log import record
+from silverball.physics.motion import depart
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
 from silverball.physics.shapes import distance
-from silverball.physics.tolerances import CAP_MARGIN, CREATE_TRIES, FREE_GAP, PLACE_STEPS
+from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
 from silverball.physics.trigonometry import sine_cosine
 
 TWO_PI = 6.283185307179586
@@ -93,14 +95,15 @@ def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[boo
 
 
 @kernel
-def put_ball(world: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
+def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
     """A new ball at (x, z) in an empty slot of the world."""
     world.created += 1
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = world.created
-    record(log, EventKind.CREATED, NOTHING, ball.id, world.tick, 0.0, x, z, 0.0, 0.0, 0.0)
+    depart(ball, board, 0.0)
+    record(log, EventKind.CREATED, ball, NOTHING, world.tick, 0.0, 0.0, 0.0, 0.0)
 
 
 @kernel
@@ -126,7 +129,7 @@ def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -
     if not found:
         return Outcome.NO_ROOM + 0
     world.draws = draws
-    put_ball(world, log, slot, x, z, 0.0, 0.0)
+    put_ball(world, board, log, slot, x, z, 0.0, 0.0)
     return Outcome.CREATED + 0
 
 
@@ -141,23 +144,9 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
         world.draws += 1
         ball.vx += board.jitter * sine
         ball.vz += board.jitter * cosine
-        speed = sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
-        if speed > board.speed_cap:
-            ball.vx *= board.speed_cap / speed * CAP_MARGIN
-            ball.vz *= board.speed_cap / speed * CAP_MARGIN
-        record(
-            log,
-            EventKind.JITTER,
-            NOTHING,
-            ball.id,
-            world.tick,
-            0.0,
-            ball.x,
-            ball.z,
-            sine,
-            cosine,
-            board.jitter,
-        )
+        ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
+        depart(ball, board, 0.0)
+        record(log, EventKind.JITTER, ball, NOTHING, world.tick, 0.0, sine, cosine, board.jitter)
 
 
 @kernel

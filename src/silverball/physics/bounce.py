@@ -14,6 +14,8 @@ Above `hit_speed` a contact is a *hit*: the part's `speed_factor` multiplies the
 are scored. Below it is a *touch*, which leaves at least the hop speed √(2·A·HOP): a ball at rest hops 5e-4
 u high instead of bouncing without end. The kinetic energy that a hop can add is at most ½·(hop speed)²,
 that is A·HOP, 0.005 u²/s² on a part that stands still at gravity 10.
+
+On a table with friction the surfaces rub too; see friction.py.
 """
 
 from __future__ import annotations
@@ -21,8 +23,9 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from silverball.physics.friction import rub_balls, rub_surface
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.layout import Ball, Contact
+from silverball.physics.layout import Contact
 from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE
 
 
@@ -42,77 +45,81 @@ def hop_speed(acceleration: float, hit_speed: float) -> float:
 
 
 @inlined
-def capped(ball: Ball, cap: float) -> Ball:
-    """The ball with its speed at most the cap [u/s], its direction kept."""
-    square = ball.vx * ball.vx + ball.vz * ball.vz
+def capped(vx: float, vz: float, cap: float) -> tuple[float, float]:
+    """A velocity, its size at most the cap [u/s], its direction kept."""
+    square = vx * vx + vz * vz
     if square <= cap * cap:
-        return ball
+        return vx, vz
     scale = cap / sqrt(square) * CAP_MARGIN
-    return Ball(ball.x, ball.z, ball.vx * scale, ball.vz * scale, ball.id)
-
-
-@kernel
-def bounced(
-    ball: Ball,
-    contact: Contact,
-    c: Any,
-    ux: float,
-    uz: float,
-    acceleration: float,
-    hit_speed: float,
-    cap: float,
-) -> tuple[Ball, float]:
-    """The ball after its contact with a surface that moves with (ux, uz), and the speed of the approach."""
-    nx, nz = contact.nx, contact.nz
-    approach = -(nx * (ball.vx - ux) + nz * (ball.vz - uz))
-    rebound = approach * restitution_at(c.restitution, c.restitution_falloff, approach)
-    if approach <= hit_speed:
-        rebound = max(rebound, hop_speed(acceleration, hit_speed))
-        factor = 1.0
-    else:
-        factor = c.speed_factor
-    change = approach + rebound
-    vx = (ball.vx + change * nx) * factor
-    vz = (ball.vz + change * nz) * factor
-    leaving = Ball(ball.x, ball.z, vx, vz, ball.id)
-    if ux == 0.0 and uz == 0.0:
-        return capped(leaving, cap), approach
-    return capped_along(leaving, nx, nz, cap), approach
+    return vx * scale, vz * scale
 
 
 @inlined
-def capped_along(ball: Ball, nx: float, nz: float, cap: float) -> Ball:
-    """The ball with its speed at most the cap, cut from the tangential part first.
+def capped_along(vx: float, vz: float, nx: float, nz: float, cap: float) -> tuple[float, float]:
+    """A velocity, its size at most the cap, cut from the part along the surface first.
 
-    It must still leave the moving paddle that it has met. A table is only valid when every paddle's tip is
-    slower than the cap, hop included; so the normal part may be cut to the cap itself.
+    The ball must still leave the moving paddle that it has met. A table is only valid when every paddle's tip
+    is slower than the cap, hop included; so the normal part may be cut to the cap itself.
     """
-    square = ball.vx * ball.vx + ball.vz * ball.vz
+    square = vx * vx + vz * vz
     if square <= cap * cap:
-        return ball
-    out = nx * ball.vx + nz * ball.vz
-    along = nx * ball.vz - nz * ball.vx
+        return vx, vz
+    out = nx * vx + nz * vz
+    along = nx * vz - nz * vx
     top = cap * CAP_MARGIN
     out = min(max(out, -top), top)
     rest = sqrt(max(0.0, top * top - out * out))
     along = min(max(along, -rest), rest)
-    return Ball(ball.x, ball.z, nx * out - nz * along, nz * out + nx * along, ball.id)
+    return nx * out - nz * along, nz * out + nx * along
 
 
 @kernel
-def exchanged(
-    a: Ball, b: Ball, contact: Contact, restitution: float, acceleration: float, hit_speed: float, cap: float
-) -> tuple[Ball, Ball, float]:
-    """Two balls of equal mass after their contact, and the speed w of the approach.
+def bounce(
+    ball: Any, board: Any, c: Any, contact: Contact, ux: float, uz: float, acceleration: float
+) -> float:
+    """Give a ball the velocity and spin after its contact with a surface that moves with (ux, uz).
+
+    `acceleration` [u/s²] is what presses the ball against the surface at most: it sets the hop.
+
+    Returns:
+        The speed of the approach [u/s].
+    """
+    nx, nz = contact.nx, contact.nz
+    approach = -(nx * (ball.vx - ux) + nz * (ball.vz - uz))
+    rebound = approach * restitution_at(c.restitution, c.restitution_falloff, approach)
+    factor = c.speed_factor
+    if approach <= board.hit_speed:
+        rebound = max(rebound, hop_speed(acceleration, board.hit_speed))
+        factor = 1.0
+    push = approach + rebound
+    if board.friction != 0.0:
+        rub_surface(ball, board, nx, nz, ux, uz, push)
+    vx = (ball.vx + push * nx) * factor
+    vz = (ball.vz + push * nz) * factor
+    if ux == 0.0 and uz == 0.0:
+        ball.vx, ball.vz = capped(vx, vz, board.speed_cap)
+    else:
+        ball.vx, ball.vz = capped_along(vx, vz, nx, nz, board.speed_cap)
+    return approach
+
+
+@kernel
+def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
+    """Give two balls of equal mass the velocities and spins after their contact.
 
     Along the line of centres, from b to a, each takes half of (1 + e)·w.
+
+    Returns:
+        The speed w of the approach [u/s].
     """
     nx, nz = contact.nx, contact.nz
     approach = -(nx * (a.vx - b.vx) + nz * (a.vz - b.vz))
-    rebound = approach * restitution
-    if approach <= hit_speed:
-        rebound = max(rebound, hop_speed(acceleration, hit_speed))
+    rebound = approach * board.ball_restitution
+    if approach <= board.hit_speed:
+        rebound = max(rebound, hop_speed(board.steepest, board.hit_speed))
     push = 0.5 * (approach + rebound)
-    a = Ball(a.x, a.z, a.vx + push * nx, a.vz + push * nz, a.id)
-    b = Ball(b.x, b.z, b.vx - push * nx, b.vz - push * nz, b.id)
-    return capped(a, cap), capped(b, cap), approach
+    if board.friction != 0.0:
+        rub_balls(a, b, board, nx, nz, push)
+    a.vx, a.vz = capped(a.vx + push * nx, a.vz + push * nz, board.speed_cap)
+    b.vx, b.vz = capped(b.vx - push * nx, b.vz - push * nz, board.speed_cap)
+    return approach

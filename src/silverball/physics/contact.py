@@ -1,110 +1,191 @@
-"""What does a ball meet next, and what comes of it?"""
+"""What does a ball meet next, and what comes of it?
+
+Still parts are searched for once a flight: the contact found, or the age up to which there is none, stays in
+the ball's record until the flight ends. Paddles are searched for in every tick in which they are near.
+"""
 
 from __future__ import annotations
 
 from math import sqrt
 from typing import Any
 
-from silverball.physics.bounce import bounced
-from silverball.physics.flight import flight_to_shape, time_to_border
+from silverball.physics.bounce import bounce
+from silverball.physics.flight import flight_to_shape, flown, time_to_border
+from silverball.physics.grid import cell_of
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.layout import GUTTER, NOTHING, PAUSE, Ball, Contact, EventKind, Kind, Paddle, Part
+from silverball.physics.layout import (
+    GRIP,
+    GUTTER,
+    NOTHING,
+    PAUSE,
+    Ball,
+    Contact,
+    EventKind,
+    Kind,
+    Motion,
+    Paddle,
+    Part,
+)
 from silverball.physics.log import record
+from silverball.physics.motion import begin_to_roll, depart, land
 from silverball.physics.paddle import flight_to_paddle, surface_velocity
+from silverball.physics.shapes import distance
+from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP, SEARCH_TIME
+
+
+@kernel
+def search(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> None:
+    """Follow a ball's flight on from its age `due`, until a still part is met or `skin` [u] are gone.
+
+    The flight of a slipping ball is followed to the end of the tick alone, where it ends. At equal times the
+    earlier part in the order of the table is met first, which is the same in the mirror.
+    """
+    start = ball.due
+    here = flown(ball, start)
+    speed = sqrt(here.vx * here.vx + here.vz * here.vz)
+    span = SEARCH_TIME
+    if ball.motion == Motion.SLIPPING:
+        span = min(span, max(ball.age + tick - start, 0.0))
+    mean = speed + 0.5 * board.steepest * span  # at most
+    if mean * span > board.skin:
+        span = board.skin / mean
+    time, part = start + span, NOTHING
+    if ball.grips < time:
+        time, part = max(ball.grips, start), GRIP
+    stray = 0.5 * board.steepest * span * span  # from the straight line, at most
+    way = mean * span
+
+    if here.z - way < board.low_z:
+        at = start + time_to_border(here.z - board.low_z, here.vz, ball.pull_z)
+        if at < time:
+            time, part = at, Part.LEFT_WALL + 0
+    if here.z + way > board.high_z:
+        at = start + time_to_border(board.high_z - here.z, -here.vz, -ball.pull_z)
+        if at < time:
+            time, part = at, Part.RIGHT_WALL + 0
+    if here.x + way > board.top_x:
+        at = start + time_to_border(board.top_x - here.x, -here.vx, -ball.pull_x)
+        if at < time:
+            time, part = at, Part.TOP_WALL + 0
+    if here.x - way < board.gutter:
+        at = start + time_to_border(here.x - board.gutter, here.vx, ball.pull_x)
+        if at < time:
+            time, part = at, GUTTER
+
+    reach = board.ball_radius + FREE_GAP
+    cell = cell_of(board, here.x, here.z)
+    for entry in range(grid[cell], grid[cell + 1]):
+        index = board.collider_first + grid[entry]
+        if is_passed_by(colliders[index], here, speed, reach + way, reach + stray):
+            continue
+        at, met = flight_to_shape(colliders[index], ball, board.ball_radius, start, time)
+        if at < time:
+            time, part = at, index - board.collider_first if met else NOTHING
+    ball.due, ball.meets = time, part
 
 
 @inlined
-def _reached(c: Any, ball: Ball, reach: float) -> bool:
-    """Whether the circle around a part comes within the ball's reach: the broad phase."""
-    dx = ball.x - c.x
-    dz = ball.z - c.z
-    bound = c.reach + reach
-    return dx * dx + dz * dz < bound * bound
+def is_passed_by(c: Any, here: Ball, speed: float, way: float, stray: float) -> bool:
+    """Whether a ball that goes so far and strays so far from its straight line misses a part's circle.
 
-
-@inlined
-def _earlier(best: Contact, time: float, part: int, nx: float, nz: float) -> Contact:
-    return Contact(time, part, nx, nz) if time < best.time else best
+    The line comes as near as  √(d² − (d·v)²/v²)  to the middle, or as d if it leads away.
+    """
+    dx, dz = here.x - c.x, here.z - c.z
+    square = dx * dx + dz * dz
+    if square > (c.reach + way) * (c.reach + way):
+        return True
+    outside = square - (c.reach + stray) * (c.reach + stray)
+    toward = -(dx * here.vx + dz * here.vz)
+    return outside > 0.0 and (toward <= 0.0 or outside * speed * speed > toward * toward)
 
 
 @kernel
 def first_contact(
-    board: Any, colliders: Any, left: Paddle, right: Paddle, ball: Ball, limit: float
-) -> Contact:
-    """The first of all contacts of a ball with the parts and the gutter line before `limit` [s].
+    board: Any, colliders: Any, grid: Any, left: Paddle, right: Paddle, ball: Any,
+    start: float, limit: float, tick: float,
+) -> Contact:  # fmt: skip
+    """The first of all contacts of a ball between two times of the tick [s]; normals of still parts left out.
 
-    At equal times the earlier part in the order of the table is met first, which is the same in the mirror;
-    only of the two paddles, at the very same moment, the left one always comes first.
+    Of a still part and a paddle at the very same moment the still part comes first, of two paddles the left.
     """
-    best = Contact(limit, NOTHING, 0.0, 0.0)
     if ball.id == 0:
+        return Contact(limit, NOTHING, 0.0, 0.0)
+    searches = 0
+    while ball.meets == NOTHING and ball.due < ball.age + limit:
+        if searches == FLIGHT_STEPS:
+            return Contact(start, PAUSE, 0.0, 0.0)
+        search(board, colliders, grid, ball, tick)
+        searches += 1
+    best = Contact(limit, NOTHING, 0.0, 0.0)
+    if ball.meets != NOTHING:
+        time = max(ball.due - ball.age, start)
+        if time < limit:
+            best = Contact(time, ball.meets, 0.0, 0.0)
+    here = flown(ball, ball.age + start)
+    span = best.time - start
+    if here.x + span * (min(here.vx, 0.0) - board.steepest * span) > board.paddle_top:
         return best
-    pull_x, pull_z, radius = board.pull_x, board.pull_z, board.ball_radius
-    first = board.collider_first
-    speed = sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
-    reach = radius + limit * (speed + 0.5 * limit * (abs(pull_x) + abs(pull_z)))
-
-    low = colliders[first + Part.LEFT_WALL].z + radius
-    if ball.z - reach + radius < low:
-        best = _earlier(best, time_to_border(ball.z - low, ball.vz, pull_z), Part.LEFT_WALL + 0, 0.0, 1.0)
-    high = colliders[first + Part.RIGHT_WALL].z - radius
-    if ball.z + reach - radius > high:
-        best = _earlier(
-            best, time_to_border(high - ball.z, -ball.vz, -pull_z), Part.RIGHT_WALL + 0, 0.0, -1.0
-        )
-    top = colliders[first + Part.TOP_WALL].x - radius
-    if ball.x + reach - radius > top:
-        best = _earlier(best, time_to_border(top - ball.x, -ball.vx, -pull_x), Part.TOP_WALL + 0, -1.0, 0.0)
-    if ball.x - reach < board.gutter:
-        best = _earlier(best, time_to_border(ball.x - board.gutter, ball.vx, pull_x), GUTTER, 1.0, 0.0)
-
-    for part in range(Part.LEFT_PADDLE, Part.FIRST_SHAPE):
-        c = colliders[first + part]
-        if c.kind == Kind.PADDLE and _reached(c, ball, reach):
-            paddle = left if part == Part.LEFT_PADDLE else right
-            found = flight_to_paddle(c, part, paddle, ball, pull_x, pull_z, radius, best.time)
-            best = _earlier(best, found.time, found.part, found.nx, found.nz)
-
-    for index in range(first + Part.FIRST_SHAPE, board.collider_end):
-        c = colliders[index]
-        if _reached(c, ball, reach):
-            found = flight_to_shape(c, index - first, ball, pull_x, pull_z, radius, best.time)
-            best = _earlier(best, found.time, found.part, found.nx, found.nz)
+    speed = sqrt(here.vx * here.vx + here.vz * here.vz)
+    way = span * (speed + board.steepest * span)
+    if is_near(here.x, here.z, board.left_x, board.left_z, board.left_reach + way):
+        c = colliders[board.collider_first + Part.LEFT_PADDLE]
+        best = flight_to_paddle(c, Part.LEFT_PADDLE + 0, left, ball, board.ball_radius, speed, start, best)
+    if is_near(here.x, here.z, board.right_x, board.right_z, board.right_reach + way):
+        c = colliders[board.collider_first + Part.RIGHT_PADDLE]
+        best = flight_to_paddle(c, Part.RIGHT_PADDLE + 0, right, ball, board.ball_radius, speed, start, best)
     return best
 
 
+@inlined
+def is_near(x: float, z: float, px: float, pz: float, reach: float) -> bool:
+    """Whether two points are closer to each other than a reach that is positive."""
+    return (x - px) * (x - px) + (z - pz) * (z - pz) < reach * reach
+
+
+@inlined
+def way_in(board: Any, start: float, end: float) -> float:
+    """A bound on a ball's way [u] between two times of a tick [s] that it began below the speed cap."""
+    return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.steepest * end)
+
+
 @kernel
-def resolved(
+def resolve(
     world: Any,
     board: Any,
     colliders: Any,
     log: Any,
     tally: Any,
-    ball: Ball,
+    ball: Any,
     contact: Contact,
     turn: float,
-    offset: float,
-) -> Ball:
-    """The ball after its contact: bounced off a part, gone through the gutter, or unchanged after a pause.
+) -> None:
+    """Let a contact happen: the ball bounces off a part, begins to roll, or is gone through the gutter.
 
-    `turn` is the angular velocity of the paddle met [rad/s], `offset` the time since the tick began [s].
+    `turn` is the angular velocity of the paddle met [rad/s].
     """
+    time = contact.time
     if contact.part == PAUSE:
-        return ball
+        return
+    if contact.part == GRIP:
+        begin_to_roll(ball, board)
+        return
+    land(ball, board, ball.age + time)
     if contact.part == GUTTER:
         world.drained += 1
-        speed = -ball.vx
-        record(log, EventKind.GUTTER, GUTTER, ball.id, world.tick, offset, ball.x, ball.z, 1.0, 0.0, speed)
-        return Ball(0.0, 0.0, 0.0, 0.0, 0)
+        record(log, EventKind.GUTTER, ball, GUTTER, world.tick, time, 1.0, 0.0, -ball.vx)
+        clear(ball)
+        return
     c = colliders[board.collider_first + contact.part]
-    ux, uz = 0.0, 0.0
-    acceleration = sqrt(board.pull_x * board.pull_x + board.pull_z * board.pull_z)
-    if c.kind == Kind.PADDLE and turn != 0.0:
-        x = ball.x - board.ball_radius * contact.nx
-        z = ball.z - board.ball_radius * contact.nz
-        ux, uz = surface_velocity(c, turn, x, z)
+    nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
+    acceleration = board.steepest
+    if c.kind == Kind.WALL:
+        nx, nz = c.inward_x, c.inward_z
+    elif c.kind != Kind.PADDLE:
+        _, nx, nz = distance(c, ball.x, ball.z)
+    elif turn != 0.0:
+        ux, uz = surface_velocity(c, turn, ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz)
         acceleration += turn * turn * c.reach
-    after, speed = bounced(ball, contact, c, ux, uz, acceleration, board.hit_speed, board.speed_cap)
+    speed = bounce(ball, board, c, Contact(time, contact.part, nx, nz), ux, uz, acceleration)
     kind = EventKind.TOUCH + 0
     if speed > board.hit_speed:
         kind = EventKind.HIT + 0
@@ -113,10 +194,19 @@ def resolved(
         count_hit(world, c.kind)
     else:
         world.touches += 1
-    record(
-        log, kind, contact.part, ball.id, world.tick, offset, ball.x, ball.z, contact.nx, contact.nz, speed
-    )
-    return after
+    record(log, kind, ball, contact.part, world.tick, time, nx, nz, speed)
+    depart(ball, board, time)
+
+
+@inlined
+def clear(ball: Any) -> None:
+    """An empty slot is all zeros."""
+    ball.x, ball.z, ball.vx, ball.vz = 0.0, 0.0, 0.0, 0.0
+    ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
+    ball.id = 0
+    ball.from_x, ball.from_z, ball.from_vx, ball.from_vz = 0.0, 0.0, 0.0, 0.0
+    ball.pull_x, ball.pull_z, ball.motion, ball.grips = 0.0, 0.0, 0, 0.0
+    ball.ticks, ball.offset, ball.age, ball.due, ball.meets = 0, 0.0, 0.0, 0.0, 0
 
 
 @kernel

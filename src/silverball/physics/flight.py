@@ -10,6 +10,9 @@ Fly h, look again, until the gap is gone; one Newton step removes what is left. 
 first step, corners and circles after a few: near the contact the step is Newton's, and it always stays on
 the safe side.
 
+A flight is held by the ball's record: the state at its beginning, the acceleration, and its age. All times
+in here are ages of the flight [s].
+
 Source: the idea is that of conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid
 Body Systems", 1996, ch. 2), with the exact parabola in place of a bound on the speed.
 """
@@ -21,7 +24,7 @@ from typing import Any
 
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.layout import NOTHING, OTHER_BALL, PAUSE, Ball, Contact
-from silverball.physics.shapes import distance
+from silverball.physics.shapes import distance, point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, POLISH_TIME
 
 
@@ -39,14 +42,19 @@ def time_to_line(gap: float, rate: float, bend: float) -> float:
 
 
 @inlined
-def flown(ball: Ball, pull_x: float, pull_z: float, h: float) -> Ball:
-    """The ball after h seconds of free flight:  p + v·h + ½·a·h²,  v + a·h."""
+def lasts(gap: float, rate: float, bend: float, h: float) -> bool:
+    """Whether a gap is certainly not used up within h: a sum that bends down is least at an end; no root."""
+    return gap + h * (rate + 0.5 * min(bend, 0.0) * h) > 0.0
+
+
+@inlined
+def flown(ball: Any, age: float) -> Ball:
+    """The ball at an age of its flight:  p + v·h + ½·a·h²,  v + a·h."""
     return Ball(
-        ball.x + h * (ball.vx + 0.5 * pull_x * h),
-        ball.z + h * (ball.vz + 0.5 * pull_z * h),
-        ball.vx + pull_x * h,
-        ball.vz + pull_z * h,
-        ball.id,
+        ball.from_x + age * (ball.from_vx + 0.5 * ball.pull_x * age),
+        ball.from_z + age * (ball.from_vz + 0.5 * ball.pull_z * age),
+        ball.from_vx + ball.pull_x * age,
+        ball.from_vz + ball.pull_z * age,
     )
 
 
@@ -70,64 +78,102 @@ def time_to_border(gap: float, rate: float, bend: float) -> float:
 
 
 @kernel
-def flight_to_shape(
-    c: Any, part: int, ball: Ball, pull_x: float, pull_z: float, radius: float, limit: float
-) -> Contact:
-    """The first contact of a ball with a shape that stands still, before `limit` [s].
+def flight_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float) -> tuple[float, bool]:
+    """When a ball first meets a shape that stands still, from the age `start` on and before `limit`.
 
     Returns:
-        The contact; `NOTHING` if there is none before the limit; `PAUSE` with a time up to which the flight
-        is free, should the search not have ended (a long graze).
+        The age and True; or False and an age up to which the flight is free: the limit, or less if the search
+        has not ended (a long graze).
     """
-    time = 0.0
+    time = start
     for _ in range(FLIGHT_STEPS):
-        here = flown(ball, pull_x, pull_z, time)
+        here = flown(ball, time)
         gap, nx, nz = distance(c, here.x, here.z)
         gap -= radius
         rate = nx * here.vx + nz * here.vz
         if gap <= CONTACT_GAP and rate < 0.0:
-            time = polished(time, gap, rate)
-            here = flown(ball, pull_x, pull_z, time)
-            gap, nx, nz = distance(c, here.x, here.z)
-            return Contact(time, part, nx, nz)
-        bend = nx * pull_x + nz * pull_z
-        step = time_to_line(max(gap, 0.0), rate, bend)
+            return polished(time, gap, rate), True
+        gap = max(gap, 0.0)
+        bend = nx * ball.pull_x + nz * ball.pull_z
+        if lasts(gap, rate, bend, limit - time):
+            return limit, False
+        step = time_to_line(gap, rate, bend)
         if step == 0.0:  # at rest on the shape and pressed against it
-            return Contact(time, part, nx, nz)
+            return time, True
         time += step
         if not time < limit:
-            return Contact(limit, NOTHING, 0.0, 0.0)
-    return Contact(time, PAUSE, 0.0, 0.0)
+            return limit, False
+    return time, False
 
 
 @kernel
-def flight_to_ball(a: Ball, b: Ball, radius: float, limit: float) -> Contact:
-    """The first contact of two balls that fall alike: their relative motion is a straight line.
+def flight_to_ball(a: Ball, b: Ball, bend_x: float, bend_z: float, radius: float, limit: float) -> Contact:
+    """The first contact of two balls before `limit` [s from now]; the normal points from b to a.
 
-    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0; with b = −p·v > 0 and c = p² − 4r² the earlier root
-    is c / (b + √(b² − v²·c)): no cancellation. The normal points from b to a.
+    Args:
+        a: The one ball now.
+        b: The other ball now.
+        bend_x: Difference of their accelerations, a's less b's [u/s²].
+        bend_z: The same in z.
+        radius: Of a ball [u].
+        limit: The end of the search [s].
     """
     px, pz, vx, vz = a.x - b.x, a.z - b.z, a.vx - b.vx, a.vz - b.vz
+    if bend_x == 0.0 and bend_z == 0.0:
+        time = _time_on_a_line(px, pz, vx, vz, 2.0 * radius, limit)
+    else:
+        time = _time_on_a_parabola(px, pz, vx, vz, bend_x, bend_z, 2.0 * radius, limit)
+    if not time < limit:
+        return Contact(limit, NOTHING, 0.0, 0.0)
+    nx, nz = px + time * (vx + 0.5 * bend_x * time), pz + time * (vz + 0.5 * bend_z * time)
+    apart, nx, nz = point_distance(nx, nz, 0.0, 0.0)
+    if apart > 2.0 * radius + CONTACT_GAP * 100.0:
+        return Contact(time, PAUSE, 0.0, 0.0)
+    return Contact(time, OTHER_BALL, nx, nz)
+
+
+@inlined
+def _time_on_a_line(px: float, pz: float, vx: float, vz: float, reach: float, limit: float) -> float:
+    """When two balls meet that fall alike: their relative motion p + v·h is a straight line.
+
+    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0; with b = −p·v > 0 and c = p² − 4r² the earlier root
+    is c / (b + √(b² − v²·c)): no cancellation.
+    """
     toward = -(px * vx + pz * vz)
-    nothing = Contact(limit, NOTHING, 0.0, 0.0)
     if toward <= 0.0:
-        return nothing
-    reach = 2.0 * radius
+        return limit
     c = px * px + pz * pz - reach * reach
+    if c <= 0.0:
+        return 0.0
+    square = toward * toward - (vx * vx + vz * vz) * c
+    if square < 0.0:
+        return limit
+    time = c / (toward + sqrt(square))
+    if not time < limit:
+        return limit
+    # Newton on the gap itself: c, a difference of squares, has lost the last digits of a long flight.
+    qx, qz = px + vx * time, pz + vz * time
+    apart = sqrt(qx * qx + qz * qz)
+    return polished(time, apart - reach, (qx * vx + qz * vz) / apart)
+
+
+@kernel
+def _time_on_a_parabola(
+    px: float, pz: float, vx: float, vz: float, bend_x: float, bend_z: float, reach: float, limit: float
+) -> float:
+    """The same where one ball rolls and the other slips: the safe steps of `flight_to_shape`, to a circle."""
     time = 0.0
-    if c > 0.0:
-        square = toward * toward - (vx * vx + vz * vz) * c
-        if square < 0.0:
-            return nothing
-        time = c / (toward + sqrt(square))
+    for _ in range(FLIGHT_STEPS):
+        x, z = px + time * (vx + 0.5 * bend_x * time), pz + time * (vz + 0.5 * bend_z * time)
+        gap, nx, nz = point_distance(x, z, 0.0, 0.0)
+        gap -= reach
+        rate = nx * (vx + bend_x * time) + nz * (vz + bend_z * time)
+        if gap <= CONTACT_GAP and rate < 0.0:
+            return polished(time, gap, rate)
+        step = time_to_line(max(gap, 0.0), rate, nx * bend_x + nz * bend_z)
+        if step == 0.0:
+            return time
+        time += step
         if not time < limit:
-            return nothing
-        # Newton on the gap itself: c, a difference of squares, has lost the last digits of a long flight.
-        qx, qz = px + vx * time, pz + vz * time
-        apart = sqrt(qx * qx + qz * qz)
-        time = polished(time, apart - reach, (qx * vx + qz * vz) / apart)
-    nx, nz = px + vx * time, pz + vz * time
-    apart = sqrt(nx * nx + nz * nz)
-    if apart == 0.0:  # only a state from outside holds two balls in one place
-        return Contact(0.0, OTHER_BALL, 1.0, 0.0)
-    return Contact(time, OTHER_BALL, nx / apart, nz / apart)
+            return limit
+    return time

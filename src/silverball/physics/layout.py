@@ -41,11 +41,12 @@ class Part(IntEnum):
     FIRST_SHAPE = 5
 
 
-# What a ball can meet besides parts. Plain integers: they share a tuple's field with part numbers.
+# What a ball can meet besides parts. Plain integers: they share a field with part numbers.
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
 PAUSE = -4  # a null event: the search was safe up to here
+GRIP = -5  # a slipping ball begins to roll
 
 
 class Kind(IntEnum):
@@ -72,6 +73,14 @@ class EventKind(IntEnum):
     JAM = 8  # a pinched ball was held, the paddles at it stalled
 
 
+class Motion(IntEnum):
+    """How a ball moves over the playfield."""
+
+    SLIDING = 0  # without friction, as in the original
+    ROLLING = 1
+    SLIPPING = 2  # its lowest point rubs over the playfield
+
+
 class Fault(IntEnum):
     """Why a world has stopped."""
 
@@ -93,8 +102,18 @@ BALL = np.dtype(
     [
         ("x", "f8"), ("z", "f8"),  # centre [u]
         ("vx", "f8"), ("vz", "f8"),  # velocity [u/s]
-        ("spin_x", "f8"), ("spin_y", "f8"), ("spin_z", "f8"),  # [rad/s]; zero while balls do not roll
+        ("spin_x", "f8"), ("spin_y", "f8"), ("spin_z", "f8"),  # [rad/s]; zero on a table without friction
         ("id", "i8"),  # 1, 2, 3, … in the order of creation; 0: no ball
+        # The flight that brought it here: since its last contact the ball has been on one parabola, and is
+        # always worked out from its beginning, so that rounding does not grow from tick to tick.
+        ("from_x", "f8"), ("from_z", "f8"), ("from_vx", "f8"), ("from_vz", "f8"),
+        ("pull_x", "f8"), ("pull_z", "f8"),  # acceleration [u/s²]
+        ("motion", "i8"),  # Motion
+        ("grips", "f8"),  # the age at which a slipping ball begins to roll
+        ("ticks", "i8"), ("offset", "f8"),  # it began so many ticks ago, and so late [s] in that tick
+        ("age", "f8"),  # so this old it is: at the beginning of the next tick [s]
+        ("due", "f8"), ("meets", "i8"),  # its next contact with a still part: at what age, which part;
+        # with NOTHING: the flight is known to be free up to this age
     ],
     align=True,
 )  # fmt: skip
@@ -128,12 +147,24 @@ WORLD = np.dtype(
 BOARD = np.dtype(
     [
         ("pull_x", "f8"), ("pull_z", "f8"),  # acceleration of a free ball [u/s²]
-        ("ball_radius", "f8"), ("ball_restitution", "f8"),
+        ("ball_radius", "f8"), ("curvature", "f8"),  # [u], and one by it [1/u]
+        ("ball_restitution", "f8"),
         ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"),
         ("gutter", "f8"),  # x of the gutter line [u]
         ("half_length", "f8"), ("half_width", "f8"),
+        ("friction", "f8"),  # coefficient
+        ("press", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
+        ("steepest", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
+        ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # where the borders stop a ball's centre [u]
+        ("paddle_top", "f8"),  # no paddle reaches a ball whose centre is above this x [u]
+        # Circles in which a ball's centre must be to touch the left or right paddle, at any angle.
+        ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
+        ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
+        # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
+        ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
+        ("skin", "f8"),  # the cells list all parts that a ball can reach on a way of this length [u]
         ("place_first", "i8"), ("place_end", "i8"),  # this board's rows of the places
         ("place_size", "f8"),  # side of a place's square [u]
         ("place_lowest", "f8"),  # no ball is created below this x [u]
@@ -160,6 +191,7 @@ COLLIDER = np.dtype(
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]
         ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"),
         ("lift_speed", "f8"), ("return_speed", "f8"),
+        ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
     ],
     align=True,
 )  # fmt: skip
@@ -188,25 +220,24 @@ def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 class Ball(NamedTuple):
-    """A ball in flight: centre [u], velocity [u/s], id (0: there is none)."""
+    """A ball at one moment: centre [u] and velocity [u/s]."""
 
     x: float
     z: float
     vx: float
     vz: float
-    id: int
 
 
 class Paddle(NamedTuple):
-    """A paddle in motion: angle [rad], angular velocity [rad/s], time until it reaches its stop [s]."""
+    """A paddle in one tick: angle at its beginning [rad], angular velocity [rad/s], its stop [rad]."""
 
     angle: float
     turn: float
-    stop_in: float
+    stop: float
 
 
 class Contact(NamedTuple):
-    """The next contact of a ball: time from now [s], part met, unit normal from the part to the ball."""
+    """A contact: its time [s], the part met, the unit normal from the part to the ball."""
 
     time: float
     part: int

@@ -10,27 +10,17 @@ from silverball.physics.layout import LOG_RESERVE, LOG_SIZE, EventKind
 
 @kernel
 def record(
-    log: Any,
-    kind: int,
-    part: int,
-    ball: int,
-    tick: int,
-    offset: float,
-    x: float,
-    z: float,
-    nx: float,
-    nz: float,
-    speed: float,
+    log: Any, kind: int, ball: Any, part: int, tick: int, offset: float, nx: float, nz: float, speed: float
 ) -> None:
-    """Append an event (see `layout.EVENT`) to a world's log, or count it as lost when the log is full."""
+    """Append an event of a ball where it is (see `layout.EVENT`) to a world's log, or count it as lost."""
     room = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
     if log.count >= room:
         log.lost += 1
         return
     event = log.event[log.count]
     log.count += 1
-    event.kind, event.part, event.ball = kind, part, ball
+    event.kind, event.part, event.ball = kind, part, ball.id
     event.tick, event.offset = tick, offset
-    event.x, event.z = x, z
+    event.x, event.z = ball.x, ball.z
     event.normal_x, event.normal_z = nx, nz
     event.speed = speed

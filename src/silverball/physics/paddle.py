@@ -14,35 +14,53 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.physics.flight import flown, polished, time_to_line
+from silverball.physics.flight import flown, lasts, polished, time_to_line
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.layout import NOTHING, PAUSE, Ball, Contact, Paddle
-from silverball.physics.shapes import triangle_distance
+from silverball.physics.layout import PAUSE, Contact, Paddle
+from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, LEAST_ADVANCE_GAP, NEVER
 from silverball.physics.trigonometry import sine_cosine
 
 
 @inlined
-def aimed(c: Any, angle: float, raised: bool) -> tuple[Paddle, float]:
-    """A paddle at a tick's start, turning at constant speed, and the stop that its button commands."""
+def aimed(c: Any, angle: float, raised: bool) -> Paddle:
+    """A paddle in a tick that it begins at this angle, turning at constant speed to its button's stop."""
     stop = c.angle_up if raised else c.angle_rest
+    turn = 0.0
     if angle < stop:
-        return Paddle(angle, c.lift_speed, (stop - angle) / c.lift_speed), stop
-    if angle > stop:
-        return Paddle(angle, -c.return_speed, (angle - stop) / c.return_speed), stop
-    return Paddle(angle, 0.0, NEVER), stop
+        turn = c.lift_speed
+    elif angle > stop:
+        turn = -c.return_speed
+    return Paddle(angle, turn, stop)
 
 
 @inlined
-def turned(paddle: Paddle, stop: float, h: float) -> Paddle:
-    """The paddle h seconds later; at its stop the angle is set to it exactly and the turning ends."""
+def time_to_stop(paddle: Paddle) -> float:
+    """When in the tick the paddle reaches its stop [s]; NEVER if it does not turn."""
+    return (paddle.stop - paddle.angle) / paddle.turn if paddle.turn != 0.0 else NEVER
+
+
+@inlined
+def angle_at(paddle: Paddle, time: float) -> float:
+    """The angle at a time of the tick, never beyond the stop."""
+    angle = paddle.angle + paddle.turn * time
+    return min(angle, paddle.stop) if paddle.turn > 0.0 else max(angle, paddle.stop)
+
+
+@inlined
+def turned(paddle: Paddle, time: float) -> Paddle:
+    """The paddle as it goes on at a time of the tick: at its stop the angle is exact and the turning ends."""
+    if paddle.turn == 0.0 or time < time_to_stop(paddle):
+        return paddle
+    return Paddle(paddle.stop, 0.0, paddle.stop)
+
+
+@inlined
+def held(paddle: Paddle, time: float) -> Paddle:
+    """The paddle stopped where it is at a time of the tick."""
     if paddle.turn == 0.0:
         return paddle
-    if h >= paddle.stop_in:
-        return Paddle(stop, 0.0, NEVER)
-    angle = paddle.angle + paddle.turn * h
-    angle = min(angle, stop) if paddle.turn > 0.0 else max(angle, stop)  # rounding must not carry it past
-    return Paddle(angle, paddle.turn, paddle.stop_in - h)
+    return Paddle(angle_at(paddle, time), 0.0, paddle.stop)
 
 
 @inlined
@@ -61,56 +79,98 @@ def paddle_distance(c: Any, angle: float, x: float, z: float) -> tuple[float, fl
 
 
 @inlined
+def standing(c: Any, angle: float) -> tuple[float, float]:
+    """Sine and cosine of the angle of a paddle that stands still, at its stops by heart."""
+    if angle == c.angle_rest:
+        return c.sine_rest, c.cosine_rest
+    if angle == c.angle_up:
+        return c.sine_up, c.cosine_up
+    return sine_cosine(angle)
+
+
+@inlined
 def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> tuple[float, float, float]:
     rx = x - c.x
     rz = c.side * (z - c.z)
-    gap, nx, nz = triangle_distance(c, rx * cosine - rz * sine, rx * sine + rz * cosine)
+    gap, nx, nz = _outline_distance(c, rx * cosine - rz * sine, rx * sine + rz * cosine)
     return gap, nx * cosine + nz * sine, c.side * (nz * cosine - nx * sine)
+
+
+@inlined
+def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+    """Distance from the paddle's triangle in its own frame, and the unit normal there.
+
+    The triangle is the same on both sides of the line from pivot to tip, so the lower side is seen as the
+    upper one: what is left is the flank from the tip (corner 1) to the base's end (corner 2), and the base.
+    """
+    side = 1.0 if x >= 0.0 else -1.0
+    x = abs(x)
+    outside = (z - c.z1) * c.along_x1 - x * c.along_z1
+    if outside < -z:
+        if x > c.x2:
+            gap, nx, nz = point_distance(x, z, c.x2, 0.0)
+        else:
+            gap, nx, nz = -z, 0.0, -1.0
+    else:
+        foot = x * c.along_x1 + (z - c.z1) * c.along_z1
+        if outside > 0.0 and foot < 0.0:
+            gap, nx, nz = point_distance(x, z, 0.0, c.z1)
+        elif outside > 0.0 and foot > c.length1:
+            gap, nx, nz = point_distance(x, z, c.x2, 0.0)
+        else:
+            gap, nx, nz = outside, -c.along_z1, c.along_x1
+    return gap, side * nx, nz
 
 
 @kernel
 def flight_to_paddle(
-    c: Any, part: int, paddle: Paddle, ball: Ball, pull_x: float, pull_z: float, radius: float, limit: float
+    c: Any, part: int, paddle: Paddle, ball: Any, radius: float, speed: float, start: float, best: Contact
 ) -> Contact:
-    """The first contact of a ball with a paddle before `limit` [s], at most the time of the paddle's stop.
+    """The first contact of a ball with a paddle from a time of the tick on, or `best` if that comes first.
 
     In the frame of a turning paddle the flight is no parabola, so the bend n·a is replaced by its bound −A,
         A = |a| + 2·|ω|·v + ω²·ρ,
     with v the ball's largest speed on the board and ρ its largest distance from the pivot before the limit.
+    `speed` is the ball's at the start, where it is within reach of the paddle.
     """
-    turn = paddle.turn
-    pull = sqrt(pull_x * pull_x + pull_z * pull_z)
-    bound = pull
+    turn, limit = paddle.turn, best.time
+    bound, least, sine, cosine = 0.0, 0.0, 0.0, 1.0
+    angle = paddle.angle
     if turn != 0.0:
-        fastest = sqrt(ball.vx * ball.vx + ball.vz * ball.vz) + pull * limit
-        furthest = sqrt((ball.x - c.x) ** 2 + (ball.z - c.z) ** 2) + fastest * limit
+        pull = abs(ball.pull_x) + abs(ball.pull_z)
+        fastest = speed + pull * (limit - start)
+        furthest = c.reach + radius + 2.0 * fastest * (limit - start)
         bound = pull + 2.0 * abs(turn) * fastest + turn * turn * furthest
-    least = sqrt(2.0 * LEAST_ADVANCE_GAP / bound) if bound > 0.0 else limit
-    sine, cosine = sine_cosine(paddle.angle)
-    time = 0.0
+        least = sqrt(2.0 * LEAST_ADVANCE_GAP / bound)
+    if turn == 0.0:
+        sine, cosine = standing(c, angle)
+    time = start
     for _ in range(FLIGHT_STEPS):
-        here = flown(ball, pull_x, pull_z, time)
+        here = flown(ball, ball.age + time)
         if turn != 0.0:
-            sine, cosine = sine_cosine(paddle.angle + turn * time)
+            angle = angle_at(paddle, time)
+            sine, cosine = sine_cosine(angle)
         gap, nx, nz = _distance_turned(c, sine, cosine, here.x, here.z)
         gap -= radius
         ux, uz = surface_velocity(c, turn, here.x, here.z)
         rate = nx * (here.vx - ux) + nz * (here.vz - uz)
         if gap <= CONTACT_GAP and rate < 0.0:
-            time = polished(time, gap, rate)
-            here = flown(ball, pull_x, pull_z, time)
-            gap, nx, nz = paddle_distance(c, paddle.angle + turn * time, here.x, here.z)
+            time = max(start, polished(time, gap, rate))
+            here = flown(ball, ball.age + time)
+            gap, nx, nz = paddle_distance(c, angle_at(paddle, time) if turn != 0.0 else angle, here.x, here.z)
             return Contact(time, part, nx, nz)
-        bend = nx * pull_x + nz * pull_z if turn == 0.0 else -bound
-        step = time_to_line(max(gap, 0.0), rate, bend)
+        bend = nx * ball.pull_x + nz * ball.pull_z if turn == 0.0 else -bound
+        gap = max(gap, 0.0)
+        if lasts(gap, rate, bend, limit - time):
+            return best
+        step = time_to_line(gap, rate, bend)
         if turn == 0.0:
             if step == 0.0:  # at rest on the paddle and pressed against it
                 return Contact(time, part, nx, nz)
-        elif (
-            step < least and rate >= 0.0
-        ):  # side by side with the surface: get on, at most LEAST_ADVANCE_GAP too far
+        elif step < least and rate >= 0.0:
+            # Side by side with the surface: get on, at most LEAST_ADVANCE_GAP too far.
             step = least
         time += step
         if not time < limit:
-            return Contact(limit, NOTHING, 0.0, 0.0)
+            return best
     return Contact(time, PAUSE, 0.0, 0.0)

@@ -23,7 +23,7 @@ Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremb
 HOP_SHARE = 0.9
 """A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
 
-LEAST_ADVANCE_GAP = 1e-9
+LEAST_ADVANCE_GAP = 5e-10
 """[u] A search that can find no step forward advances at least by the time in which the greatest
 acceleration moves a ball this far: it is the deepest that a ball can ever enter anything. Smaller: more
 null events along a grazed, turning paddle. Larger: visible only to the audit, but the promise of 1e-9 u
@@ -54,3 +54,17 @@ PLACE_STEPS = 4
 
 CAP_MARGIN = 1.0 - 4.5e-16
 """A clamped speed is multiplied by this too, so that rounding cannot leave it above the cap."""
+
+CREEP = 1e-9
+"""[u/s] A lowest point that moves no faster than this does not slip: the ball rolls. Rounding leaves some
+1e-15 u/s of slip on a ball that rolls. Smaller: a rolling ball is taken for a slipping one. Larger: a slow
+slip ends early."""
+
+GRID_CELL = 1.0
+"""[u] Side of a grid's cell, at the longest. Smaller: shorter lists, more memory. Source: measured."""
+
+SKIN = 2.0
+"""[u] A flight is searched for contacts this far ahead. Smaller: more searches. Larger: longer lists."""
+
+SEARCH_TIME = 0.25
+"""[s] And no longer than this. Source: measured."""

@@ -49,6 +49,8 @@ def _cosine(r: float, rest: float) -> float:
 @kernel
 def sine_cosine(x: float) -> tuple[float, float]:
     """Sine and cosine of an angle [rad], |x| ≤ 1e4."""
+    if abs(x) <= 0.7853981633974483:  # π/4: nothing to reduce; the same bits as below
+        return _sine(x, 0.0), _cosine(x, 0.0)
     turns = floor(x * TWO_OVER_PI + 0.5)
     a = x - turns * HALF_PI_1  # exact: both are multiples of the same small unit
     b = turns * HALF_PI_2

@@ -91,7 +91,7 @@ def _run(batch: WorldBatch, player: PlayerKind, ticks: int, balls: int, audit: b
     boards = batch.boards
     batch.on_threads(
         lambda first, end: play_worlds(
-            batch.state, boards.board, batch.board_of, boards.collider, boards.place,
+            batch.state, boards.board, batch.board_of, boards.collider, boards.grid, boards.place,
             batch.logs, batch.tallies, first, end, ticks, 1.0 / batch.tick_rate,
             int(player), balls, audit, depths,
         ),
@@ -122,7 +122,7 @@ def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> Pla
 
 @kernel
 def play_worlds(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, places: Any, logs: Any, tallies: Any,
+    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, places: Any, logs: Any, tallies: Any,
     first: int, end: int, ticks: int, tick: float, player: int, balls: int, audit: bool, depths: Any,
 ) -> None:  # fmt: skip
     """Let a player play the worlds first … end − 1 for a number of ticks; most arguments as in `run_worlds`.
@@ -138,7 +138,7 @@ def play_worlds(
             if ball_count(world) < balls:
                 create_ball(world, board, colliders, places, log)
             left, right = pressed(player, world, board, colliders, tick)
-            step_world(world, board, colliders, log, tally, left, right, False, tick)
+            step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
             if audit:
                 depths[index] = max(depths[index], deepest(world, board, colliders))
 

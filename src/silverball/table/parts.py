@@ -80,11 +80,12 @@ class Board(_Model):
     gravity: Annotated[float, Quantity(0.1, 100.0, "u/s²")] = 10.0
     """[u/s²] in the board, towards −x, of a sliding ball."""
     slope: Annotated[float, Quantity(1.0, 60.0, "deg")] = 6.5
-    """[deg] of the board: the force onto it is gravity / tan(slope); used by friction, so not yet."""
-    rolling: Annotated[bool, Field(strict=True)] = False
-    """Whether balls roll. Reserved: balls slide in this version, so it must be false."""
+    """[deg] of the board, which sets the force onto it, gravity / tan(slope); only rolling needs it."""
     friction: Annotated[float, Quantity(0.0, 2.0)] = 0.0
-    """Coefficient of friction at every contact. Reserved: there is none in this version, so it must be 0."""
+    """Coefficient of friction wherever a ball touches something; 0.2 is steel on lacquer."""
+    rolling: Annotated[bool, Field(strict=True)] = False
+    """Whether the playfield rubs too, so that balls slip and roll on it; needs friction above 0. Without,
+    balls slide over it."""
     ball_radius: Annotated[float, Quantity(0.1, 2.0, "u")] = 0.25
     """[u] radius of every ball."""
     ball_restitution: _Restitution = 0.95
@@ -104,12 +105,12 @@ class Board(_Model):
     wall_restitution: _Restitution = 0.8
     """Restitution of the borders."""
 
-    @field_validator("rolling", "friction")
+    @field_validator("rolling")
     @classmethod
-    def _slides(cls, value: float) -> float:
-        if value:
-            refuse("is not simulated yet: balls slide without friction in this version; leave it out")
-        return value
+    def _has_friction(cls, rolling: bool, info: ValidationInfo) -> bool:
+        if rolling and info.data.get("friction") == 0.0:
+            refuse("needs friction above 0: a ball without friction slides; give friction = 0.2, for example")
+        return rolling
 
     @property
     def center(self) -> Point:
@@ -148,6 +149,9 @@ class SlantWall(_Part):
         if abs(side) < 1e-12:  # [u] through the centre, but for rounding
             side = nx if nx != 0.0 else nz
         return (nx, nz) if side > 0.0 else (-nx, -nz)
+
+
+_SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
 
 
 class Paddle(_Part):
@@ -198,6 +202,27 @@ class Paddle(_Part):
         """[u/s] of the fastest point during the faster of the two strokes."""
         turn = math.radians(self.up_angle - self.rest_angle)
         return turn / min(self.stroke, self.return_stroke) * self.reach
+
+    @property
+    def top(self) -> float:
+        """[u] an x that no point of it gets above, at any of its angles."""
+        tip = self.length * math.sin(math.radians(self.up_angle))
+        return self.pivot[0] + max(tip, 0.5 * self.base) + _SLACK
+
+    @property
+    def sweep(self) -> tuple[float, float, float]:
+        """[u] a circle (x, z, radius) that holds the paddle at all its angles.
+
+        Its middle lies halfway to the tip at the middle angle; the farthest from it are the tip at either
+        stop and the ends of the base.
+        """
+        middle = math.radians(0.5 * (self.rest_angle + self.up_angle))
+        swing = math.radians(0.5 * (self.up_angle - self.rest_angle))
+        way = 0.5 * self.length
+        z = math.copysign(way * math.cos(middle), 1.0 if self.side == "left" else -1.0)
+        tip = math.sqrt(self.length**2 + way**2 - 2 * self.length * way * math.cos(swing))
+        radius = max(tip, way + 0.5 * self.base) + _SLACK
+        return self.pivot[0] + way * math.sin(middle), self.pivot[1] + z, radius
 
     def corners(self, angle_deg: float) -> Triangle:
         """The outline (x, z) [u] at an angle [deg], counter-clockwise.

@@ -21,7 +21,9 @@ from silverball.physics.kernel import kernel
 from silverball.physics.layout import LOG, WORLD, Fault, Outcome, Part, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
+from silverball.world import state as states
 from silverball.world.compile import Boards, compile_tables
+from silverball.world.snapshot import Index, Snapshot, put_back, taken
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
 LEAST_SLICE = 512  # world-ticks below which a slice costs more to hand out than to run
@@ -113,8 +115,8 @@ class WorldBatch:
         boards = self.boards
         self.on_threads(
             lambda first, end: run_worlds(
-                self.state, boards.board, self.board_of, boards.collider, self.logs, self.tallies,
-                held, first, end, ticks, 1.0 / self.tick_rate,
+                self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
+                self.tallies, held, first, end, ticks, 1.0 / self.tick_rate,
             ),
             self.count * ticks,
         )  # fmt: skip
@@ -154,6 +156,41 @@ class WorldBatch:
         )
         created: NDArray[np.bool_] = outcomes == Outcome.CREATED
         return created
+
+    def save(self, index: Index = None) -> Snapshot:
+        """Copy the state of some worlds, random generators included, for `restore`.
+
+        Args:
+            index: Which worlds: None (all), a number, a slice, numbers, or a mask bool [world].
+
+        Raises:
+            ValueError: The index is none, or out of range.
+        """
+        return taken(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
+
+    def restore(self, snapshot: Snapshot, index: Index = None) -> None:
+        """Go back to saved states, bit for bit; each world then stands on the table it was saved on.
+
+        The record i of the snapshot goes into the i-th world of the index, a single record into all of them:
+        ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches have the same random
+        generator, so the same actions lead to the same future; ``batch.state["seed"] = ...`` parts them. Logs
+        of these worlds are emptied, tallies stay. On any error nothing has changed.
+
+        Args:
+            snapshot: What `save` of this or another batch returned.
+            index: Which worlds: None (all), a number, a slice, numbers, or a mask bool [world].
+
+        Raises:
+            StateError: The snapshot has another tick rate, or a table that this batch does not have.
+            ValueError: The index is none, out of range, names a world twice, or has another length.
+        """
+        digests, board_of = self.boards.digests, self.board_of
+        rows = put_back(snapshot, self.state, digests, board_of, self.tick_rate, index)
+        self.logs["count"][rows] = self.logs["lost"][rows] = 0
+
+    def digests(self) -> list[str]:
+        """The digest of each world, as `World.digest` gives it; about half a microsecond each."""
+        return states.digests(self.state)
 
 
 @kernel

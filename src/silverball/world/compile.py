@@ -17,10 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import Problem, TableError
+from silverball.physics.grid import fill_grid
 from silverball.physics.layout import BOARD, COLLIDER, Kind, Part, records
+from silverball.physics.tolerances import GRID_CELL, SKIN
 from silverball.physics.trigonometry import sine_cosine
-from silverball.table import Paddle, Table, TriangularPrism, ball_places, table_digest
+from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
 
+GRID_ROOM = 1024  # numbers for a board's grid at first; most need fewer
 FAR = 1e9  # [u] where the paddle lies that a table does not have: out of every ball's reach
 
 
@@ -30,6 +33,7 @@ class Boards(NamedTuple):
     Attributes:
         board: BOARD records, shape [board].
         collider: COLLIDER records of all boards, shape [collider].
+        grid: The grids of all boards, 32-bit numbers (see physics/grid.py).
         place: Centres (x, z) [u] of the squares in which balls may be created, shape [place, 2].
         names: For each board, the names of its parts in the order of their numbers.
         digests: For each board, the hash of its table.
@@ -37,6 +41,7 @@ class Boards(NamedTuple):
 
     board: NDArray[Any]
     collider: NDArray[Any]
+    grid: NDArray[np.int32]
     place: NDArray[np.float64]
     names: tuple[tuple[str, ...], ...]
     digests: tuple[str, ...]
@@ -64,7 +69,19 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
             "max_balls",
         ):
             row[name] = getattr(b, name)
+        row["curvature"] = 1.0 / b.ball_radius
         row["half_length"], row["half_width"] = b.length / 2, b.width / 2
+        row["low_z"], row["high_z"] = (
+            parts[Part.LEFT_WALL]["z"] + b.ball_radius,
+            parts[Part.RIGHT_WALL]["z"] - b.ball_radius,
+        )
+        row["top_x"] = parts[Part.TOP_WALL]["x"] - b.ball_radius
+        row["left_x"] = row["right_x"] = FAR
+        for p in table.paddle:
+            x, z, reach = p.sweep
+            row[f"{p.side}_x"], row[f"{p.side}_z"], row[f"{p.side}_reach"] = x, z, reach + b.ball_radius
+        row["paddle_top"] = max((p.top + b.ball_radius for p in table.paddle), default=-FAR)
+        _set_friction(row, b)
         row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
         row["place_first"], row["place_end"] = place_count, place_count + len(cells)
         row["place_size"] = size
@@ -79,10 +96,38 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
     return Boards(
         boards,
         collider,
+        _grids(boards, collider),
         np.ascontiguousarray(np.concatenate(places)),
         tuple(names),
         tuple(table_digest(table) for table in tables),
     )
+
+
+def _set_friction(row: Any, board: Board) -> None:
+    """The friction of a board, and the greatest acceleration that a flight on it can have."""
+    pull = math.sqrt(row["pull_x"] ** 2 + row["pull_z"] ** 2)
+    row["friction"] = board.friction
+    if board.rolling and board.friction > 0.0:
+        sine, cosine = sine_cosine(math.radians(board.slope))
+        row["press"] = board.gravity * cosine / sine
+    row["steepest"] = pull + board.friction * row["press"]
+
+
+def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
+    """The grids of all boards, in one array."""
+    grid = np.zeros(GRID_ROOM * len(boards), np.int32)
+    used = 0
+    for row in boards:
+        row["grid_first"], row["skin"] = used, SKIN
+        row["grid_scale"] = 1.0 / GRID_CELL
+        row["grid_rows"] = math.ceil(2 * row["half_length"] * row["grid_scale"])
+        row["grid_columns"] = math.ceil(2 * row["half_width"] * row["grid_scale"])
+        need = fill_grid(row, collider, grid)
+        if used + need > len(grid):
+            grid = np.concatenate([grid, np.zeros(len(grid) + need, np.int32)])
+            fill_grid(row, collider, grid)
+        used += need
+    return np.ascontiguousarray(grid[:used])
 
 
 def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
@@ -173,6 +218,8 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
     row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
     swing = row["angle_up"] - row["angle_rest"]
     row["lift_speed"], row["return_speed"] = swing / paddle.stroke, swing / paddle.return_stroke
+    for name in ("rest", "up"):
+        row[f"sine_{name}"], row[f"cosine_{name}"] = sine_cosine(row[f"angle_{name}"])
     _set_surface(row, paddle)
 
 

@@ -78,7 +78,7 @@ def read_balls(world: Any, height: float) -> tuple[Ball, ...]:
             (vx, 0.0, vz),
             (spin_x, spin_y, spin_z),
         )
-        for x, z, vx, vz, spin_x, spin_y, spin_z, id_ in world["ball"].tolist()
+        for x, z, vx, vz, spin_x, spin_y, spin_z, id_, *_ in world["ball"].tolist()
         if id_ != 0
     )
 

@@ -30,6 +30,7 @@ from silverball.world import state as states
 from silverball.world.batch import WorldBatch, checked_int
 from silverball.world.events import Ball, Event, Paddle, read_balls, read_events, read_paddles
 
+MEASURES = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
 
 
@@ -289,7 +290,7 @@ class World:
             )
         if clearance_of_balls(self._record, self._board, x, z) < FREE_GAP:
             raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap the other ball; place it elsewhere")
-        put_ball(self._record, self._log, slot, x, z, vx, vz)
+        put_ball(self._record, self._board, self._log, slot, x, z, vx, vz)
         return self._newest()
 
     def _check_state(self) -> None:
@@ -301,7 +302,7 @@ class World:
             return  # a stopped world may be looked at; it does not move
         if any((record[name] < 0).any() for name in COUNTS):
             raise StateError("the state holds a negative count")
-        rows = [*balls.tolist(), *record["paddle"].tolist()]
+        rows = [*balls[list(MEASURES)].tolist(), *record["paddle"].tolist()]
         if not all(math.isfinite(number) for row in rows for number in row):
             raise StateError("the state holds a number that is not finite")
         ids = balls["id"][balls["id"] != 0]

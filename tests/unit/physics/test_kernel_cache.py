@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import shutil
@@ -24,34 +25,60 @@ def test_every_package_that_holds_kernels_takes_part_in_the_name_of_the_cache():
     assert holders == set(kernel.KERNEL_PACKAGES)
 
 
-def test_a_change_in_a_callee_of_another_file_is_seen_by_cached_code(tmp_path):
+CALLEE = """
+from silverball.physics.kernel import kernel
+
+STEP = 1
+
+@kernel
+def callee(number):
+    return 10 * number
+"""
+CALLER = """
+from silverball.physics.callee import STEP, callee
+from silverball.physics.kernel import kernel
+
+@kernel
+def caller(number):
+    return callee(number) + STEP
+
+print(caller(4), sum(caller.stats.cache_hits.values()))
+"""
+
+
+def test_cached_code_never_uses_a_stale_callee_or_constant_of_another_file(tmp_path):
+    """Numba's own cache would: it looks at the file of the caller alone, which does not change in here."""
     package = tmp_path / "silverball"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
-    script = (
-        "from silverball.physics.bounce import capped\n"  # calls nothing of another file but a constant
-        "from silverball.physics.layout import Ball\n"
-        "print(capped(Ball(0.0, 0.0, 8.0, 0.0, 1), 4.0).vx)"
-    )
+    callee = package / "physics" / "callee.py"
+    (package / "world" / "caller.py").write_text(CALLER, encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(tmp_path), "SILVERBALL_CACHE": str(tmp_path / "cache")}
 
-    def speed() -> float:
+    def result_and_hits(source: str) -> tuple[int, int]:
+        callee.write_text(source, encoding="utf-8")
         printed = subprocess.run(
-            [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
-        ).stdout
-        return float(printed)
+            [sys.executable, "-c", "import silverball.world.caller"],
+            env=environment, capture_output=True, text=True, check=True, timeout=60,
+        ).stdout  # fmt: skip
+        result, hits = printed.split()
+        return int(result), int(hits)
 
-    before = speed()
-    tolerances = package / "physics" / "tolerances.py"
-    tolerances.write_text(
-        re.sub(r"CAP_MARGIN = .*", "CAP_MARGIN = 0.5", tolerances.read_text(encoding="utf-8"))
-    )
-    assert (before, speed()) == (4.0 * kernel_margin(), 2.0)
+    other_callee, other_constant = CALLEE.replace("10 *", "100 *"), CALLEE.replace("STEP = 1", "STEP = 3")
+    assert result_and_hits(CALLEE) == (41, 0)
+    assert result_and_hits(CALLEE) == (41, 1), "nothing is cached, so this test shows nothing"
+    assert result_and_hits(other_callee) == (401, 0)
+    assert result_and_hits(other_constant) == (43, 0)
+    assert result_and_hits(CALLEE) == (41, 1)
 
 
-def kernel_margin() -> float:
-    from silverball.physics.tolerances import CAP_MARGIN
-
-    return CAP_MARGIN
+def test_importing_the_package_alone_loads_nothing_heavy():
+    script = "import sys, silverball; print(sorted({name.split('.')[0] for name in sys.modules}))"
+    printed = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60
+    ).stdout
+    loaded = set(ast.literal_eval(printed))
+    assert "silverball" in loaded
+    assert not loaded & {"numba", "llvmlite", "numpy", "pygame", "pydantic", "PIL", "typer", "rich"}
 
 
 def test_a_full_disk_costs_the_cache_and_nothing_else():
@@ -64,4 +91,4 @@ def test_a_full_disk_costs_the_cache_and_nothing_else():
     store = Store()
     kernel._save_if_possible(store)
     store.save_overload("signature", "code")
-    assert hasattr(kernel.kernel(kernel_margin), "_cache"), "numba keeps its cache elsewhere: mend kernel.py"
+    assert hasattr(kernel.kernel(full), "_cache"), "numba keeps its cache elsewhere: mend kernel.py"

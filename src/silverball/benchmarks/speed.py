@@ -71,11 +71,16 @@ def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -
         worlds,
         frames,
         len(boards),
-        f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}",
+        machine(),
         platform.python_version(),
         numba.__version__,
         np.__version__,
     )
+
+
+def machine() -> str:
+    """What this is measured on, in a few words."""
+    return f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
 def _boards(table: Table) -> list[Table]:

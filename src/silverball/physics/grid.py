@@ -1,0 +1,52 @@
+"""Which parts can a ball meet soon? The grid: the board in cells, each with a list of the parts near it.
+
+A cell lists, in the order of the table, every part that a ball whose centre is in the cell can touch before
+it has gone the way `skin`. One array of 32-bit numbers holds the grids of all boards: for a board first one
+number a cell and one more, where the list of that cell begins, then the lists. Borders and paddles are not
+in it; they are asked for by coordinates.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from silverball.physics.kernel import inlined, kernel
+from silverball.physics.layout import Part
+from silverball.physics.shapes import distance
+
+
+@inlined
+def cell_of(board: Any, x: float, z: float) -> int:
+    """The number of the cell that holds (x, z); of the nearest one, should that be beyond the board."""
+    row = int((x + board.half_length) * board.grid_scale)
+    column = int((z + board.half_width) * board.grid_scale)
+    row = min(max(row, 0), board.grid_rows - 1)
+    column = min(max(column, 0), board.grid_columns - 1)
+    return board.grid_first + row * board.grid_columns + column
+
+
+@kernel
+def fill_grid(board: Any, colliders: Any, grid: Any) -> int:
+    """Write a board's cells and lists into `grid` from `board.grid_first` on, as far as there is room.
+
+    Returns:
+        How many numbers the board's grid takes; more than there is room for: call again with more.
+    """
+    side = 1.0 / board.grid_scale
+    reach = board.ball_radius + board.skin + 0.7072 * side  # half a cell's diagonal, rounded up
+    cells = board.grid_rows * board.grid_columns
+    end = board.grid_first + cells + 1
+    for cell in range(cells):
+        x = (cell // board.grid_columns + 0.5) * side - board.half_length
+        z = (cell % board.grid_columns + 0.5) * side - board.half_width
+        if board.grid_first + cell < len(grid):
+            grid[board.grid_first + cell] = end
+        for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
+            gap, _, _ = distance(colliders[index], x, z)
+            if gap < reach:
+                if end < len(grid):
+                    grid[end] = index - board.collider_first
+                end += 1
+    if board.grid_first + cells < len(grid):
+        grid[board.grid_first + cells] = end
+    return end - board.grid_first

@@ -1,0 +1,148 @@
+"""How does a soak go on until it has its frames, and what does it keep?
+
+After every round the totals are written to a file, whole or not at all; the same soak goes on from there, and
+an interruption costs one round. The file belongs to the options and to the very code of the physics: totals
+of different programs must not be added up. Beside it stands a file for every finding.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any, Self
+
+from silverball.errors import StateError
+from silverball.physics.kernel import KERNEL_PACKAGES
+from silverball.players.finding import found_at
+from silverball.players.soak import Options, Totals, play_round
+from silverball.wholefile import write_whole
+
+FORMAT = 1
+ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them tell nothing new
+MOST_FILES = 20  # findings that are written down, for the same reason
+
+
+@dataclass
+class SoakLog:
+    """What a soak has done so far.
+
+    Attributes:
+        options: `Options.described()`.
+        code: The hash of the code that does it.
+        rounds: Rounds done.
+        totals: Of these.
+        findings: The names of the files of findings, beside the log.
+    """
+
+    options: dict[str, Any]
+    code: str
+    rounds: int = 0
+    totals: Totals = field(default_factory=Totals)
+    findings: list[str] = field(default_factory=list)
+
+    def to_text(self) -> str:
+        """The log as JSON."""
+        return json.dumps({"format": FORMAT} | asdict(self), indent=1) + "\n"
+
+    @classmethod
+    def from_text(cls, text: str, source: str) -> Self:
+        """Read a log.
+
+        Raises:
+            StateError: The text is no log of a soak.
+        """
+        try:
+            values = json.loads(text)
+            form, totals = values.pop("format"), Totals(**values.pop("totals"))
+            totals.add(Totals())  # every kind of finding is there
+            log = cls(**values, totals=totals)
+            frames = log.rounds + totals.frames + len(log.findings)
+        except (ValueError, KeyError, TypeError, AttributeError) as error:
+            raise StateError(
+                f"{source}: this is no progress file of a soak, or a damaged one ({error})"
+            ) from None
+        if form != FORMAT or not isinstance(frames, int):
+            raise StateError(f"{source}: this program reads progress files of format {FORMAT}")
+        return log
+
+
+def code_digest() -> str:
+    """The hash of all sources that decide what a soak does."""
+    package = Path(__file__).resolve().parent.parent
+    digest = hashlib.sha256()
+    for source in sorted(
+        path for name in (*KERNEL_PACKAGES, "table") for path in (package / name).rglob("*.py")
+    ):
+        digest.update(source.relative_to(package).as_posix().encode() + source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def log_name(options: Options) -> str:
+    """The usual name of the file of a soak: another one for other options or other code."""
+    described = json.dumps([options.described(), code_digest()]).encode()
+    return (
+        f"soak-{'hostile' if options.hostile else 'random'}-{hashlib.sha256(described).hexdigest()[:12]}.json"
+    )
+
+
+def begun(options: Options, path: Path) -> SoakLog:
+    """The log of a soak that goes on, or that of a new one.
+
+    Raises:
+        StateError: The file is of another soak.
+    """
+    if not path.exists():
+        return SoakLog(options.described(), code_digest())
+    log = SoakLog.from_text(path.read_text(encoding="utf-8"), str(path))
+    for key, value in options.described().items():
+        if log.options.get(key) != value:
+            raise StateError(
+                f"{path}: this soak was begun with {key} {log.options.get(key)!r}, not {value!r}; "
+                "give the same options, or another --progress file"
+            )
+    if log.code != code_digest():
+        raise StateError(
+            f"{path}: this soak was begun with another version of the code; begin a new one with another "
+            "--progress file"
+        )
+    return log
+
+
+def soak(options: Options, frames: int, path: Path, progress: Callable[[int], None] | None = None) -> SoakLog:
+    """Soak until so many frames are done, from where the file says on.
+
+    Args:
+        options: What the soak is made of.
+        frames: To be done in all, earlier runs included; the last round is finished.
+        path: The file of the log; its folder is made.
+        progress: Called now and then with the frames done.
+
+    Returns:
+        The log; fewer frames are done only if there were `ENOUGH` findings.
+
+    Raises:
+        StateError: The file is of another soak.
+        OSError: The file cannot be written.
+    """
+    log = begun(options, path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    while log.totals.frames < frames and sum(log.totals.found.values()) < ENOUGH:
+        before = log.totals.frames
+        report = (lambda done, before=before: progress(before + done)) if progress is not None else None
+        totals, places = play_round(options, log.rounds, report)
+        for place in places[: max(0, MOST_FILES - len(log.findings))]:
+            finding = found_at(options, place)
+            name = f"{path.stem}-{finding.kind}-{place.round}-{place.world}.json"
+            _write(path.with_name(name), finding.to_text())
+            log.findings.append(name)
+        log.totals.add(totals)
+        log.rounds += 1
+        _write(path, log.to_text())
+    return log
+
+
+def _write(path: Path, text: str) -> None:
+    write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))

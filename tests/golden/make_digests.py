@@ -1,0 +1,73 @@
+"""Write the golden digests anew: `python tests/golden/make_digests.py`.
+
+A digest that differs means that the same table, seed and inputs now give other bits, so that nobody's
+replays hold any longer: that takes a raised PHYSICS_VERSION. New scenes may be added at any time, and scenes
+that are gone are forgotten.
+"""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import tomli_w
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run as a program, it finds its scenes there
+
+from scenes import SCENES, played
+from silverball.physics import PHYSICS_VERSION
+
+FILE = Path(__file__).with_name("digests.toml")
+REMEDY = (
+    "if this is meant, raise PHYSICS_VERSION and add a line to CHANGELOG's Physics section, "
+    "then run  python tests/golden/make_digests.py"
+)
+
+
+class Golden(NamedTuple):
+    """The digest of every scene, and the version of the physics that gave them."""
+
+    physics_version: int
+    digests: Mapping[str, str]
+
+
+def read(file: Path = FILE) -> Golden:
+    """The golden digests; none yet where there is no file."""
+    if not file.exists():
+        return Golden(0, {})
+    return Golden(**tomllib.loads(file.read_text(encoding="utf-8")))
+
+
+def now() -> Golden:
+    """The digests that this program gives."""
+    return Golden(PHYSICS_VERSION, {scene.name: played(scene).digest() for scene in SCENES})
+
+
+def changed(old: Golden, new: Golden) -> list[str]:
+    """The scenes of both whose digests differ."""
+    return [name for name in new.digests if old.digests.get(name, new.digests[name]) != new.digests[name]]
+
+
+def renew(file: Path, new: Golden) -> str:
+    """Write the digests into a file, unless they differ without a raised version.
+
+    Returns:
+        What was done, for a person to read.
+
+    Raises:
+        SystemExit: The version has not been raised; nothing is written.
+    """
+    old = read(file)
+    differ = changed(old, new)
+    if differ and new.physics_version <= old.physics_version:
+        raise SystemExit(f"other digests at PHYSICS_VERSION {new.physics_version}: {differ}; {REMEDY}")
+    file.write_text("# Written by make_digests.py\n" + tomli_w.dumps(new._asdict()), encoding="utf-8")
+    added, gone = new.digests.keys() - old.digests.keys(), old.digests.keys() - new.digests.keys()
+    return f"{file.name}: {len(differ)} changed, {len(added)} added, {len(gone)} gone"
+
+
+if __name__ == "__main__":
+    print(renew(FILE, now()))
