@@ -58,6 +58,12 @@ def generated(seed: int) -> Table:
     return generate_table(seed)
 
 
+def rolling(seed: int) -> Table:
+    table = generated(seed)
+    rough = table.board.model_copy(update={"friction": 0.2, "rolling": True})
+    return table.model_copy(update={"board": rough})
+
+
 SCENES = (
     Scene("classic", classic, seed=1),
     Scene("random board 7", lambda: generated(7), seed=2),
@@ -65,9 +71,13 @@ SCENES = (
     Scene("nothing loses speed", lambda: full_table(restitution=1.0), seed=4),
     Scene("steep board", lambda: full_table(gravity=30.0), seed=5),
     Scene("one ball", lambda: full_table(max_balls=1), seed=6, jitter=0.0),
+    Scene("rough parts", lambda: full_table(friction=0.2), seed=11),
+    Scene("rolling", lambda: full_table(friction=0.2, rolling=True), seed=12),
+    Scene("too smooth to roll", lambda: full_table(friction=0.02, rolling=True), seed=13),
     Scene("slow ticks", classic, seed=7, tick_rate=10, ticks=300),
     Scene("classic as in the window", classic, seed=8, tick_rate=240, ticks=4800),
     Scene("random board 9 as in the window", lambda: generated(9), seed=9, tick_rate=240, ticks=4800),
+    Scene("rolling as in the window", lambda: rolling(11), seed=14, tick_rate=240, ticks=4800),
     Scene("odd ticks", lambda: generated(10), seed=10, tick_rate=977, ticks=9000),
 )
 

@@ -12,6 +12,7 @@ import pytest
 from boards import full_table
 from silverball.physics.audit import deepest, part_gap
 from silverball.physics.layout import EventKind, Kind, Part
+from silverball.players.hostile import hostile_table
 from silverball.table import Table, generate_table
 from silverball.world import WorldBatch
 
@@ -143,6 +144,10 @@ def test_the_same_at_other_tick_rates(tick_rate: int) -> None:
         {"ball_radius": 0.1, "gravity": 0.5, "jitter": 6.0},
         {"ball_restitution": 0.0, "wall_restitution": 1.0, "speed_cap": 60.0},
         {"wall_thickness": 0.0, "hit_speed": 0.3, "gravity": 100.0},
+        {"friction": 0.3},
+        {"friction": 0.2, "rolling": True},
+        {"friction": 0.02, "rolling": True, "ball_restitution": 0.0},
+        {"friction": 2.0, "rolling": True, "slope": 1.0, "speed_cap": 60.0},
     ],
 )
 def test_the_same_on_boards_of_other_kinds(board) -> None:
@@ -160,6 +165,34 @@ def test_the_same_with_slow_wide_and_with_bouncy_paddles() -> None:
     ):
         paddles = tuple(paddle.model_copy(update=change) for paddle in table.paddle)
         check(soak([table.model_copy(update={"paddle": paddles})] * 64, 1500, seed=6))
+
+
+RUBS = (
+    {"friction": 0.2},
+    {"friction": 0.2, "rolling": True},
+    {"friction": 0.02, "rolling": True},
+    {"friction": 2.0, "rolling": True, "slope": 1.0},
+)
+
+
+def rough(table: Table, rub) -> Table:
+    """The same table with friction."""
+    return table.model_copy(update={"board": table.board.model_copy(update=rub)})
+
+
+@pytest.mark.parametrize("tick_rate", [10, 60])
+@pytest.mark.parametrize("rub", RUBS, ids=str)
+def test_the_same_on_hostile_boards_that_rub(rub, tick_rate: int) -> None:
+    """Slips end in the middle of ticks in which balls, parts and paddles meet; parts overlap and pinch."""
+    seen = soak([rough(hostile_table(seed), rub) for seed in range(96)], 1000, tick_rate, seed=5)
+    check(seen)
+    assert seen.contacts > 10_000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rub", RUBS, ids=str)
+def test_nothing_is_inside_anything_in_ten_million_frames_of_boards_that_rub(rub) -> None:
+    check(soak([rough(generate_table(seed), rub) for seed in range(512)], 20_000, seed=1))
 
 
 @pytest.mark.slow

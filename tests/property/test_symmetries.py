@@ -14,9 +14,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from boards import CONTACTS, edited, full_table, launched, mirrored, moment, place, speed_of
-from silverball.physics.tolerances import HOP
+from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.table import SlantWall, Table, generate_table
 from silverball.world import World
+from spinning import Spin, energy, spinning
 
 BOUNCES = 5
 SAME = 1e-9
@@ -25,6 +26,16 @@ BESIDE = 1e-13  # [u] how far beside the first flight the second one starts
 starts = st.tuples(
     st.floats(-4.5, 9.0), st.floats(-4.5, 4.5), st.floats(0, 2 * math.pi), st.floats(2, 16)
 ).map(lambda s: (s[0], s[1], s[3] * math.sin(s[2]), s[3] * math.cos(s[2])))
+spins = st.tuples(*[st.floats(-60, 60)] * 3)
+rubs = st.sampled_from(
+    [
+        {},
+        {"friction": 0.2},
+        {"friction": 0.2, "rolling": True},
+        {"friction": 0.02, "rolling": True},
+        {"friction": 1.0, "rolling": True, "slope": 2.0},
+    ]
+)
 buttons = st.lists(st.tuples(st.booleans(), st.booleans()), min_size=1, max_size=12)
 
 
@@ -64,29 +75,51 @@ def difference(one, other) -> float:
     )
 
 
-def is_tame(table: Table, balls, seen, pressed=((False, False),), **how) -> bool:
+def is_tame(
+    table: Table, balls, seen, pressed=((False, False),), turns: tuple[Spin, ...] = (), **how
+) -> bool:
     """Whether a flight that starts a little beside meets the same, a little beside."""
     (x, z, vx, vz), *rest = balls
-    beside = bounces(launched(table, (x + BESIDE, z - BESIDE, vx, vz), *rest, **how), pressed)
+    start = ((x + BESIDE, z - BESIDE, vx, vz), *rest)
+    beside = bounces(start_of(table, start, turns, **how), pressed)
     return difference(seen, beside) < 1000 * BESIDE
 
 
-@settings(max_examples=60)
-@given(st.integers(0, 30), starts, starts, st.booleans(), buttons)
+def start_of(table: Table, balls, turns: tuple[Spin, ...] = (), **how) -> World:
+    """A world with balls, and with these spins if there are any."""
+    if not turns:
+        return launched(table, *balls, **how)
+    return spinning(table, *zip(balls, turns, strict=True), **how)
+
+
+def rubbing(table: Table, rub) -> Table:
+    """The same table with friction."""
+    return table.model_copy(update={"board": table.board.model_copy(update=rub)})
+
+
+@settings(max_examples=80)
+@given(st.integers(0, 30), rubs, starts, starts, spins, spins, st.booleans(), buttons)
 def test_the_mirrored_board_with_swapped_buttons_gives_the_mirrored_path(
-    board, one, other, two, pressed
+    board, rub, one, other, turn, other_turn, two, pressed
 ) -> None:
-    table = generate_table(board)
-    balls = (one, other) if two else (one,)
+    """A spin is mirrored too: as a pseudovector it keeps its part along z alone."""
+    table = rubbing(generate_table(board), rub)
+    balls, turns = ((one, other), (turn, other_turn)) if two else ((one,), (turn,))
     assume(is_free(table, *balls))
-    seen = bounces(launched(table, *balls), pressed)
-    assume(seen and is_tame(table, balls, seen, pressed))
+    world = start_of(table, balls, turns)
+    seen = bounces(world, pressed)
+    assume(seen and is_tame(table, balls, seen, pressed, turns))
     swap = {"board.left": "board.right", "paddle.left": "paddle.right"}
     swap |= {value: key for key, value in swap.items()}
     flipped = [(x, -z, vx, -vz) for x, z, vx, vz in balls]
-    reflected = bounces(launched(mirrored(table), *flipped), [(right, left) for left, right in pressed])
+    unturned = tuple((-wx, -wy, wz) for wx, wy, wz in turns)
+    mirror = start_of(mirrored(table), flipped, unturned)
+    reflected = bounces(mirror, [(right, left) for left, right in pressed])
     back = [(t, swap.get(part, part), ball, x, -z, speed) for t, part, ball, x, z, speed in reflected]
     assert difference(seen, back) <= SAME
+    for ball, image in zip(world.balls, mirror.balls, strict=True):
+        wx, wy, wz = image.spin
+        assert math.dist(ball.spin, (-wx, -wy, wz)) <= SAME / table.board.ball_radius * 100
 
 
 def test_a_mirrored_paddle_mirrors_to_the_bit() -> None:
@@ -149,32 +182,31 @@ def test_the_tick_rate_does_not_matter_while_no_tick_end_clamp_plays_a_part(boar
         assert difference(seen, bounces(launched(table, *balls, tick_rate=tick_rate))) <= SAME
 
 
-@settings(max_examples=30)
-@given(st.integers(0, 30), starts, starts)
-def test_energy_never_grows_without_a_moving_paddle_a_boost_or_a_hop(board, one, other) -> None:
-    """A touch may add the energy of a hop, ½·(2·g·HOP); all else takes energy or leaves it."""
-    table = generate_table(board)
+@settings(max_examples=60)
+@given(st.integers(0, 30), rubs, starts, starts, spins, spins)
+def test_energy_never_grows_without_a_moving_paddle_a_boost_or_a_hop(
+    board, rub, one, other, turn, other_turn
+) -> None:
+    """Energy of motion, of spin and of height. A touch may add that of a hop, ½·(hop speed)²; all else takes
+    energy or leaves it."""
+    table = rubbing(generate_table(board), rub)
     calm = tuple(part.model_copy(update={"speed_factor": 1.0, "restitution": 1.0}) for part in table.cylinder)
     table = table.model_copy(update={"cylinder": calm})
     assume(is_free(table, one, other))
-    world = launched(table, one, other, tick_rate=60)
-
-    def energy() -> float:
-        return sum(
-            0.5 * (vx * vx + vz * vz) + 10.0 * x
-            for x, vx, vz in ((b.position[0], *speed_of(b)) for b in world.balls)
-        )
-
-    before, touches = energy(), 0
+    world = spinning(table, (one, turn), (other, other_turn), tick_rate=60)
+    g = table.board.gravity
+    press = g / math.tan(math.radians(table.board.slope)) if table.board.rolling else 0.0
+    hop = min((g + table.board.friction * press) * HOP, 0.5 * (HOP_SHARE * table.board.hit_speed) ** 2)
+    before, touches = energy(world), 0
     while world.balls and world.tick < 600:
         count = len(world.balls)
         world.step()
         if len(world.balls) < count:  # the energy of a ball that is gone goes with it
-            before, touches = energy(), int(world.records[0]["touches"])
+            before, touches = energy(world), int(world.records[0]["touches"])
         now = int(world.records[0]["touches"])
         # Rounding: each contact at 22 u/s by some ulp(22²/2) = 3e-14.
-        assert energy() <= before + (now - touches) * 10.0 * HOP + 1e-11
-        before, touches = energy(), now
+        assert energy(world) <= before + (now - touches) * hop * (1 + 1e-9) + 1e-11
+        before, touches = energy(world), now
 
 
 def test_elastic_bouncing_keeps_its_energy_for_a_thousand_seconds() -> None:

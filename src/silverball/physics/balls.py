@@ -12,7 +12,7 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.bounce import capped
-from silverball.physics.kernel import kernel
+from silverball.physics.kernel import internal, kernel
 from silverball.physics.layout import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
 from silverball.physics.log import record
 from silverball.physics.motion import depart
@@ -60,7 +60,7 @@ def clearance_of_balls(world: Any, board: Any, x: float, z: float) -> float:
     return least
 
 
-@kernel
+@internal
 def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
     """Whether a ball at (x, z) would overlap nothing."""
     if x <= board.gutter + board.ball_radius:
@@ -69,7 +69,7 @@ def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
     return gap >= FREE_GAP and clearance_of_balls(world, board, x, z) >= FREE_GAP
 
 
-@kernel
+@internal
 def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[bool, float, float, int]:
     """A free place for a ball, and how many random numbers it took to find it."""
     count = board.place_end - board.place_first
@@ -103,7 +103,7 @@ def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = world.created
     depart(ball, board, 0.0)
-    record(log, EventKind.CREATED, ball, NOTHING, world.tick, 0.0, 0.0, 0.0, 0.0)
+    record(log, EventKind.CREATED + 0, ball, NOTHING + 0, world.tick, 0.0, 0.0, 0.0, 0.0)
 
 
 @kernel
@@ -133,7 +133,7 @@ def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -
     return Outcome.CREATED + 0
 
 
-@kernel
+@internal
 def shove_balls(world: Any, board: Any, log: Any) -> None:
     """Jitter: every ball on the board gets an impulse of fixed size in a random direction of its own."""
     for slot in range(BALL_COUNT):
@@ -146,7 +146,7 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
         ball.vz += board.jitter * cosine
         ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
         depart(ball, board, 0.0)
-        record(log, EventKind.JITTER, ball, NOTHING, world.tick, 0.0, sine, cosine, board.jitter)
+        record(log, EventKind.JITTER + 0, ball, NOTHING + 0, world.tick, 0.0, sine, cosine, board.jitter)
 
 
 @kernel

@@ -24,7 +24,7 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.friction import rub_balls, rub_surface
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import Contact
 from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE
 
@@ -73,7 +73,7 @@ def capped_along(vx: float, vz: float, nx: float, nz: float, cap: float) -> tupl
     return nx * out - nz * along, nz * out + nx * along
 
 
-@kernel
+@internal
 def bounce(
     ball: Any, board: Any, c: Any, contact: Contact, ux: float, uz: float, acceleration: float
 ) -> float:
@@ -103,7 +103,7 @@ def bounce(
     return approach
 
 
-@kernel
+@internal
 def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
     """Give two balls of equal mass the velocities and spins after their contact.
 

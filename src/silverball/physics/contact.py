@@ -12,7 +12,7 @@ from typing import Any
 from silverball.physics.bounce import bounce
 from silverball.physics.flight import flight_to_shape, flown, time_to_border
 from silverball.physics.grid import cell_of
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import (
     GRIP,
     GUTTER,
@@ -99,7 +99,7 @@ def is_passed_by(c: Any, here: Ball, speed: float, way: float, stray: float) -> 
     return outside > 0.0 and (toward <= 0.0 or outside * speed * speed > toward * toward)
 
 
-@kernel
+@internal
 def first_contact(
     board: Any, colliders: Any, grid: Any, left: Paddle, right: Paddle, ball: Any,
     start: float, limit: float, tick: float,
@@ -148,7 +148,7 @@ def way_in(board: Any, start: float, end: float) -> float:
     return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.steepest * end)
 
 
-@kernel
+@internal
 def resolve(
     world: Any,
     board: Any,
@@ -172,7 +172,7 @@ def resolve(
     land(ball, board, ball.age + time)
     if contact.part == GUTTER:
         world.drained += 1
-        record(log, EventKind.GUTTER, ball, GUTTER, world.tick, time, 1.0, 0.0, -ball.vx)
+        record(log, EventKind.GUTTER + 0, ball, GUTTER + 0, world.tick, time, 1.0, 0.0, -ball.vx)
         clear(ball)
         return
     c = colliders[board.collider_first + contact.part]
@@ -209,7 +209,7 @@ def clear(ball: Any) -> None:
     ball.ticks, ball.offset, ball.age, ball.due, ball.meets = 0, 0.0, 0.0, 0.0, 0
 
 
-@kernel
+@internal
 def count_hit(world: Any, kind: int) -> None:
     """One more hit of a kind of part."""
     if kind == Kind.WALL:

@@ -22,7 +22,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import NOTHING, OTHER_BALL, PAUSE, Ball, Contact
 from silverball.physics.shapes import distance, point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, POLISH_TIME
@@ -66,7 +66,7 @@ def polished(time: float, gap: float, rate: float) -> float:
     return max(0.0, time - gap / rate)
 
 
-@kernel
+@internal
 def time_to_border(gap: float, rate: float, bend: float) -> float:
     """When the gap to a straight border is used up: the closed form, polished once."""
     if gap <= 0.0 and rate < 0.0:
@@ -106,7 +106,7 @@ def flight_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float
     return time, False
 
 
-@kernel
+@internal
 def flight_to_ball(a: Ball, b: Ball, bend_x: float, bend_z: float, radius: float, limit: float) -> Contact:
     """The first contact of two balls before `limit` [s from now]; the normal points from b to a.
 
@@ -157,7 +157,7 @@ def _time_on_a_line(px: float, pz: float, vx: float, vz: float, reach: float, li
     return polished(time, apart - reach, (qx * vx + qz * vz) / apart)
 
 
-@kernel
+@internal
 def _time_on_a_parabola(
     px: float, pz: float, vx: float, vz: float, bend_x: float, bend_z: float, reach: float, limit: float
 ) -> float:

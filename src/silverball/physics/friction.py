@@ -23,7 +23,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal
 
 ALONG_SHARE = 3.5  # slip along t changes by this times the impulse
 UPRIGHT_SHARE = 2.5  # slip along y, where only the spin changes; also the spin's own share
@@ -51,7 +51,7 @@ def _push_along(ball: Any, curvature: float, nx: float, nz: float, jt: float, jy
     ball.spin_z -= gain * jy * nx
 
 
-@kernel
+@internal
 def rub_surface(ball: Any, board: Any, nx: float, nz: float, ux: float, uz: float, push: float) -> None:
     """Friction at a surface that moves with (ux, uz) and pushes with an impulse [u/s] along (nx, nz)."""
     radius = board.ball_radius
@@ -61,7 +61,7 @@ def rub_surface(ball: Any, board: Any, nx: float, nz: float, ux: float, uz: floa
     _push_along(ball, board.curvature, nx, nz, jt, jy)
 
 
-@kernel
+@internal
 def rub_balls(a: Any, b: Any, board: Any, nx: float, nz: float, push: float) -> None:
     """Friction between two balls that push each other with an impulse [u/s] along (nx, nz), from b to a.
 

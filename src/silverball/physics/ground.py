@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.audit import box, part_gap
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import kernel
 from silverball.physics.layout import Part, records
 
 CELL = 0.4  # [ball radii] side of a cell: a wall is at least two radii thick to a centre
@@ -114,7 +114,7 @@ def mark_cells(board: Any, colliders: Any, site: Any, marks: Any) -> None:
                     marks[place] = -1
 
 
-@inlined
+@kernel
 def cell_number(value: float, low: float, cell: float, count: int) -> int:
     """The row or column of a coordinate, the first or last one if it lies beyond."""
     return int(min(max(floor((value - low) / cell), 0.0), count - 1.0))
@@ -152,7 +152,7 @@ def spread(site: Any, marks: Any, stack: Any, start: int, ground: int) -> None:
                     count += 1
 
 
-@inlined
+@kernel
 def mark_at(site: Any, marks: Any, x: float, z: float) -> int:
     """The mark of the cell of (x, z), or OFF_BOARD; a number that is none is off the board too."""
     if not (site.low_x <= x <= site.high_x and site.low_z <= z <= site.high_z):
@@ -161,13 +161,13 @@ def mark_at(site: Any, marks: Any, x: float, z: float) -> int:
     return marks[site.first + row * site.columns + column]
 
 
-@inlined
+@kernel
 def ground_of(mark: int) -> int:
     """The number of the ground of a cell with this mark; BLOCKED, OFF_BOARD: there is none."""
     return mark if mark <= BLOCKED else mark // 2
 
 
-@inlined
+@kernel
 def is_narrow(mark: int) -> bool:
     """Whether a ball in a cell with this mark may touch something that stands still."""
     return mark <= BLOCKED or mark % 2 == 1

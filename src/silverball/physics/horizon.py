@@ -11,7 +11,7 @@ from typing import Any
 
 from silverball.physics.contact import is_near, search, way_in
 from silverball.physics.flight import flight_to_ball, flown, time_to_line
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import GRIP, NOTHING, Motion
 from silverball.physics.motion import begin_to_roll, depart
 
@@ -26,36 +26,47 @@ def turn_slip(board: Any, ball: Any) -> None:
 
 
 @inlined
+def begins_to_roll(ball: Any, tick: float) -> bool:
+    """Whether the slip of a ball comes to its end in the next tick, before it meets anything."""
+    return ball.meets == GRIP and ball.due < ball.age + tick and ball.id != 0
+
+
+@inlined
 def is_undisturbed(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> bool:
     """Whether a ball meets nothing in the next tick, the other ball left aside."""
     if ball.id == 0:
         return True
-    end = (ball.ticks + 1) * tick - ball.offset
+    end = ball.age + tick
     if ball.due < end and ball.meets == NOTHING:
         search(board, colliders, grid, ball, tick)
     if ball.due < end and ball.meets != GRIP:
         return False
-    if ball.x + tick * (min(ball.vx, 0.0) - board.steepest * tick) <= board.paddle_top:
-        way = tick * (abs(ball.vx) + abs(ball.vz) + board.steepest * tick)
-        if is_near(ball.x, ball.z, board.left_x, board.left_z, board.left_reach + way) or is_near(
-            ball.x, ball.z, board.right_x, board.right_z, board.right_reach + way
-        ):
-            return False
-    if ball.due < end:  # far from the rest a change from slipping to rolling needs no more than this
-        begin_to_roll(ball, board)
-        search(board, colliders, grid, ball, tick)
-        return ball.due >= tick - ball.offset
-    return True
+    share = 1.0 if ball.due >= end else 2.0  # room to spare for a ball that changes its flight on the way
+    if ball.x + share * tick * (min(ball.vx, 0.0) - board.steepest * tick) > board.paddle_top:
+        return True
+    way = share * tick * (abs(ball.vx) + abs(ball.vz) + board.steepest * tick)
+    return not (
+        is_near(ball.x, ball.z, board.left_x, board.left_z, board.left_reach + way)
+        or is_near(ball.x, ball.z, board.right_x, board.right_z, board.right_reach + way)
+    )
 
 
 @inlined
-def are_apart(board: Any, a: Any, b: Any, tick: float) -> bool:
-    """Whether the balls are too far from each other to meet in the next tick."""
+def are_apart(board: Any, a: Any, b: Any, tick: float, share: float) -> bool:
+    """Whether the balls are too far from each other to meet in the next tick, with so much room to spare."""
     if a.id == 0 or b.id == 0:
         return True
     dx, dz = a.x - b.x, a.z - b.z
-    reach = 2.0 * (board.ball_radius + way_in(board, 0.0, tick))
+    reach = 2.0 * (board.ball_radius + share * way_in(board, 0.0, tick))
     return dx * dx + dz * dz > reach * reach
+
+
+@internal
+def rolls_on(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> bool:
+    """Let a ball begin to roll in the next tick, far from everything else; whether it meets nothing then."""
+    begin_to_roll(ball, board)
+    search(board, colliders, grid, ball, tick)
+    return ball.due >= ball.age + tick
 
 
 @inlined
@@ -75,19 +86,24 @@ def undisturbed_ticks(board: Any, ball: Any, tick: float, most: int) -> int:
     count = int(free / tick) if free < most * tick else most
     end = flown(ball, ball.age + count * tick)
     is_slow = end.vx * end.vx + end.vz * end.vz < board.speed_cap * board.speed_cap * SHORTER
-    return max(count, 1) if is_slow else 1
+    return max(count, 1) if is_slow and end.x > -board.half_length else 1
 
 
-@kernel
+@internal
 def free_ticks(board: Any, colliders: Any, grid: Any, a: Any, b: Any, tick: float, most: int) -> int:
     """For how many of the next ticks, at most `most`, nothing happens to the balls."""
     turn_slip(board, a)
     turn_slip(board, b)
     if not (
-        is_undisturbed(board, colliders, grid, a, tick)
-        and is_undisturbed(board, colliders, grid, b, tick)
-        and are_apart(board, a, b, tick)
+        is_undisturbed(board, colliders, grid, a, tick) and is_undisturbed(board, colliders, grid, b, tick)
     ):
+        return 0
+    change_a, change_b = begins_to_roll(a, tick), begins_to_roll(b, tick)
+    if not are_apart(board, a, b, tick, 2.0 if change_a or change_b else 1.0):
+        return 0
+    if change_a and not rolls_on(board, colliders, grid, a, tick):
+        return 0
+    if change_b and not rolls_on(board, colliders, grid, b, tick):
         return 0
     count = undisturbed_ticks(board, a, tick, most)
     count = undisturbed_ticks(board, b, tick, count)

@@ -164,7 +164,7 @@ BOARD = np.dtype(
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
         # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
-        ("skin", "f8"),  # the cells list all parts that a ball can reach on a way of this length [u]
+        ("skin", "f8"),  # a cell lists all parts that a ball can reach on a way of this length [u]
         ("place_first", "i8"), ("place_end", "i8"),  # this board's rows of the places
         ("place_size", "f8"),  # side of a place's square [u]
         ("place_lowest", "f8"),  # no ball is created below this x [u]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from silverball.physics.kernel import kernel
+from silverball.physics.kernel import internal
 from silverball.physics.layout import LOG_RESERVE, LOG_SIZE, EventKind
 
 
-@kernel
+@internal
 def record(
     log: Any, kind: int, ball: Any, part: int, tick: int, offset: float, nx: float, nz: float, speed: float
 ) -> None:

@@ -25,7 +25,7 @@ from typing import Any
 
 from silverball.physics.bounce import capped
 from silverball.physics.flight import flown
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import GRIP, NOTHING, Ball, Motion
 from silverball.physics.tolerances import CREEP, NEVER
 
@@ -51,7 +51,7 @@ def depart(ball: Any, board: Any, offset: float) -> None:
         _take_grip(ball, board)
 
 
-@kernel
+@internal
 def _take_grip(ball: Any, board: Any) -> None:
     """Decide whether a ball on a playfield with friction slips or rolls, and its acceleration.
 
@@ -110,7 +110,7 @@ def _turn(ball: Any, board: Any, age: float) -> None:
         ball.spin_z += gain * (ball.pull_x - board.pull_x)
 
 
-@kernel
+@internal
 def begin_to_roll(ball: Any, board: Any) -> None:
     """Let a ball whose slip comes to its end roll: an impulse −2/7·u takes away what is left of it."""
     time = ball.due - ball.age
@@ -151,7 +151,7 @@ def is_on_flight(ball: Any, board: Any) -> bool:
     )
 
 
-@kernel
+@internal
 def is_slipping(ball: Any, board: Any) -> bool:
     """Whether the lowest point of a ball rubs over the playfield."""
     slip_x, slip_z = slip(ball, board)

@@ -15,7 +15,7 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.flight import flown, lasts, polished, time_to_line
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import PAUSE, Contact, Paddle
 from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, LEAST_ADVANCE_GAP, NEVER
@@ -122,7 +122,7 @@ def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     return gap, side * nx, nz
 
 
-@kernel
+@internal
 def flight_to_paddle(
     c: Any, part: int, paddle: Paddle, ball: Any, radius: float, speed: float, start: float, best: Contact
 ) -> Contact:

@@ -14,6 +14,7 @@ from __future__ import annotations
 from silverball.physics.kernel import inlined, kernel
 
 WORD = 0xFFFFFFFF
+ROTATIONS = (13, 15, 26, 6, 17, 29, 16, 24)  # bits, round after round, then from the first again
 PARITY = 0x1BD11BDA  # fixed by the generator's authors, against a key of zeros
 
 
@@ -23,35 +24,25 @@ def _rotated(word: int, bits: int) -> int:
 
 
 @inlined
-def _mixed(a: int, b: int, r0: int, r1: int, r2: int, r3: int) -> tuple[int, int]:
+def _mixed(a: int, b: int, first: int) -> tuple[int, int]:
     """Four rounds, each:  a ← a + b,  b ← rotate(b) xor a."""
-    a = (a + b) & WORD
-    b = _rotated(b, r0) ^ a
-    a = (a + b) & WORD
-    b = _rotated(b, r1) ^ a
-    a = (a + b) & WORD
-    b = _rotated(b, r2) ^ a
-    a = (a + b) & WORD
-    b = _rotated(b, r3) ^ a
+    for number in range(first, first + 4):
+        a = (a + b) & WORD
+        b = _rotated(b, ROTATIONS[number]) ^ a
     return a, b
 
 
 @kernel
 def threefry(key0: int, key1: int, counter0: int, counter1: int) -> tuple[int, int]:
     """Two random 32-bit words of a key and a counter of two 32-bit words each."""
-    key2 = PARITY ^ key0 ^ key1
+    keys = (key0, key1, PARITY ^ key0 ^ key1)
     a = (counter0 + key0) & WORD
     b = (counter1 + key1) & WORD
-    a, b = _mixed(a, b, 13, 15, 26, 6)
-    a, b = (a + key1) & WORD, (b + key2 + 1) & WORD
-    a, b = _mixed(a, b, 17, 29, 16, 24)
-    a, b = (a + key2) & WORD, (b + key0 + 2) & WORD
-    a, b = _mixed(a, b, 13, 15, 26, 6)
-    a, b = (a + key0) & WORD, (b + key1 + 3) & WORD
-    a, b = _mixed(a, b, 17, 29, 16, 24)
-    a, b = (a + key1) & WORD, (b + key2 + 4) & WORD
-    a, b = _mixed(a, b, 13, 15, 26, 6)
-    return (a + key2) & WORD, (b + key0 + 5) & WORD
+    for four in range(1, 6):
+        a, b = _mixed(a, b, 4 - 4 * (four % 2))
+        a = (a + keys[four % 3]) & WORD
+        b = (b + keys[(four + 1) % 3] + four) & WORD
+    return a, b
 
 
 @kernel

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import Kind
 
 
@@ -32,7 +32,7 @@ def circle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     return distance - c.radius, nx, nz
 
 
-@kernel
+@internal
 def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a slant wall: a segment from corner 0 to corner 1, rounded by its thickness.
 
@@ -54,7 +54,7 @@ def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     return distance - c.radius, nx, nz
 
 
-@kernel
+@internal
 def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a triangle with counter-clockwise corners.
 

@@ -19,7 +19,7 @@ from silverball.physics.bounce import exchange
 from silverball.physics.contact import first_contact, resolve
 from silverball.physics.flight import flight_to_ball, flown
 from silverball.physics.horizon import are_apart, free_ticks
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import (
     NOTHING,
     OTHER_BALL,
@@ -48,7 +48,7 @@ def step_world(
             shove_balls(world, board, log)
         if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
             turn_paddles(world, board, colliders, raise_left, raise_right, tick)
-            end_ticks(world, board, tick, 1)
+            end_ticks(world, board, tick, 1 + 0)
         else:
             play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
 
@@ -73,7 +73,7 @@ def end_ticks(world: Any, board: Any, tick: float, count: int) -> None:
     world.tick += count
 
 
-@kernel
+@internal
 def play_tick(
     world: Any, board: Any, colliders: Any, grid: Any, log: Any, tally: Any,
     raise_left: bool, raise_right: bool, tick: float,
@@ -84,7 +84,7 @@ def play_tick(
     left = aimed(left_part, world.paddle[0].angle, raise_left)
     right = aimed(right_part, world.paddle[1].angle, raise_right)
     a, b = world.ball[0], world.ball[1]
-    apart = are_apart(board, a, b, tick)
+    apart = are_apart(board, a, b, tick, 1.0)
     time, busy_a, busy_b, stalled = 0.0, 0, 0, False
     jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     while True:
@@ -126,7 +126,7 @@ def play_tick(
             busy_a, busy_b, stalled = 0, 0, True
     store_paddle(world.paddle[0], left, tick)
     store_paddle(world.paddle[1], right, tick)
-    end_ticks(world, board, tick, 1)
+    end_ticks(world, board, tick, 1 + 0)
 
 
 @inlined
@@ -140,7 +140,7 @@ def first_meeting(board: Any, a: Any, b: Any, start: float, limit: float) -> Con
     return Contact(min(start + found.time, limit), found.part, found.nx, found.nz)
 
 
-@kernel
+@internal
 def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact) -> None:
     """Let two balls bounce off each other."""
     time = contact.time
@@ -155,12 +155,12 @@ def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact
         world.ball_hits += 1
     else:
         world.touches += 1
-    record(log, kind, a, OTHER_BALL, world.tick, time, contact.nx, contact.nz, speed)
+    record(log, kind, a, OTHER_BALL + 0, world.tick, time, contact.nx, contact.nz, speed)
     depart(a, board, time)
     depart(b, board, time)
 
 
-@kernel
+@internal
 def stalled_at(paddle: Paddle, c: Any, board: Any, a: Any, b: Any, time: float) -> Paddle:
     """The paddle, stopped for the rest of the tick if one of the balls is at it."""
     if c.kind != Kind.PADDLE or paddle.turn == 0.0:
@@ -175,7 +175,7 @@ def stalled_at(paddle: Paddle, c: Any, board: Any, a: Any, b: Any, time: float) 
     return paddle
 
 
-@kernel
+@internal
 def halt(world: Any, board: Any, log: Any, ball: Any, involved: bool, time: float, rest: float) -> None:
     """Stop a ball dead that takes part in a jam, at a time of the tick; it moves on from the time `rest`."""
     if ball.id == 0:
@@ -184,7 +184,7 @@ def halt(world: Any, board: Any, log: Any, ball: Any, involved: bool, time: floa
         land(ball, board, ball.age + time)
         ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
         world.jams += 1
-        record(log, EventKind.JAM, ball, NOTHING, world.tick, time, 0.0, 0.0, 0.0)
+        record(log, EventKind.JAM + 0, ball, NOTHING + 0, world.tick, time, 0.0, 0.0, 0.0)
         depart(ball, board, rest)
     elif rest > time:
         land(ball, board, ball.age + time)
@@ -202,7 +202,7 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
     record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, turn
 
 
-@kernel
+@internal
 def is_ready(world: Any, board: Any) -> bool:
     """Whether a world can move; its balls are put on flights of their own after a change from outside."""
     if world.fault != Fault.NONE or not is_sound(world, board):
@@ -212,6 +212,14 @@ def is_ready(world: Any, board: Any) -> bool:
         if ball.id != 0 and not is_on_flight(ball, board):
             depart(ball, board, 0.0)
     return True
+
+
+@inlined
+def is_inside(world: Any, board: Any) -> bool:
+    """Whether the balls are within the borders: the one mishap that a world can come to by itself."""
+    a, b = world.ball[0], world.ball[1]
+    x, z = board.half_length, board.half_width
+    return abs(a.x) <= x and abs(a.z) <= z and abs(b.x) <= x and abs(b.z) <= z
 
 
 @kernel
@@ -276,7 +284,7 @@ def run_worlds(
         if ticks == 0 or not is_ready(world, board):
             continue
         step = 0
-        while step < ticks:
+        while step < ticks and is_inside(world, board):
             row = 0 if is_held else step
             if actions[row, index, 2] and (step == 0 or not is_held):
                 shove_balls(world, board, log)
@@ -293,4 +301,5 @@ def run_worlds(
                 count += 1
             end_ticks(world, board, tick, count)
             step += count
-        is_sound(world, board)
+        if step < ticks:
+            is_sound(world, board)  # names the fault

@@ -68,3 +68,9 @@ SKIN = 2.0
 
 SEARCH_TIME = 0.25
 """[s] And no longer than this. Source: measured."""
+
+SKIN_SHARE = 0.5
+"""Where parts stand close, `skin` is this share of the mean distance between them. Source: measured."""
+
+CELL_SHARE = 0.5
+"""And a cell's side this share of it. Source: measured."""

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.grid import fill_grid
 from silverball.physics.layout import BOARD, COLLIDER, Kind, Part, records
-from silverball.physics.tolerances import GRID_CELL, SKIN
+from silverball.physics.tolerances import CELL_SHARE, GRID_CELL, SKIN, SKIN_SHARE
 from silverball.physics.trigonometry import sine_cosine
 from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
 
@@ -118,8 +118,10 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
     grid = np.zeros(GRID_ROOM * len(boards), np.int32)
     used = 0
     for row in boards:
-        row["grid_first"], row["skin"] = used, SKIN
-        row["grid_scale"] = 1.0 / GRID_CELL
+        shapes = row["collider_end"] - row["collider_first"] - Part.FIRST_SHAPE
+        spacing = math.sqrt(4.0 * row["half_length"] * row["half_width"] / max(shapes, 1))
+        row["grid_first"], row["skin"] = used, min(SKIN, SKIN_SHARE * spacing)
+        row["grid_scale"] = 1.0 / min(GRID_CELL, spacing * CELL_SHARE)
         row["grid_rows"] = math.ceil(2 * row["half_length"] * row["grid_scale"])
         row["grid_columns"] = math.ceil(2 * row["half_width"] * row["grid_scale"])
         need = fill_grid(row, collider, grid)

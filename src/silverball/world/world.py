@@ -27,6 +27,7 @@ from silverball.physics.step import is_sound
 from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
 from silverball.table import Table
 from silverball.world import state as states
+from silverball.world.alone import JITTER, LEFT, RIGHT, Alone
 from silverball.world.batch import WorldBatch, checked_int
 from silverball.world.events import Ball, Event, Paddle, read_balls, read_events, read_paddles
 
@@ -61,7 +62,10 @@ class World:
         self._board = self._batch.boards.board[0]
         self._names = self._batch.boards.names[0]
         self._height = self.table.board.height
-        self._actions: NDArray[np.bool_] = np.zeros((1, 1, 3), np.bool_)
+        batch = self._batch
+        self._alone = Alone(
+            batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
+        )
         self._static = (self._board, self._batch.boards.collider)
 
     def __repr__(self) -> str:
@@ -99,9 +103,8 @@ class World:
         """
         if ticks.__class__ is not int or not 0 <= ticks <= 2**40:
             ticks = checked_int("ticks", ticks, 0, 2**40)
-        self._actions[0, 0] = left, right, jitter
-        self._batch.run(self._actions, ticks)
-        if self._record["fault"]:
+        buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
+        if self._alone.step(buttons, ticks):
             self._raise_fault()
 
     def create_ball(
