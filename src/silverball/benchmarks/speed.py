@@ -48,14 +48,14 @@ class Speed(NamedTuple):
 
 def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -> Speed:
     """Time calls of `frames` frames each, with two balls in every world at each start and random paddles."""
-    boards = _boards(table)
+    boards = boards_of(table)
     batch = WorldBatch([boards[i % len(boards)] for i in range(worlds)], worlds, 0, FRAME_RATE, threads)
     random = np.random.default_rng(0)
     speeds, balls = [], []
     for index in range(rounds + 2):  # the first two compile and warm up
         for _ in range(FILL):
             batch.create_balls()
-        actions = _random_actions(random, frames, worlds)
+        actions = random_actions(random, frames, worlds)
         balls.append(float((batch.state["ball"]["id"] != 0).sum() / worlds))
         started = time.perf_counter()
         batch.run(actions, frames)
@@ -83,7 +83,8 @@ def machine() -> str:
     return f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
-def _boards(table: Table) -> list[Table]:
+def boards_of(table: Table) -> list[Table]:
+    """The boards of a benchmark: the table, or several boards of a recipe."""
     if table.random is None:
         return [table]
     from silverball.table import generate_table
@@ -91,7 +92,7 @@ def _boards(table: Table) -> list[Table]:
     return [generate_table(seed, table) for seed in range(BOARDS)]
 
 
-def _random_actions(random: np.random.Generator, frames: int, worlds: int) -> NDArray[np.bool_]:
+def random_actions(random: np.random.Generator, frames: int, worlds: int) -> NDArray[np.bool_]:
     """Random paddles, no jitter: bool [frames, world, 3]."""
     held = random.random((-(-frames // HOLD), worlds, 3)) < 0.5
     held[..., 2] = False

@@ -21,6 +21,9 @@ def bench(
     peers: bool = typer.Option(
         False, "--peers", help="Play the same table in pymunk and Box2D too; takes some minutes."
     ),
+    marks: bool = typer.Option(
+        False, "--marks", help="Measure every place where the step could be slow; takes a minute or two."
+    ),
     quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
     out: list[str] = typer.Option(
         [], metavar="FILE.png|.md", help="With --peers: also write a plot or a Markdown table; repeatable."
@@ -29,8 +32,8 @@ def bench(
 ) -> None:
     """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
 
-    Example: `silverball bench --json`, or beside other engines
-    `silverball bench --peers --out peers.png --out peers.md`
+    Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`, or
+    beside other engines with `silverball bench --peers --out peers.png --out peers.md`
     """
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
@@ -46,6 +49,9 @@ def bench(
                 "--peers compares on one core, 60 frames a call; leave --threads and --frames out"
             )
         compare(table, worlds, rounds, quick, out, as_json)
+        return
+    if marks:
+        show_marks(rounds, as_json)
         return
     if quick or out:
         raise SilverballError("--quick and --out belong to the comparison; add --peers or leave them out")
@@ -71,6 +77,26 @@ def bench(
     typer.echo(
         f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}"
     )
+
+
+def show_marks(rounds: int, as_json: bool) -> None:
+    """Measure and show the marks of the step."""
+    from rich.progress import Progress
+
+    from silverball.cli.console import compiling, errors
+
+    with compiling():
+        from silverball.benchmarks.marks import measure_marks
+        from silverball.benchmarks.speed import machine
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+        task = bar.add_task("", total=None)
+        figures = measure_marks(rounds, lambda doing: bar.update(task, description=doing))
+    if as_json:
+        typer.echo(json.dumps([figure._asdict() for figure in figures], indent=2))
+        return
+    for figure in figures:
+        typer.echo(f"{figure.name:40} {figure.value:8.3g} {figure.unit}")
+    typer.echo(f"medians of {rounds} rounds; {machine()}")
 
 
 def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:

@@ -1,0 +1,197 @@
+"""How does the step do in the places where it could be slow? One figure for each, all in one run.
+
+Every batch is measured once in every round, one after the other, so that a busy moment of the machine hits
+all of them; the figures are medians of the rounds, the ratios medians of the ratios within a round.
+"""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from silverball.benchmarks.speed import FILL, FRAME_RATE, boards_of, random_actions
+from silverball.table import Cylinder, SlantWall, Table, load_table
+from silverball.world import World, WorldBatch
+
+WORLDS = 4096
+MANY_WORLDS = 65_536
+FRAMES = 60
+CALLS = 20_000  # of one world
+STARTS = 5
+
+START = """
+import time
+started = time.perf_counter()
+import silverball
+imported = time.perf_counter()
+world = silverball.World("classic")
+made = time.perf_counter()
+world.step()
+print(imported - started, time.perf_counter() - started, time.perf_counter() - made)
+"""
+
+
+class Figure(NamedTuple):
+    """One measured figure: what, how much, in which unit."""
+
+    name: str
+    value: float
+    unit: str
+
+
+def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
+    """Measure all of them; `advance` is told what comes next."""
+    cases = _cases()
+    times: dict[str, list[float]] = {name: [] for name in cases}
+    for number in range(rounds + 2):  # the first two compile and warm up
+        for name, case in cases.items():
+            advance(name)
+            took = case()
+            if number >= 2:
+                times[name].append(took)
+    figures = [
+        Figure(name, 1e-6 / statistics.median(took), "million frames/s") for name, took in times.items()
+    ]
+    for name, base, over in (
+        ("threads", "all cores", "two balls"),
+        ("rolling", "two balls", "rolling balls"),
+    ):
+        shares = [b / a for a, b in zip(times[base], times[over], strict=True)]
+        label = {"threads": "all cores are faster by", "rolling": "rolling balls cost"}[name]
+        figures.append(Figure(label, statistics.median(shares), "×"))
+    advance("one world")
+    figures += _calls()
+    advance("starting")
+    return figures + _starts()
+
+
+def _cases() -> dict[str, Callable[[], float]]:
+    """What is measured in rounds: functions that return the seconds a frame."""
+    boards = boards_of(load_table("random"))
+    rolling = [_changed(board, friction=0.2, rolling=True) for board in boards]
+    return {
+        "two balls": _play(boards, threads=1),
+        "all cores": _play(boards, threads=None),
+        "one frame a call, 65,536 worlds": _play(boards, count=MANY_WORLDS, frames=1),
+        "240 ticks a second": _play(boards, tick_rate=240),
+        "balls at rest on raised paddles": _rest(),
+        "200 parts": _play([crowded_table()], count=WORLDS // 4),
+        "rolling balls": _play(rolling),
+    }
+
+
+def _play(
+    boards: list[Table], count: int = WORLDS, frames: int = FRAMES, tick_rate: int = FRAME_RATE,
+    threads: int | None = 1,
+) -> Callable[[], float]:  # fmt: skip
+    """Random play with two balls in every world at the start of each call."""
+    batch = WorldBatch([boards[i % len(boards)] for i in range(count)], count, 0, tick_rate, threads)
+    random = np.random.default_rng(0)
+    ticks = tick_rate // FRAME_RATE
+    for _ in range(FILL):
+        batch.create_balls()
+    if frames < FRAMES:  # the balls must be spread over the board first
+        batch.run(random_actions(random, FRAMES, count), FRAMES)
+
+    def one_round() -> float:
+        for _ in range(FILL):
+            batch.create_balls()
+        actions = np.repeat(random_actions(random, frames, count), ticks, axis=0)
+        started = time.perf_counter()
+        batch.run(actions, frames * ticks)
+        return (time.perf_counter() - started) / (count * frames)
+
+    return one_round
+
+
+def _rest() -> Callable[[], float]:
+    """Both balls at rest on the raised paddles."""
+    count = WORLDS // 4
+    batch = WorldBatch("classic", count, 0, FRAME_RATE, 1)
+    raised = np.zeros((1, count, 3), np.bool_)
+    raised[..., :2] = True
+    batch.run(raised, FRAMES)
+    one = World("classic", tick_rate=FRAME_RATE)
+    one.step(left=True, right=True, ticks=FRAMES)
+    for z in (-2.9, 2.9):
+        one.create_ball(position=(-4.5, z))
+    one.step(left=True, right=True, ticks=10 * FRAMES)
+    assert len(one.balls) == FILL, "the balls were to lie on the paddles"
+    batch.state[:] = one.records[0]
+
+    def one_round() -> float:
+        started = time.perf_counter()
+        batch.run(raised, FRAMES)
+        return (time.perf_counter() - started) / (count * FRAMES)
+
+    return one_round
+
+
+def crowded_table() -> Table:
+    """A table of 40 × 20 u with 195 cylinders: 202 parts with the paddles, the guides and the borders."""
+    classic = load_table("classic")
+    low = -20.0 + 2.8  # of the pivots
+    rows = enumerate(np.arange(-9.5, 18.0, 1.5))
+    centers = [(float(x), float(z + 0.8 * (row % 2))) for row, x in rows for z in np.arange(-8.6, 7.9, 1.6)]
+    guides = tuple(
+        SlantWall(start=(-11.2, side * 10.0), end=(low + 0.33, side * 2.74)) for side in (-1.0, 1.0)
+    )
+    return classic.model_copy(
+        update={
+            "name": "Crowded",
+            "board": classic.board.model_copy(update={"length": 40.0, "width": 20.0, "gutter": -19.0}),
+            "paddle": tuple(p.model_copy(update={"pivot": (low, p.pivot[1])}) for p in classic.paddle),
+            "slant_wall": guides,
+            "triangular_prism": (),
+            "cylinder": tuple(Cylinder(center=center, radius=0.3) for center in centers[:195]),
+        }
+    )
+
+
+def _changed(table: Table, **board: Any) -> Table:
+    return table.model_copy(update={"board": table.board.model_copy(update=board)})
+
+
+def _calls() -> list[Figure]:
+    """How long one call for one tick of one world takes, as Python sees it."""
+    world = World("classic", seed=1)
+    took = np.empty(CALLS)
+    for number in range(CALLS):
+        if number % 600 == 0:
+            while len(world.balls) < FILL:
+                world.create_ball()
+        started = time.perf_counter()
+        world.step(left=number % 200 < 100)
+        took[number] = time.perf_counter() - started
+    return [
+        Figure("one World.step, median", float(np.percentile(took, 50)) * 1e6, "µs"),
+        Figure("one World.step, 99 of 100", float(np.percentile(took, 99)) * 1e6, "µs"),
+    ]
+
+
+def _starts() -> list[Figure]:
+    """How long a program takes to its first step, with and without compiled code on disk."""
+    cold: list[list[float]] = []
+    warm: list[list[float]] = []
+    for _ in range(STARTS):
+        with tempfile.TemporaryDirectory() as folder:
+            environment = {**os.environ, "SILVERBALL_CACHE": folder}
+            for kept in (cold, warm):
+                done = subprocess.run(
+                    [sys.executable, "-c", START], env=environment, capture_output=True, text=True, check=True
+                )
+                kept.append([float(word) for word in done.stdout.split()])
+    return [
+        Figure("import silverball", statistics.median(row[0] for row in warm), "s"),
+        Figure("to the first step, nothing compiled", statistics.median(row[1] for row in cold), "s"),
+        Figure("of which the step's compilation", statistics.median(row[2] for row in cold), "s"),
+        Figure("to the first step, compiled before", statistics.median(row[1] for row in warm), "s"),
+    ]
