@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
 from silverball.cli.app import app
+from silverball.table import parse_table
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -25,13 +27,68 @@ def test_readme_prints_the_two_commands():
     assert f"    {start}-e '.[test]' && .venv/bin/pytest\n" in README
 
 
-@pytest.mark.parametrize("example", re.findall(r"```python\n(.*?)```", README, re.DOTALL))
-def test_the_example_in_readme_runs_and_scores(example, capsys):
-    assert len([line for line in example.splitlines() if line.strip()]) <= 12
-    exec(compile(example, "README.md", "exec"), {})
-    printed = capsys.readouterr().out.splitlines()
+class Example(NamedTuple):
+    """A block of a document, and the block right after it that shows what it prints, if there is one."""
+
+    document: Path
+    text: str
+    shown: str
+
+
+def examples(language: str) -> list[Example]:
+    """All blocks of a language, in all documents."""
+    block = re.compile(rf"^```{language}\n(.*?)^```\n(?:\nprints\n\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
+    return [
+        Example(document, text, shown)
+        for document in DOCUMENTS
+        for text, shown in block.findall(document.read_text(encoding="utf-8"))
+    ]
+
+
+def name_of(example: Example) -> str:
+    return example.document.name
+
+
+def printed_by(example: Example, capsys) -> list[str]:
+    """The lines that an example prints."""
+    exec(compile(example.text, example.document.name, "exec"), {})
+    return capsys.readouterr().out.splitlines()
+
+
+FIRST, BRANCHES = (example for example in examples("python") if example.document.name == "README.md")
+
+
+def test_the_first_example_in_readme_runs_and_scores(capsys):
+    printed = printed_by(FIRST, capsys)
     assert len(printed) > 2
     assert re.fullmatch(r"\d+ [0-9a-f]{12}", printed[-1])
+
+
+def test_the_branches_in_readme_end_with_different_scores(capsys):
+    (printed,) = printed_by(BRANCHES, capsys)
+    least, most = map(int, re.findall(r"(\d+)", printed.removeprefix("the branches of world 7")))
+    assert least < most
+
+
+@pytest.mark.parametrize("example", examples("python"), ids=name_of)
+def test_an_example_is_short(example: Example):
+    longest = 12 if example.document.name == "README.md" else 30
+    assert len([line for line in example.text.splitlines() if line.strip()]) <= longest
+
+
+@pytest.mark.parametrize("example", [one for one in examples("python") if one.shown], ids=name_of)
+def test_an_example_prints_what_stands_below_it(example: Example, capsys):
+    assert printed_by(example, capsys) == example.shown.splitlines()
+
+
+def test_every_example_is_run_by_one_of_these_tests():
+    run = {FIRST, BRANCHES, *(example for example in examples("python") if example.shown)}
+    assert set(examples("python")) == run
+
+
+@pytest.mark.parametrize("example", [one for one in examples("toml") if "[" in one.text], ids=name_of)
+def test_an_example_of_a_table_file_has_no_mistake(example: Example):
+    parse_table(f"format = 1\n{example.text}", example.document.name)
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)

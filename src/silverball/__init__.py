@@ -73,6 +73,9 @@ if TYPE_CHECKING:
         Paddle as Paddle,
     )
     from silverball.world import (
+        Snapshot as Snapshot,
+    )
+    from silverball.world import (
         World as World,
     )
     from silverball.world import (
@@ -87,7 +90,7 @@ _HOME = {
         "StateError", "TableError", "UnknownTable",
     ),
     "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
-    "silverball.world": ("Ball", "Event", "Paddle", "World", "WorldBatch"),
+    "silverball.world": ("Ball", "Event", "Paddle", "Snapshot", "World", "WorldBatch"),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 

@@ -35,9 +35,15 @@ def aimed(c: Any, angle: float, raised: bool) -> Paddle:
 
 
 @inlined
-def time_to_stop(paddle: Paddle) -> float:
-    """When in the tick the paddle reaches its stop [s]; NEVER if it does not turn."""
-    return (paddle.stop - paddle.angle) / paddle.turn if paddle.turn != 0.0 else NEVER
+def reaches_stop(paddle: Paddle, tick: float) -> bool:
+    """Whether the paddle turns and comes to its stop within the tick."""
+    return paddle.turn != 0.0 and angle_at(paddle, tick) == paddle.stop
+
+
+@inlined
+def time_to_stop(paddle: Paddle, tick: float) -> float:
+    """When in the tick the paddle reaches its stop [s]; NEVER if it does not."""
+    return min((paddle.stop - paddle.angle) / paddle.turn, tick) if reaches_stop(paddle, tick) else NEVER
 
 
 @inlined
@@ -48,10 +54,8 @@ def angle_at(paddle: Paddle, time: float) -> float:
 
 
 @inlined
-def turned(paddle: Paddle, time: float) -> Paddle:
-    """The paddle as it goes on at a time of the tick: at its stop the angle is exact and the turning ends."""
-    if paddle.turn == 0.0 or time < time_to_stop(paddle):
-        return paddle
+def at_stop(paddle: Paddle) -> Paddle:
+    """The paddle at its stop, where its angle is exact and the turning ends."""
     return Paddle(paddle.stop, 0.0, paddle.stop)
 
 
@@ -156,6 +160,8 @@ def flight_to_paddle(
         rate = nx * (here.vx - ux) + nz * (here.vz - uz)
         if gap <= CONTACT_GAP and rate < 0.0:
             time = max(start, polished(time, gap, rate))
+            if not time < limit:
+                return best
             here = flown(ball, ball.age + time)
             gap, nx, nz = paddle_distance(c, angle_at(paddle, time) if turn != 0.0 else angle, here.x, here.z)
             return Contact(time, part, nx, nz)

@@ -33,7 +33,7 @@ from silverball.physics.layout import (
 )
 from silverball.physics.log import record
 from silverball.physics.motion import depart, end_flight, is_on_flight, land
-from silverball.physics.paddle import aimed, angle_at, held, paddle_distance, time_to_stop, turned
+from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, NEVER
 
 
@@ -85,10 +85,11 @@ def play_tick(
     right = aimed(right_part, world.paddle[1].angle, raise_right)
     a, b = world.ball[0], world.ball[1]
     apart = are_apart(board, a, b, tick, 1.0)
+    stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
     time, busy_a, busy_b, stalled = 0.0, 0, 0, False
     jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     while True:
-        limit = min(tick, time_to_stop(left), time_to_stop(right))
+        limit = min(tick, stop_left, stop_right)
         meet_a = first_contact(board, colliders, grid, left, right, a, time, limit, tick)
         meet_b = first_contact(board, colliders, grid, left, right, b, time, limit, tick)
         meet = Contact(min(meet_a.time, meet_b.time), NOTHING, 0.0, 0.0)
@@ -110,7 +111,10 @@ def play_tick(
             turn = left.turn if meet_b.part == Part.LEFT_PADDLE else right.turn
             resolve(world, board, colliders, log, tally, b, meet_b, turn)
             busy_b += 1
-        left, right = turned(left, time), turned(right, time)
+        if time >= stop_left:
+            left, stop_left = at_stop(left), NEVER
+        if time >= stop_right:
+            right, stop_right = at_stop(right), NEVER
 
         if busy_a >= jammed or busy_b >= jammed:
             left = stalled_at(left, left_part, board, a, b, time)
@@ -120,6 +124,7 @@ def play_tick(
             )  # even with the paddles still: hold the balls until the tick is over
             halt(world, board, log, a, 2 * busy_a >= jammed, time, rest)
             halt(world, board, log, b, 2 * busy_b >= jammed, time, rest)
+            stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
             if stalled:
                 left, right = held(left, time), held(right, time)
                 break

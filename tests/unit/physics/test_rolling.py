@@ -416,3 +416,20 @@ def test_a_slip_may_end_in_the_tick_of_a_contact_with_a_border(tick_rate: int) -
     assert event.part == "board.top"
     assert moment(world, event) == pytest.approx(over + on, abs=ROUNDING)
     assert event.speed == pytest.approx(rolls - 50 / 7 * on, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("tick_rate", [10, 60, 240])
+def test_a_ball_whose_spin_drives_it_down_catches_up_with_one_that_rolls(tick_rate: int) -> None:
+    """Both start at rest: g + μ·p against 5/7·g, so that they meet though neither comes nearer at first."""
+    table, gap = plain(0.3), 0.1
+    bend = 10.0 + grip_of(table) - 50 / 7
+    world = spinning(
+        table,
+        ((0.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        ((2 * RADIUS + gap, 0.0, 0.0, 0.0), (0.0, 0.0, 150.0)),
+        tick_rate=tick_rate,
+    )
+    event = first_contact(world)
+    assert event.part == "ball"
+    assert moment(world, event) == pytest.approx(math.sqrt(2 * gap / bend), abs=ROUNDING)
+    assert event.speed == pytest.approx(math.sqrt(2 * gap * bend), abs=ROUNDING)

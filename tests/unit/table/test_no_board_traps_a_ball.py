@@ -33,8 +33,9 @@ def test_a_ball_dropped_anywhere_on_a_thousand_generated_boards_reaches_the_gutt
     assert balls_left([generate_table(seed) for seed in range(1000)]) == 0
 
 
-def test_a_ball_dropped_anywhere_on_classic_reaches_the_gutter_within_a_minute():
-    assert balls_left([load_table("classic")] * 25) == 0
+@pytest.mark.parametrize("name", ["classic", "rolling"])
+def test_a_ball_dropped_anywhere_on_a_drawn_table_reaches_the_gutter_within_a_minute(name):
+    assert balls_left([load_table(name)] * 25) == 0
 
 
 def test_this_check_can_fail_where_a_cup_holds_the_ball():

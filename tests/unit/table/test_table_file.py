@@ -56,12 +56,27 @@ radius = 0.6
 """
 
 
-@pytest.mark.parametrize("name", ["classic", "random"])
+@pytest.mark.parametrize("name", table_names())
 def test_the_built_in_tables_load_without_a_problem(name):
-    assert name in table_names()
     table = load_table(name)
     assert check_table(table) == []
     assert parse_table(dump_table(table)) == table
+
+
+def test_the_built_in_tables_are_these():
+    assert table_names() == ("classic", "random", "rolling")
+
+
+def test_the_rolling_table_is_the_classic_one_with_another_gravity_surface_and_restitutions():
+    def drawn(table):
+        parts = [*table.slant_wall, *table.paddle, *table.triangular_prism, *table.cylinder]
+        return [part.model_dump(exclude={"restitution"}) for part in parts]
+
+    rolling, classic = load_table("rolling"), load_table("classic")
+    assert rolling.board.rolling
+    assert drawn(rolling) == drawn(classic)
+    same = rolling.board.model_dump(exclude={"rolling", "friction", "gravity"})
+    assert same == classic.board.model_dump(exclude={"rolling", "friction", "gravity"})
 
 
 def test_the_classic_table_has_what_the_original_has_and_is_its_own_mirror_image():
