@@ -51,6 +51,8 @@ def step_world(
             end_ticks(world, board, tick, 1 + 0)
         else:
             play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
+        if not is_inside(world, board):
+            is_sound(world, board)  # names the fault
 
 
 @inlined
@@ -306,5 +308,5 @@ def run_worlds(
                 count += 1
             end_ticks(world, board, tick, count)
             step += count
-        if step < ticks:
+        if not is_inside(world, board):
             is_sound(world, board)  # names the fault

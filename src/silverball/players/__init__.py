@@ -3,8 +3,9 @@
 `make_player(name)` gives one for a single `World`; `silverball.players.games.play` runs any of them
 compiled, over many worlds.
 
-The soak, which presses at random to break the solver, lives here too: `hostile.py` makes its boards, `drive.py`
-presses, `watch.py` looks, `soak.py` runs the rounds, `soaklog.py` and `finding.py` keep what was found.
+The soak, which presses at random to break the solver, lives here too: `hostile.py` makes its boards,
+`drive.py` presses, `watch.py` looks, `soak.py` runs the rounds, `soaklog.py` and `finding.py` keep what was
+found.
 """
 
 from __future__ import annotations

@@ -33,7 +33,11 @@ class _Site(NamedTuple):
 def hostile_table(seed: int) -> Table:
     """The hostile board of a seed; the same seed always gives the same one."""
     pick = random.Random(seed)
+    friction = pick.choice((0.0, 0.0, 0.02, 0.2, 1.0))
     board = Board(
+        friction=friction,
+        rolling=friction > 0.0 and pick.random() < 0.7,
+        slope=pick.uniform(2.0, 20.0),
         length=pick.uniform(12.0, 24.0),
         width=pick.uniform(7.0, 14.0),
         gravity=pick.choice((0.5, 3.0, 10.0, 20.0)),

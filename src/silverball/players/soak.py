@@ -33,6 +33,9 @@ CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progres
 
 KINDS = tuple(kind for kind in Found if kind != Found.NOTHING)
 
+ROLLING_SHARE = 4  # on every fourth random board balls roll
+ROLLING = {"friction": 0.2, "rolling": True}
+
 
 class Options(NamedTuple):
     """What a soak is made of.
@@ -214,7 +217,12 @@ def _board(options: Options, number: int, board: int) -> Table:
     seed = _seed(options.seed, number, f"board {board}")
     if options.hostile:
         return hostile_table(seed)
-    return options.recipe if options.recipe.random is None else generate_table(seed, options.recipe)
+    if options.recipe.random is None:
+        return options.recipe
+    table = generate_table(seed, options.recipe)
+    if board % ROLLING_SHARE:
+        return table
+    return table.model_copy(update={"board": table.board.model_copy(update=ROLLING)})
 
 
 def _seed(seed: int, number: int, of: str) -> int:

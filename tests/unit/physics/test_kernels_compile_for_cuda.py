@@ -12,12 +12,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 import silverball
 from silverball.physics import balls, step
 from silverball.physics.kernel import KERNEL_PACKAGES, SETTINGS
-from silverball.world import World
+from silverball.world import World, WorldBatch
 
 PACKAGE = Path(silverball.__file__).parent
 NOT_PLAIN = (
@@ -103,9 +104,8 @@ def compile_to_ptx(monkeypatch):
 )
 def test_a_kernel_compiles_to_ptx_that_calls_nothing_from_outside(kernel, product, compile_to_ptx):
     """Allocation, printing and exceptions would call functions of a runtime."""
-    world = World("classic")
-    world.create_ball()
-    world.step()
+    World("classic").create_ball()
+    WorldBatch("classic").step(np.zeros((1, 3), np.bool_))
     ptx = compile_to_ptx(kernel)
     assert f".target sm_{COMPUTE_CAPABILITY[0]}{COMPUTE_CAPABILITY[1]}" in ptx
     assert re.search(rf"\.visible \.func .*{kernel.py_func.__name__}", ptx)
