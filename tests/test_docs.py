@@ -102,7 +102,8 @@ def test_every_local_link_leads_somewhere(document):
 def test_every_file_and_folder_that_architecture_names_exists():
     named = re.findall(r"`([a-z_/]+(?:\.py|/))`", (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8"))
     package = ROOT / "src" / "silverball"
-    everything = {path.name for path in package.rglob("*")}
+    folders = (package, ROOT / "tests")
+    everything = {path.name for folder in folders for path in [folder, *folder.rglob("*")]}
     missing = [name for name in named if not (package / name).exists() and Path(name).name not in everything]
     assert len(named) > 10
     assert missing == []

@@ -13,16 +13,9 @@ from silverball.physics.contact import is_near, search, way_in
 from silverball.physics.flight import flight_to_ball, flown, time_to_line
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import GRIP, NOTHING, Motion
-from silverball.physics.motion import begin_to_roll, depart
+from silverball.physics.motion import begin_to_roll, turn_slip
 
 SHORTER = 1.0 - 1e-9  # a bound on a time is shortened by this share, so that its rounding cannot matter
-
-
-@inlined
-def turn_slip(board: Any, ball: Any) -> None:
-    """Let a slipping ball's friction follow its slip again: the direction is held for a tick at most."""
-    if ball.motion == Motion.SLIPPING and ball.id != 0:
-        depart(ball, board, 0.0)
 
 
 @inlined
@@ -92,8 +85,8 @@ def undisturbed_ticks(board: Any, ball: Any, tick: float, most: int) -> int:
 @internal
 def free_ticks(board: Any, colliders: Any, grid: Any, a: Any, b: Any, tick: float, most: int) -> int:
     """For how many of the next ticks, at most `most`, nothing happens to the balls."""
-    turn_slip(board, a)
-    turn_slip(board, b)
+    turn_slip(a, board)
+    turn_slip(b, board)
     if not (
         is_undisturbed(board, colliders, grid, a, tick) and is_undisturbed(board, colliders, grid, b, tick)
     ):

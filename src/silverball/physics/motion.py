@@ -42,8 +42,7 @@ def put(ball: Any, at: Ball) -> None:
 @inlined
 def depart(ball: Any, board: Any, offset: float) -> None:
     """Begin a new flight from where the ball's record says it is, so late in the tick [s]."""
-    ball.from_x, ball.from_z, ball.from_vx, ball.from_vz = ball.x, ball.z, ball.vx, ball.vz
-    ball.ticks, ball.offset, ball.age, ball.due, ball.meets = 0, offset, -offset, 0.0, NOTHING
+    _begin(ball, offset)
     if board.press == 0.0:
         ball.pull_x, ball.pull_z, ball.motion = board.pull_x, board.pull_z, Motion.SLIDING + 0
         ball.grips = NEVER
@@ -51,8 +50,28 @@ def depart(ball: Any, board: Any, offset: float) -> None:
         _take_grip(ball, board)
 
 
+@inlined
+def turn_slip(ball: Any, board: Any) -> None:
+    """Let a slipping ball's friction follow its slip again: the direction is held for a tick at most."""
+    if ball.motion == Motion.SLIPPING and ball.id != 0:
+        _begin(ball, 0.0)
+        follow_slip(ball, board)
+
+
+@inlined
+def _begin(ball: Any, offset: float) -> None:
+    ball.from_x, ball.from_z, ball.from_vx, ball.from_vz = ball.x, ball.z, ball.vx, ball.vz
+    ball.ticks, ball.offset, ball.age, ball.due, ball.meets = 0, offset, -offset, 0.0, NOTHING
+
+
 @internal
 def _take_grip(ball: Any, board: Any) -> None:
+    """`follow_slip`, not compiled into its many callers."""
+    follow_slip(ball, board)
+
+
+@inlined
+def follow_slip(ball: Any, board: Any) -> None:
     """Decide whether a ball on a playfield with friction slips or rolls, and its acceleration.
 
     Along its direction the slip falls from |u| at the rate  7/2·μ·p − g·u/|u|.

@@ -162,7 +162,7 @@ def _no_such_name(name: str) -> str:
     names = table_names()
     close = difflib.get_close_matches(name.lower()[:60], names, n=1, cutoff=0.5)
     guess = f': did you mean "{close[0]}"?' if close else "."
-    known = " and ".join(names)
+    known = " and ".join([", ".join(names[:-1]), names[-1]])
     return f"there is no built-in table of this name{guess} Built in are {known}; a file ends in .toml"
 
 

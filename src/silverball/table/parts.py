@@ -151,9 +151,6 @@ class SlantWall(_Part):
         return (nx, nz) if side > 0.0 else (-nx, -nz)
 
 
-_SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
-
-
 class Paddle(_Part):
     """The player's bat: an isosceles triangle that turns about the middle of its base.
 
@@ -202,27 +199,6 @@ class Paddle(_Part):
         """[u/s] of the fastest point during the faster of the two strokes."""
         turn = math.radians(self.up_angle - self.rest_angle)
         return turn / min(self.stroke, self.return_stroke) * self.reach
-
-    @property
-    def top(self) -> float:
-        """[u] an x that no point of it gets above, at any of its angles."""
-        tip = self.length * math.sin(math.radians(self.up_angle))
-        return self.pivot[0] + max(tip, 0.5 * self.base) + _SLACK
-
-    @property
-    def sweep(self) -> tuple[float, float, float]:
-        """[u] a circle (x, z, radius) that holds the paddle at all its angles.
-
-        Its middle lies halfway to the tip at the middle angle; the farthest from it are the tip at either
-        stop and the ends of the base.
-        """
-        middle = math.radians(0.5 * (self.rest_angle + self.up_angle))
-        swing = math.radians(0.5 * (self.up_angle - self.rest_angle))
-        way = 0.5 * self.length
-        z = math.copysign(way * math.cos(middle), 1.0 if self.side == "left" else -1.0)
-        tip = math.sqrt(self.length**2 + way**2 - 2 * self.length * way * math.cos(swing))
-        radius = max(tip, way + 0.5 * self.base) + _SLACK
-        return self.pivot[0] + way * math.sin(middle), self.pivot[1] + z, radius
 
     def corners(self, angle_deg: float) -> Triangle:
         """The outline (x, z) [u] at an angle [deg], counter-clockwise.

@@ -23,6 +23,7 @@ from silverball.physics.tolerances import CELL_SHARE, GRID_CELL, SKIN, SKIN_SHAR
 from silverball.physics.trigonometry import sine_cosine
 from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
 
+SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
 GRID_ROOM = 1024  # numbers for a board's grid at first; most need fewer
 FAR = 1e9  # [u] where the paddle lies that a table does not have: out of every ball's reach
 
@@ -78,9 +79,9 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         row["top_x"] = parts[Part.TOP_WALL]["x"] - b.ball_radius
         row["left_x"] = row["right_x"] = FAR
         for p in table.paddle:
-            x, z, reach = p.sweep
+            x, z, reach = _sweep(p)
             row[f"{p.side}_x"], row[f"{p.side}_z"], row[f"{p.side}_reach"] = x, z, reach + b.ball_radius
-        row["paddle_top"] = max((p.top + b.ball_radius for p in table.paddle), default=-FAR)
+        row["paddle_top"] = max((_top(p) + b.ball_radius for p in table.paddle), default=-FAR)
         _set_friction(row, b)
         row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
         row["place_first"], row["place_end"] = place_count, place_count + len(cells)
@@ -223,6 +224,29 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
     for name in ("rest", "up"):
         row[f"sine_{name}"], row[f"cosine_{name}"] = sine_cosine(row[f"angle_{name}"])
     _set_surface(row, paddle)
+
+
+def _top(paddle: Paddle) -> float:
+    """An x [u] that no point of a paddle gets above, at any of its angles."""
+    tip = paddle.length * math.sin(math.radians(paddle.up_angle))
+    return paddle.pivot[0] + max(tip, 0.5 * paddle.base) + SLACK
+
+
+def _sweep(paddle: Paddle) -> tuple[float, float, float]:
+    """A circle (x, z, radius) [u] that holds a paddle at all its angles.
+
+    Its middle lies halfway to the tip at the middle angle; the farthest from it are the tip at either stop
+    and the ends of the base.
+    """
+    middle = math.radians(0.5 * (paddle.rest_angle + paddle.up_angle))
+    swing = math.radians(0.5 * (paddle.up_angle - paddle.rest_angle))
+    way = 0.5 * paddle.length
+    x, z = (
+        way * math.sin(middle),
+        math.copysign(way * math.cos(middle), 1.0 if paddle.side == "left" else -1.0),
+    )
+    tip = math.sqrt(paddle.length**2 + way**2 - 2 * paddle.length * way * math.cos(swing))
+    return paddle.pivot[0] + x, paddle.pivot[1] + z, max(tip, way + 0.5 * paddle.base) + SLACK
 
 
 def _set_surface(row: Any, part: Any) -> None:
