@@ -29,4 +29,4 @@ def test_figures_have_a_name_a_size_and_a_unit(monkeypatch) -> None:
     figures = marks.measure_marks(1, seen.append)
     assert {"two balls", "one world", "starting"} <= set(seen)
     assert all(figure.value > 0.0 and figure.unit for figure in figures)
-    assert len({figure.name for figure in figures}) == len(figures) == 7 + 2 + 2
+    assert len({figure.name for figure in figures}) == len(figures) == 7 + 3 + 2

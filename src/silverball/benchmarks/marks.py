@@ -61,12 +61,13 @@ def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) 
         Figure(name, 1e-6 / statistics.median(took), "million frames/s") for name, took in times.items()
     ]
     for name, base, over in (
-        ("threads", "all cores", "two balls"),
-        ("rolling", "two balls", "rolling balls"),
+        ("all cores are faster by", "all cores", "two balls"),
+        ("play of rolling balls costs", "two balls", "rolling balls"),
     ):
         shares = [b / a for a, b in zip(times[base], times[over], strict=True)]
-        label = {"threads": "all cores are faster by", "rolling": "rolling balls cost"}[name]
-        figures.append(Figure(label, statistics.median(shares), "×"))
+        figures.append(Figure(name, statistics.median(shares), "×"))
+    advance("rolling from the same places")
+    figures.append(_rolling_cost(rounds))
     advance("one world")
     figures += _calls()
     advance("starting")
@@ -110,6 +111,36 @@ def _play(
         return (time.perf_counter() - started) / (count * frames)
 
     return one_round
+
+
+def _rolling_cost(rounds: int) -> Figure:
+    """What rolling costs in the same situations: the same places, velocities and presses, for a second.
+
+    (In play of their own, rolling balls are slower and stay longer at the paddles, where a step costs more.)
+    """
+    boards = boards_of(load_table("random"))
+    slides, rolls = (
+        WorldBatch([some[i % len(some)] for i in range(WORLDS)], WORLDS, 0, FRAME_RATE, 1)
+        for some in (boards, [_changed(board, friction=0.2, rolling=True) for board in boards])
+    )
+    radius = boards[0].board.ball_radius
+    random = np.random.default_rng(0)
+    shares = []
+    for _ in range(rounds + 2):
+        for _ in range(FILL):
+            slides.create_balls()
+        slides.run(random_actions(random, FRAMES, WORLDS), FRAMES)
+        rolls.state[:] = slides.state
+        ball = rolls.state["ball"]
+        ball["spin_x"], ball["spin_z"] = ball["vz"] / radius, -ball["vx"] / radius
+        actions = random_actions(random, FRAMES, WORLDS)
+        times = []
+        for batch in (slides, rolls):
+            started = time.perf_counter()
+            batch.run(actions, FRAMES)
+            times.append(time.perf_counter() - started)
+        shares.append(times[1] / times[0])
+    return Figure("rolling costs from the same places", statistics.median(shares[2:]), "×")
 
 
 def _rest() -> Callable[[], float]:

@@ -158,16 +158,28 @@ def end_flight(ball: Any, board: Any, tick: float, count: int) -> None:
 def is_on_flight(ball: Any, board: Any) -> bool:
     """Whether a ball's record holds the flight that led it here: not so after a change from outside."""
     at = flown(ball, ball.age)
-    rolls = ball.motion == Motion.ROLLING
     return (
         ball.x == at.x
         and ball.z == at.z
         and ball.vx == at.vx
         and ball.vz == at.vz
-        and not (rolls and is_slipping(ball, board))
+        and is_lawful(ball, board)
         and ball.due >= 0.0
         and GRIP <= ball.meets < board.collider_end - board.collider_first
     )
+
+
+@internal
+def is_lawful(ball: Any, board: Any) -> bool:
+    """Whether a ball moves as its board lets balls move."""
+    share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
+    if ball.motion == Motion.SLIPPING:
+        return board.press != 0.0
+    if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z:
+        return False
+    if ball.motion == Motion.ROLLING:
+        return board.press != 0.0 and not is_slipping(ball, board)
+    return ball.motion == Motion.SLIDING and board.press == 0.0
 
 
 @internal

@@ -209,16 +209,36 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
     record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, turn
 
 
-@internal
+@inlined
 def is_ready(world: Any, board: Any) -> bool:
     """Whether a world can move; its balls are put on flights of their own after a change from outside."""
-    if world.fault != Fault.NONE or not is_sound(world, board):
+    if world.fault != Fault.NONE:
         return False
-    for slot in range(2):
-        ball = world.ball[slot]
-        if ball.id != 0 and not is_on_flight(ball, board):
-            depart(ball, board, 0.0)
+    a, b = world.ball[0], world.ball[1]
+    if not (is_fair(a, board) and is_fair(b, board) and are_fair(world.paddle)) and not is_sound(
+        world, board
+    ):
+        return False
+    if a.id != 0 and not is_on_flight(a, board):
+        depart(a, board, 0.0)
+    if b.id != 0 and not is_on_flight(b, board):
+        depart(b, board, 0.0)
     return True
+
+
+@inlined
+def is_fair(ball: Any, board: Any) -> bool:
+    """Whether a ball is where and as fast as it can be; an empty slot is."""
+    inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
+    fastest = board.speed_cap * (1.0 + 1e-9)
+    slow = ball.vx * ball.vx + ball.vz * ball.vz <= fastest * fastest
+    return inside and slow and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
+
+
+@inlined
+def are_fair(paddles: Any) -> bool:
+    """Whether both paddles stand at angles [rad] that can be."""
+    return abs(paddles[0].angle) < 10.0 and abs(paddles[1].angle) < 10.0
 
 
 @inlined
@@ -232,24 +252,19 @@ def is_inside(world: Any, board: Any) -> bool:
 @kernel
 def is_sound(world: Any, board: Any) -> bool:
     """Whether the balls are where and as fast as they can be; if not, the world gets a named fault."""
-    fastest = board.speed_cap * (1.0 + 1e-9)
     for slot in range(2):
         ball = world.ball[slot]
-        if ball.id == 0:
-            continue
-        inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
-        slow = ball.vx * ball.vx + ball.vz * ball.vz <= fastest * fastest
-        if inside and slow and is_number(ball.spin_x + ball.spin_y + ball.spin_z):
+        if ball.id == 0 or is_fair(ball, board):
             continue
         sum_of_all = ball.x + ball.z + ball.vx + ball.vz + ball.spin_x + ball.spin_y + ball.spin_z
         if not is_number(sum_of_all):
             world.fault = Fault.NOT_FINITE + 0
-        elif not inside:
+        elif not (abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width):
             world.fault = Fault.OUTSIDE + 0
         else:
             world.fault = Fault.TOO_FAST + 0
         return False
-    if not (abs(world.paddle[0].angle) < 10.0 and abs(world.paddle[1].angle) < 10.0):
+    if not are_fair(world.paddle):
         world.fault = Fault.NOT_FINITE + 0
         return False
     return True
