@@ -116,7 +116,7 @@ def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
     approach = -(nx * (a.vx - b.vx) + nz * (a.vz - b.vz))
     rebound = approach * board.ball_restitution
     if approach <= board.hit_speed:
-        rebound = max(rebound, hop_speed(board.steepest, board.hit_speed))
+        rebound = max(rebound, hop_speed(board.gravity, board.hit_speed))
     push = 0.5 * (approach + rebound)
     if board.friction != 0.0:
         rub_balls(a, b, board, nx, nz, push)

@@ -177,7 +177,7 @@ def resolve(
         return
     c = colliders[board.collider_first + contact.part]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
-    acceleration = board.steepest
+    acceleration = board.gravity
     if c.kind == Kind.WALL:
         nx, nz = c.inward_x, c.inward_z
     elif c.kind != Kind.PADDLE:

@@ -61,7 +61,7 @@ def flown(ball: Any, age: float) -> Ball:
 @inlined
 def polished(time: float, gap: float, rate: float) -> float:
     """The time after one Newton step on the gap; a graze too flat for a short step stays as it is."""
-    if abs(gap) > abs(rate) * POLISH_TIME:
+    if abs(gap) >= abs(rate) * POLISH_TIME:  # also where both are 0
         return time
     return max(0.0, time - gap / rate)
 

@@ -14,6 +14,7 @@ from silverball.physics.flight import flight_to_ball, flown, time_to_line
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import GRIP, NOTHING, Motion
 from silverball.physics.motion import begin_to_roll, turn_slip
+from silverball.physics.tolerances import FREE_GAP
 
 SHORTER = 1.0 - 1e-9  # a bound on a time is shortened by this share, so that its rounding cannot matter
 
@@ -78,7 +79,8 @@ def undisturbed_ticks(board: Any, ball: Any, tick: float, most: int) -> int:
     free = min(above, ball.due - ball.age) * SHORTER
     count = int(free / tick) if free < most * tick else most
     end = flown(ball, ball.age + count * tick)
-    is_slow = end.vx * end.vx + end.vz * end.vz < board.speed_cap * board.speed_cap * SHORTER
+    below = board.speed_cap * board.speed_cap * SHORTER  # of squares, which are greatest at one of the ends
+    is_slow = ball.vx * ball.vx + ball.vz * ball.vz < below and end.vx * end.vx + end.vz * end.vz < below
     return max(count, 1) if is_slow and end.x > -board.half_length else 1
 
 
@@ -105,5 +107,5 @@ def free_ticks(board: Any, colliders: Any, grid: Any, a: Any, b: Any, tick: floa
     at_a, at_b = flown(a, a.age), flown(b, b.age)
     bend_x, bend_z = a.pull_x - b.pull_x, a.pull_z - b.pull_z
     end = count * tick
-    meeting = flight_to_ball(at_a, at_b, bend_x, bend_z, board.ball_radius, end)
+    meeting = flight_to_ball(at_a, at_b, bend_x, bend_z, board.ball_radius + FREE_GAP, end)
     return count if meeting.part == NOTHING else max(1, int(meeting.time * SHORTER / tick))

@@ -146,7 +146,7 @@ WORLD = np.dtype(
 
 BOARD = np.dtype(
     [
-        ("pull_x", "f8"), ("pull_z", "f8"),  # acceleration of a free ball [u/s²]
+        ("pull_x", "f8"), ("pull_z", "f8"), ("gravity", "f8"),  # acceleration of a free ball, its size [u/s²]
         ("ball_radius", "f8"), ("curvature", "f8"),  # [u], and one by it [1/u]
         ("ball_restitution", "f8"),
         ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"),

@@ -27,7 +27,7 @@ from silverball.physics.bounce import capped
 from silverball.physics.flight import flown
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import GRIP, NOTHING, Ball, Motion
-from silverball.physics.tolerances import CREEP, NEVER
+from silverball.physics.tolerances import CREEP, NEVER, SEARCH_TIME
 
 ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
 GRIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
@@ -81,12 +81,14 @@ def follow_slip(ball: Any, board: Any) -> None:
     grip = board.friction * board.press
     ball.grips = NEVER
     if speed <= CREEP:
-        gravity = sqrt(board.pull_x * board.pull_x + board.pull_z * board.pull_z)
-        if gravity <= GRIP_SHARE * grip:
+        if board.gravity <= GRIP_SHARE * grip:
             ball.motion = Motion.ROLLING + 0
             ball.pull_x, ball.pull_z = ROLLING_SHARE * board.pull_x, ROLLING_SHARE * board.pull_z
             return
-        along_x, along_z = board.pull_x / gravity, board.pull_z / gravity  # too smooth: it begins to slip
+        along_x, along_z = (
+            board.pull_x / board.gravity,
+            board.pull_z / board.gravity,
+        )  # too smooth: it begins to slip
     else:
         inverse = 1.0 / speed
         along_x, along_z = slip_x * inverse, slip_z * inverse
@@ -155,7 +157,7 @@ def end_flight(ball: Any, board: Any, tick: float, count: int) -> None:
 
 
 @inlined
-def is_on_flight(ball: Any, board: Any) -> bool:
+def is_on_flight(ball: Any, board: Any, tick: float) -> bool:
     """Whether a ball's record holds the flight that led it here: not so after a change from outside."""
     at = flown(ball, ball.age)
     return (
@@ -164,7 +166,8 @@ def is_on_flight(ball: Any, board: Any) -> bool:
         and ball.vx == at.vx
         and ball.vz == at.vz
         and is_lawful(ball, board)
-        and ball.due >= 0.0
+        and ball.age == ball.ticks * tick - ball.offset
+        and 0.0 <= ball.due <= ball.age + tick + SEARCH_TIME
         and GRIP <= ball.meets < board.collider_end - board.collider_first
     )
 

@@ -43,7 +43,7 @@ def step_world(
     raise_left: bool, raise_right: bool, shove: bool, tick: float,
 ) -> None:  # fmt: skip
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    if is_ready(world, board):
+    if is_ready(world, board, tick):
         if shove:
             shove_balls(world, board, log)
         if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
@@ -210,7 +210,7 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
 
 
 @inlined
-def is_ready(world: Any, board: Any) -> bool:
+def is_ready(world: Any, board: Any, tick: float) -> bool:
     """Whether a world can move; its balls are put on flights of their own after a change from outside."""
     if world.fault != Fault.NONE:
         return False
@@ -219,9 +219,9 @@ def is_ready(world: Any, board: Any) -> bool:
         world, board
     ):
         return False
-    if a.id != 0 and not is_on_flight(a, board):
+    if a.id != 0 and not is_on_flight(a, board, tick):
         depart(a, board, 0.0)
-    if b.id != 0 and not is_on_flight(b, board):
+    if b.id != 0 and not is_on_flight(b, board, tick):
         depart(b, board, 0.0)
     return True
 
@@ -246,7 +246,9 @@ def is_inside(world: Any, board: Any) -> bool:
     """Whether the balls are within the borders: the one mishap that a world can come to by itself."""
     a, b = world.ball[0], world.ball[1]
     x, z = board.half_length, board.half_width
-    return abs(a.x) <= x and abs(a.z) <= z and abs(b.x) <= x and abs(b.z) <= z
+    return (a.id == 0 or (abs(a.x) <= x and abs(a.z) <= z)) and (
+        b.id == 0 or (abs(b.x) <= x and abs(b.z) <= z)
+    )
 
 
 @kernel
@@ -303,7 +305,7 @@ def run_worlds(
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
         log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, board):
+        if ticks == 0 or not is_ready(world, board, tick):
             continue
         step = 0
         while step < ticks and is_inside(world, board):

@@ -257,7 +257,7 @@ def _finished(
     if isinstance(table, Table):
         if table.random is None:
             return (table,), np.zeros(count, np.int64)
-        return tuple(generate_table(seed, table) for seed in seeds), np.arange(count)
+        return tuple(generate_table(seed, table) for seed in seeds), np.arange(count, dtype=np.int64)
     given = tuple(table) if isinstance(table, Sequence) else ()
     tables = [t for t in given if isinstance(t, Table)]
     if not tables or len(tables) < len(given):
@@ -270,4 +270,4 @@ def _finished(
     ]
     distinct = list({id(t): t for t in finished}.values())  # worlds that share a table share its board
     number = {id(t): index for index, t in enumerate(distinct)}
-    return tuple(distinct), np.array([number[id(t)] for t in finished])
+    return tuple(distinct), np.array([number[id(t)] for t in finished], np.int64)

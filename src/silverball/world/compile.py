@@ -111,6 +111,7 @@ def _set_friction(row: Any, board: Board) -> None:
     if board.rolling and board.friction > 0.0:
         sine, cosine = sine_cosine(math.radians(board.slope))
         row["press"] = board.gravity * cosine / sine
+    row["gravity"] = pull
     row["steepest"] = pull + board.friction * row["press"]
 
 
