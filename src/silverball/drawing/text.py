@@ -5,7 +5,6 @@ Rendering a line anew costs milliseconds; a score that counts up is put together
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
 
 import pygame
@@ -55,9 +54,3 @@ def wrapped(text: str, size: int, width: int) -> list[str]:
                 current = longer
         lines.append(current)
     return lines
-
-
-def size_that_fits(texts: Sequence[str], size: int, width: int) -> int:
-    """The largest size, at most `size`, at which every text is at most `width` [pixel] wide."""
-    widest = max(font(size).size(text)[0] for text in texts)
-    return size if widest <= width else max(6, size * width // widest)

@@ -79,7 +79,7 @@ def bounce(
 ) -> float:
     """Give a ball the velocity and spin after its contact with a surface that moves with (ux, uz).
 
-    `acceleration` [u/s²] is what presses the ball against the surface at most: it sets the hop.
+    `acceleration` [u/s²] sets the hop: gravity, and what a turning surface adds.
 
     Returns:
         The speed of the approach [u/s].

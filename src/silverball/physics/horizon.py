@@ -94,6 +94,8 @@ def free_ticks(board: Any, colliders: Any, grid: Any, a: Any, b: Any, tick: floa
     ):
         return 0
     change_a, change_b = begins_to_roll(a, tick), begins_to_roll(b, tick)
+    # Twice the room: should b refuse after a has begun to roll, the tick is played with a's new flight, which
+    # must not be looked at before it began.
     if not are_apart(board, a, b, tick, 2.0 if change_a or change_b else 1.0):
         return 0
     if change_a and not rolls_on(board, colliders, grid, a, tick):

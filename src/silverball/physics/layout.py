@@ -2,8 +2,8 @@
 
 A *world* is one flat record with everything that changes. A *board* and its *colliders* are the table,
 compiled; they do not change. A *log* is the buffer of events of the last call; it is not part of the state.
-Kernels load records into the NamedTuples below once and store them once: scalars in, tuples out, no views
-and no allocation in the hot loop.
+Kernels pass records on as they are, read and write their fields, and hand the small NamedTuples below to each
+other: no arrays are made in the hot loop.
 
 Units: u, s, rad; x up the table, z to the player's right. Angles of paddles are mirrored alike (up is
 positive).

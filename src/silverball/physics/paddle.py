@@ -134,7 +134,8 @@ def flight_to_paddle(
 
     In the frame of a turning paddle the flight is no parabola, so the bend n·a is replaced by its bound −A,
         A = |a| + 2·|ω|·v + ω²·ρ,
-    with v the ball's largest speed on the board and ρ its largest distance from the pivot before the limit.
+    with v a bound on the ball's speed before the limit, and ρ on its distance from the pivot while it can
+    touch.
     `speed` is the ball's at the start, where it is within reach of the paddle.
     """
     turn, limit = paddle.turn, best.time

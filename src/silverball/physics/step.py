@@ -48,7 +48,7 @@ def step_world(
             shove_balls(world, board, log)
         if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
             turn_paddles(world, board, colliders, raise_left, raise_right, tick)
-            end_ticks(world, board, tick, 1 + 0)
+            end_ticks(world, board, tick, 1 + 0)  # a bare 1 would be compiled as a version of its own
         else:
             play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
         if not is_inside(world, board):

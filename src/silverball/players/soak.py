@@ -33,7 +33,7 @@ CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progres
 
 KINDS = tuple(kind for kind in Found if kind != Found.NOTHING)
 
-ROLLING_SHARE = 4  # on every fourth random board balls roll
+ROLLING_EVERY = 4  # on every fourth random board balls roll
 ROLLING = {"friction": 0.2, "rolling": True}
 
 
@@ -220,7 +220,7 @@ def _board(options: Options, number: int, board: int) -> Table:
     if options.recipe.random is None:
         return options.recipe
     table = generate_table(seed, options.recipe)
-    if board % ROLLING_SHARE:
+    if board % ROLLING_EVERY:
         return table
     return table.model_copy(update={"board": table.board.model_copy(update=ROLLING)})
 

@@ -37,7 +37,7 @@ ADDRESSES = np.dtype(
 
 
 class Alone:
-    """The one world of a batch, with everything that moves it."""
+    """The one world of a batch, with all that moves it: these very arrays, none that take their place."""
 
     def __init__(
         self, boards: Boards, state: NDArray[Any], board_of: NDArray[np.int64], logs: NDArray[Any],
@@ -66,6 +66,10 @@ class Alone:
             tallies.shape[1],
         )
         row["tick"] = tick
+
+    def __reduce__(self) -> Any:
+        """Refuse to be copied: the addresses are those of the original's arrays."""
+        raise TypeError("Alone holds addresses and cannot be copied; copy the World that owns it")
 
     def step(self, buttons: int, ticks: int) -> int:
         """Move the world on with these buttons held; the world's fault."""

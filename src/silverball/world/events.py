@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 from silverball.physics.layout import GUTTER, NOTHING, OTHER_BALL, EventKind
 
 KIND_NAMES = {kind.value: kind.name.lower() for kind in EventKind}
-NUMBER_OF_KIND = {name: number for number, name in KIND_NAMES.items()}
 SPECIAL_PARTS = {NOTHING: "", GUTTER: "gutter", OTHER_BALL: "ball"}
 
 Vector = tuple[float, float, float]

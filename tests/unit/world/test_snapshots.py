@@ -262,7 +262,7 @@ def test_a_table_that_only_other_records_of_the_batch_used_is_no_hindrance(batch
     assert other.digests() == [batch.digests()[1]]
 
 
-@pytest.mark.parametrize("at", range(0, 4 * 296, 97))
+@pytest.mark.parametrize("at", range(0, 4 * WORLD.itemsize, 97))
 def test_a_changed_bit_in_the_bytes_of_a_snapshot_is_found(batch, at: int):
     data = bytearray(bytes(batch.save()))
     data[at] ^= 1
