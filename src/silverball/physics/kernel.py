@@ -10,7 +10,7 @@ Options, and why:
   with counting, every function that is given an array would pay for atomic operations, some 20 ns a call.
 * ``no_cfunc_wrapper=True``: nobody passes kernels as function pointers; it saves 8 % of the compilation.
 * ``no_cpython_wrapper=True``, for what only kernels call: it cannot be called from Python, and needs no code
-  that unpacks arguments; it saves 15 % of the compilation.
+  that unpacks arguments; it saves some 10 % of the compilation.
 * the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
   code after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
   cache directory that is named after a hash of the sources of all packages that hold kernels, and of what
