@@ -1,0 +1,56 @@
+"""What can a player choose, and what is chosen if nobody did?
+
+The settings are one frozen model. What is kept on disk may be older, newer or damaged: `Settings.of` takes
+every value that still makes sense and the default for the rest, so that a bad value never stops a game.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+
+class Settings(BaseModel):
+    """What a player has chosen."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore", use_attribute_docstrings=True)
+
+    theme: str = "neon"
+    """Name of the colours (see `silverball.drawing.themes`)."""
+    volume: Annotated[int, Field(ge=0, le=10)] = 7
+    """Of all sounds; 0 is silence."""
+    muted: bool = False
+    """Whether there are no sounds for now."""
+    effects: Literal["full", "less"] = "full"
+    """Sparks, trails and flashes; "less" for slow machines and sensitive eyes."""
+    frame_rate: Literal["screen", "60", "120", "144"] = "screen"
+    """Pictures a second; "screen": as many as it shows."""
+    full_screen: bool = False
+    """Whether the game starts in full screen."""
+    table: str = "random"
+    """The table that was chosen last: a built-in name or a path."""
+    mode: Literal["arcade", "free"] = "arcade"
+    """The game that was chosen last."""
+    initials: Annotated[str, Field(pattern=r"^[A-Z0-9 .\-]{3}$")] = "AAA"
+    """Entered last, offered again."""
+    keys: dict[str, tuple[str, ...]] = {}
+    """Keys by action where they differ from the defaults, as pygame names them."""
+    pad: dict[str, tuple[str, ...]] = {}
+    """Gamepad buttons by action where they differ from the defaults."""
+
+    @classmethod
+    def of(cls, values: dict[str, Any]) -> Self:
+        """The settings in `values`, with the default for every value that is missing or makes no sense."""
+        good = {}
+        for name in cls.model_fields:
+            if name in values:
+                try:
+                    good[name] = getattr(cls.model_validate({name: values[name]}), name)
+                except ValidationError:
+                    continue
+        return cls(**good)
+
+    def changed(self, **values: Any) -> Self:
+        """These settings with some values changed, checked like all others."""
+        return type(self).model_validate(self.model_dump() | values)
