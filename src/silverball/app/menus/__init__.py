@@ -1,0 +1,26 @@
+"""Which menus are there, and what do they ask for? Pages of dots, worked with the paddle buttons and Space.
+
+`Menus` is all that a window needs: it passes buttons in, shows the dots that come out, and does what the
+commands say (`commands.py`).
+"""
+
+from silverball.app.menus.actions import ACTIONS, ActionLine, action_by_key, action_by_pad, keys_of, pad_of
+from silverball.app.menus.commands import Button, Command
+from silverball.app.menus.desk import ScoreRow, TableEntry
+from silverball.app.menus.menus import Menus
+from silverball.app.menus.transport import ReplayFace
+
+__all__ = [
+    "ACTIONS",
+    "ActionLine",
+    "Button",
+    "Command",
+    "Menus",
+    "ReplayFace",
+    "ScoreRow",
+    "TableEntry",
+    "action_by_key",
+    "action_by_pad",
+    "keys_of",
+    "pad_of",
+]

@@ -1,0 +1,179 @@
+"""How is one thing chosen among several? One is shown, the paddles turn to the others, Space takes it.
+
+An item either does something (`Item.choose`) or holds a value (`Item.value`). Space on a value lets the
+paddles change it, Space again keeps it, and "back" brings the old one again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Sequence
+from typing import Any, NamedTuple
+
+from silverball.app.menus import layout
+from silverball.app.menus.commands import Button, Command
+from silverball.app.menus.desk import Desk, Page
+from silverball.drawing.dots import WIDTH, Dots
+
+
+class Value(NamedTuple):
+    """A setting that is changed by steps.
+
+    Attributes:
+        field: Its name in the settings.
+        choices: Its values, the least first.
+        shown: They as the player reads them.
+        wraps: Whether the first follows the last.
+        hints: What there is to say about each of them.
+    """
+
+    field: str
+    choices: tuple[Any, ...]
+    shown: tuple[str, ...]
+    wraps: bool = True
+    hints: tuple[str, ...] = ()
+
+    def place(self, desk: Desk) -> int:
+        """Which value is set; the first one if it is none of them."""
+        value = getattr(desk.settings, self.field)
+        return self.choices.index(value) if value in self.choices else 0
+
+    def stepped(self, desk: Desk, step: int) -> Command | None:
+        """Set the next value (+1) or the one before (-1)."""
+        last = len(self.choices) - 1
+        index = self.place(desk) + step
+        index = index % (last + 1) if self.wraps else min(max(index, 0), last)
+        return None if index == self.place(desk) else desk.change(**{self.field: self.choices[index]})
+
+
+class Item(NamedTuple):
+    """One thing to choose.
+
+    Attributes:
+        label: What stands in the middle.
+        hint: What it is or does.
+        choose: What Space does; it may open or leave pages.
+        value: The setting that Space lets the paddles change.
+    """
+
+    label: str
+    hint: str = ""
+    choose: Callable[[], Command | None] | None = None
+    value: Value | None = None
+
+
+class ChoicePage(Page):
+    """A page of items.
+
+    Args:
+        name: What tells it from other pages.
+        title: What stands above.
+        items: What can be chosen now; asked anew whenever it is needed, since settings change.
+        start: The item that is shown first.
+        back: What "back" does instead of showing the page below.
+        quiet: Whether the program may begin to play by itself while this page is open.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        title: str | Callable[[], str],
+        items: Callable[[], Sequence[Item]],
+        start: int = 0,
+        back: Callable[[], Command | None] | None = None,
+        quiet: bool = True,
+    ) -> None:
+        self.name = name
+        self.quiet = quiet
+        self.index = start
+        self._title = title
+        self._items = items
+        self._back = back
+        self._kept: Any = None  # the value before it was changed
+        self._is_editing = False
+        self._moved_at = -1.0
+        self._direction = 0
+        self._since: float | None = None
+
+    def press(self, button: Button, desk: Desk) -> Command | None:
+        """Turn, choose, or go back."""
+        items = self._items()
+        self.index = min(self.index, len(items) - 1)
+        if self._is_editing:
+            value = items[self.index].value
+            if value is not None:
+                return self._edit(button, desk, value)
+        if button is Button.BACK:
+            return self._leave(desk)
+        if button is Button.START:
+            return self._choose(items[self.index], desk)
+        step = -1 if button is Button.LEFT else 1
+        self.index = (self.index + step) % len(items)
+        self._since, self._moved_at, self._direction = desk.now, desk.now, step
+        return None
+
+    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
+        """The title, the item, and what there is to say about it."""
+        dots = Dots()
+        items = self._items()
+        index = min(self.index, len(items) - 1)
+        item = items[index]
+        since = seconds - (0.0 if self._since is None else self._since)
+        heading = self._title if isinstance(self._title, str) else self._title()
+        if self._is_editing and item.value is not None:
+            _draw_value(dots, item, item.value.place(desk), since)
+            return dots
+        layout.title(dots, heading, index, len(items), since)
+        shift = layout.slide(seconds - self._moved_at, self._direction) if self._moved_at >= 0.0 else 0
+        layout.middle(dots, item.label, since, shift)
+        if len(items) > 1:
+            layout.arrows(dots, seconds)
+        layout.foot(dots, self._help(item, desk), since)
+        return dots
+
+    def signature(self) -> Hashable:
+        """Which item, and whether its value is being changed."""
+        return self.index, self._is_editing
+
+    def _help(self, item: Item, desk: Desk) -> tuple[str, ...]:
+        key = desk.key("create")
+        if item.value is None:
+            return (item.hint, "" if item.choose is None else f"{key}: CHOOSE   ◄ ►: NEXT")
+        return f"IS {item.value.shown[item.value.place(desk)]} – {key}: CHANGE", item.hint
+
+    def _choose(self, item: Item, desk: Desk) -> Command | None:
+        if item.value is not None:
+            self._is_editing = True
+            self._kept = getattr(desk.settings, item.value.field)
+            self._since = desk.now
+            return None
+        return item.choose() if item.choose is not None else None
+
+    def _edit(self, button: Button, desk: Desk, value: Value) -> Command | None:
+        self._since = desk.now
+        if button is Button.START:
+            self._is_editing = False
+            return None
+        if button is Button.BACK:
+            self._is_editing = False
+            return desk.change(**{value.field: self._kept})
+        return value.stepped(desk, -1 if button is Button.LEFT else 1)
+
+    def _leave(self, desk: Desk) -> Command | None:
+        if self._back is not None:
+            return self._back()
+        desk.back()
+        return None
+
+
+def _draw_value(dots: Dots, item: Item, index: int, since: float) -> None:
+    value = item.value
+    assert value is not None
+    layout.title(dots, item.label, seconds=since)
+    layout.middle(dots, value.shown[index], since)
+    layout.arrows(dots, since, strong=True)
+    if value.wraps:
+        layout.foot(dots, (value.hints[index] if value.hints else "", "◄ ►: CHANGE   SPACE: KEEP"), since)
+    else:
+        # A scale shows how far it is set.
+        last = len(value.choices) - 1
+        layout.meter(dots, layout.MARGIN, layout.FOOT_Y, WIDTH - 2 * layout.MARGIN, index / max(last, 1))

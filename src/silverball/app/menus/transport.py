@@ -1,0 +1,113 @@
+"""How is a replay worked? A line below the score shows time and speed; the paddles change it, or jump."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import NamedTuple
+
+from silverball.app.menus import layout
+from silverball.app.menus.commands import (
+    Button,
+    Command,
+    EndReplay,
+    ReplayJump,
+    ReplayPause,
+    ReplaySpeed,
+)
+from silverball.app.menus.desk import Desk, Page
+from silverball.drawing.dotfonts import NORMAL
+from silverball.drawing.dots import WIDTH, Dots
+
+JUMP = 5.0  # [s]
+HELP_TIME = 4.0  # [s] for which the help stands after a button was pressed
+SPEEDS = {0.25: "¼×", 0.5: "½×"}
+
+
+class ReplayFace(NamedTuple):
+    """Where a replay stands.
+
+    Attributes:
+        time: Of the game shown [s].
+        length: Of the whole game [s].
+        speed: 1 is as it was played.
+        paused: Whether it is held.
+        title: Whose game it is.
+    """
+
+    time: float = 0.0
+    length: float = 0.0
+    speed: float = 1.0
+    paused: bool = False
+    title: str = "REPLAY"
+
+
+class TransportPage(Page):
+    """The page of a replay: Space holds it; the paddles change its speed, or jump while it is held.
+
+    Attributes:
+        face: Where the replay stands; the window keeps it true.
+    """
+
+    name = "transport"
+    quiet = False
+    repeats = True
+
+    def __init__(self, face: ReplayFace) -> None:
+        self.face = face
+        self._touched: float | None = None
+
+    def press(self, button: Button, desk: Desk) -> Command | None:
+        """Ask the window for what the button means; it alone knows the replay."""
+        self._touched = desk.now
+        if button is Button.START:
+            return EndReplay() if self._is_over() else ReplayPause()
+        if button is Button.BACK:
+            return EndReplay()
+        step = -1 if button is Button.LEFT else 1
+        return ReplayJump(step * JUMP) if self.face.paused or self._is_over() else ReplaySpeed(step)
+
+    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
+        """What the game shows, and below it the line of the replay."""
+        dots = Dots()
+        layout.under(dots, below)
+        since = seconds - (self._touched if self._touched is not None else 0.0)
+        if since % (4.0 * HELP_TIME) < HELP_TIME and self._touched is not None:
+            layout.foot(dots, (self._help(desk),), 0.0)
+        else:
+            self._draw_line(dots, seconds)
+        return dots
+
+    def signature(self) -> Hashable:
+        """Whether the paddles jump."""
+        return self.face.paused, self._is_over()
+
+    def _is_over(self) -> bool:
+        return self.face.time >= self.face.length
+
+    def _help(self, desk: Desk) -> str:
+        key = desk.key("create")
+        if self._is_over():
+            return f"◄►: BACK   {key}: LEAVE"
+        return f"◄►: JUMP   {key}: GO ON" if self.face.paused else f"◄►: SPEED   {key}: HOLD"
+
+    def _draw_line(self, dots: Dots, seconds: float) -> None:
+        face, y = self.face, layout.FOOT_Y
+        if face.paused:
+            if layout.blinks(seconds, 1.0):
+                dots.box(0, y, 2, 7)
+                dots.box(4, y, 2, 7)
+        else:
+            dots.text("►", 0, y, NORMAL)
+        end = 9 + dots.text(_clock(face.time), 9, y, NORMAL)
+        right = WIDTH - dots.text(_speed(face.speed), WIDTH, y, NORMAL, "right") - 4
+        share = face.time / face.length if face.length > 0.0 else 1.0
+        layout.meter(dots, end + 4, y + 1, right - end - 4, share)
+
+
+def _clock(seconds: float) -> str:
+    whole = max(int(seconds), 0)
+    return f"{whole // 60}:{whole % 60:02d}"
+
+
+def _speed(speed: float) -> str:
+    return SPEEDS.get(speed, f"{speed:g}×")
