@@ -11,26 +11,12 @@ from silverball.app.menus.board import MODES
 from silverball.app.menus.commands import Attract, Button, Command
 from silverball.app.menus.desk import Desk, Page
 from silverball.drawing.dotfonts import BOLD, NORMAL
-from silverball.drawing.dots import HEIGHT, WIDTH, Dots, picture, scroll, wipe
+from silverball.drawing.dots import HEIGHT, WIDTH, Dots, scroll, wipe
+from silverball.drawing.dotshows import draw_ball
 
 PAGE_TIME = 4.0  # [s]
 CHANGE_TIME = 0.5  # [s] of it, in which one page gives way to the next
 NAME = "SILVERBALL"
-
-BALL = picture(
-    """
-    ...+++...
-    .+#####+.
-    .##@@###.
-    +#@@@###+
-    +##@####+
-    +#######+
-    .#####++.
-    .+###+++.
-    ...+++...
-    """,
-    levels=".+#@",
-)
 
 
 class AttractPage(Page):
@@ -76,7 +62,7 @@ def title_picture(desk: Desk, at: float) -> Dots:
     ball = round(-10.0 + 110.0 * at)
     dots.text(NAME, left, 8, BOLD, window=(0, max(ball + 5, 0)))
     if ball < WIDTH:
-        dots.sprite(BALL, ball, 9 - round(5.0 * abs(math.sin(4.0 * at))))
+        draw_ball(dots, ball + 4, 13 - 5.0 * abs(math.sin(4.0 * at)))
     # A light runs over the letters once they stand.
     shine = round((at - 2.2) * 130.0)
     if 0 <= shine < WIDTH + 12:

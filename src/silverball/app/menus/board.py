@@ -15,7 +15,7 @@ ROWS = 10  # shown of every score table
 ROW_HEIGHT = 12  # [dot] of the large rows, of which two are visible
 SCROLL_SPEED = 9.0  # [dot/s] upwards: a row in 1.3 s
 WAIT = 2.0  # [s] before they begin to scroll, and at the end
-TOP = 9  # [dot] where the rows begin
+TOP = 8  # [dot] where the rows begin
 MODES = {Mode.ARCADE: "ARCADE", Mode.FREE: "FREE PLAY"}
 
 
@@ -73,12 +73,17 @@ def draw_board(dots: Dots, entry: TableEntry, mode: Mode, rows: Sequence[ScoreRo
         y = TOP + (place - 1) * ROW_HEIGHT - moved
         if TOP - ROW_HEIGHT < y < HEIGHT:
             _draw_row(dots, place, row, y)
-    dots.box(0, 0, WIDTH, TOP - 1, 0)
+    dots.box(0, 0, WIDTH, TOP, 0)
 
 
 def _draw_row(dots: Dots, place: int, row: ScoreRow, y: int) -> None:
-    """Rank, initials and score large; the date small, for it matters least."""
+    """Rank, initials and score large; the date small, for it matters least, and only where there is room."""
     dots.text(f"{place}", 11, y + 2, NORMAL, "right", layout.HALF)
     dots.text(row.initials, 15, y, BOLD)
-    dots.number(row.score, 117, y, 72, (BOLD, NORMAL, TINY), "right", 220)
-    dots.text(row.date, WIDTH, y + 3, TINY, "right", layout.HALF, window=(120, WIDTH))
+    score = f"{row.score:,}"
+    left = 20 + BOLD.width(row.initials)
+    right = WIDTH - TINY.width(row.date) - 3
+    has_date = BOLD.width(score) <= right - left
+    dots.number(row.score, right if has_date else WIDTH, y, WIDTH - left, (BOLD, NORMAL, TINY), "right", 220)
+    if has_date:
+        dots.text(row.date, WIDTH, y + 3, TINY, "right", layout.HALF)

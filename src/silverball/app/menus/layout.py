@@ -8,7 +8,7 @@ from silverball.drawing.dotfonts import BOLD, NORMAL, Font
 from silverball.drawing.dots import HEIGHT, WIDTH, Dots
 
 TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 25
-FAINT, HALF = 70, 130  # brightness of what is less important
+FAINT, HALF = 70, 145  # brightness of what is less important
 MARGIN = 13  # [dot] on both sides of the middle, for the arrows
 
 SCROLL_SPEED = 40.0  # [dot/s] of texts that are too long; a letter in 0.15 s

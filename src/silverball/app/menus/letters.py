@@ -10,12 +10,13 @@ from collections.abc import Callable, Hashable
 from silverball.app.menus import layout
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.desk import Desk, Page
-from silverball.drawing.dotfonts import BOLD
-from silverball.drawing.dots import WIDTH, Dots
+from silverball.drawing.dotfonts import BOLD, NORMAL
+from silverball.drawing.dots import FULL, WIDTH, Dots
 
 DELETE, END = "◄", "END"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.- "
-PLACE_WIDTH = 12  # [dot] of a letter with the space around it
+LARGE_MOST = 3  # letters that are written twice as large, the help beside them
+HELP_X = 94  # [dot] where it begins then
 
 
 class LettersPage(Page):
@@ -82,26 +83,33 @@ class LettersPage(Page):
         dots = Dots()
         layout.title(dots, self._title, seconds=seconds)
         choice = self.choices[self._turn]
-        places = self._most
-        step = PLACE_WIDTH
-        left = (WIDTH - places * step) // 2
-        for place in range(places):
-            x = left + place * step + step // 2
-            if place < len(self.text):
-                dots.text(self.text[place], x, layout.MIDDLE_Y, BOLD, "center", layout.HALF)
-            elif place == len(self.text) and choice not in (END, DELETE):
-                dots.text(choice, x, layout.MIDDLE_Y, BOLD, "center")
-            dots.box(x - 4, layout.MIDDLE_Y + 12, 8, 1, layout.HALF if place != len(self.text) else 255)
-        if choice == END:
-            _draw_end(dots, left + places * step + 2, seconds)
-        elif choice == DELETE:
-            x = left + max(len(self.text) - 1, 0) * step
-            if layout.blinks(seconds):
-                dots.frame(x, layout.MIDDLE_Y - 1, step, 13)
-        key = desk.key("create")
         does = {END: "DONE", DELETE: "DELETE"}.get(choice, "TAKE")
-        layout.foot(dots, (f"◄ ►: TURN   {key}: {does}",), seconds)
+        help_ = ("◄ ►: TURN", f"{desk.key('create')}: {does}")
+        if self._most <= LARGE_MOST:
+            self._draw_places(dots, 4, 9, 2, seconds)
+            dots.text(help_[0], HELP_X, 12, NORMAL, brightness=190)
+            dots.text(help_[1], HELP_X, 23, NORMAL, brightness=190)
+        else:
+            self._draw_places(dots, (WIDTH - 28 - self._most * 11) // 2, layout.MIDDLE_Y, 1, seconds)
+            layout.foot(dots, ("   ".join(help_),), seconds)
         return dots
+
+    def _draw_places(self, dots: Dots, left: int, y: int, scale: int, seconds: float) -> None:
+        """A place for every letter, each underlined, and END behind them."""
+        choice = self.choices[self._turn]
+        count, step = len(self.text), scale * 9 + 2
+        for place in range(self._most):
+            x = left + place * step
+            here = choice if place == count and choice not in (END, DELETE) else ""
+            letter = self.text[place] if place < count else here
+            light = FULL if here or choice == END else layout.HALF
+            dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
+            dots.box(x, y + 11 * scale, step - 2, 1, FULL if place == count else layout.HALF)
+        if choice == END and layout.blinks(seconds):
+            dots.text(END, left + count * step + 2, y + 11 * scale - 11, BOLD)
+        if choice == DELETE and layout.blinks(seconds):
+            x = left + (count - 1) * step
+            dots.invert(x - 1, y, step, 11 * scale)
 
     def signature(self) -> Hashable:
         """How many letters there are, and which one turns."""
@@ -142,8 +150,3 @@ class InitialsPage(LettersPage):
     def _give_up(self, desk: Desk) -> Command | None:
         # A score is never lost: who leaves at once gets the initials of last time.
         return self._done(self._offered)
-
-
-def _draw_end(dots: Dots, x: int, seconds: float) -> None:
-    if layout.blinks(seconds):
-        dots.text(END, x, layout.MIDDLE_Y, BOLD)

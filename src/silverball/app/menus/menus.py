@@ -24,7 +24,7 @@ from silverball.app.menus.remap import CapturePage
 from silverball.app.menus.transport import ReplayFace, TransportPage
 from silverball.app.settings import Settings
 from silverball.drawing.dotfonts import NORMAL
-from silverball.drawing.dots import HEIGHT, WIDTH, Dots
+from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots
 from silverball.game.news import Mode
 
 REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it counts again
@@ -155,8 +155,9 @@ class Menus:
         dots = self._desk.pages[-1].draw(self._desk, seconds, game)
         message, since = self._desk.message(seconds)
         if message:
-            dots.box(0, layout.FOOT_Y - 2, WIDTH, HEIGHT - layout.FOOT_Y + 2)
-            layout.marquee(dots, message, layout.FOOT_Y, 1, WIDTH - 1, NORMAL, since, brightness=0)
+            dots.box(0, layout.FOOT_Y - 2, WIDTH, HEIGHT - layout.FOOT_Y + 2, 0)
+            light = layout.HALF if since < 0.6 and since % 0.2 < 0.1 else FULL  # it flashes to be noticed
+            layout.marquee(dots, message, layout.FOOT_Y, 0, WIDTH, NORMAL, since, brightness=light)
         return dots
 
     def say(self, text: str) -> None:

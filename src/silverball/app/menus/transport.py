@@ -20,7 +20,7 @@ from silverball.drawing.dots import WIDTH, Dots
 
 JUMP = 5.0  # [s]
 HELP_TIME = 4.0  # [s] for which the help stands after a button was pressed
-SPEEDS = {0.25: "¼×", 0.5: "½×"}
+SPEEDS = {0.25: "1/4×", 0.5: "1/2×"}  # as glyphs they would be too small to read
 
 
 class ReplayFace(NamedTuple):

@@ -1,0 +1,313 @@
+"""What does the score display show during a game? The score, the ball, and what has just happened.
+
+Most of what happens is shown beside the score. A few animations fill the display, but never for longer than
+`HIDDEN_AT_MOST`; then the score is seen again before anything else may hide it. The only time is what `frame`
+is given, so the same news at the same times show the same dots.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from silverball.drawing import dotshows
+from silverball.drawing.dotfonts import BOLD, NORMAL, TINY, fitting
+from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots
+from silverball.game.news import Face, Mode, News, NewsKind, Phase
+
+HIDDEN_AT_MOST = 0.85  # [s] without the score
+SEEN_AT_LEAST = 0.6  # [s] with the score, before it is hidden again
+COUNT_TIME = 0.25  # [s] in which the score counts up to its new value
+POINTS_TIME = 0.7  # [s] for which the points of a hit are shown
+SAY_TIME = 2.5  # [s] for which a message stands
+SAY_SPEED = 45.0  # [dot/s] of messages that are too long
+PATIENCE = 2.5  # [s] after which a show that could not begin is out of date
+COMBO_SHOWN = 3  # hits in a row from which they are announced
+COMBO_FULL = 8  # hits in a row at which the meters are full
+
+STATUS_Y = 25
+HALF = 130  # brightness of what is less important
+
+Scene = Callable[[Dots, float], None]
+
+
+class Show(NamedTuple):
+    """Something to announce.
+
+    Attributes:
+        name: What it is; a new one takes the place of one with the same name.
+        rank: The higher goes first.
+        text: Written above the score.
+        length: How long it takes altogether [s].
+        full: Fills the display to begin with, for `full_time`; None if nothing does.
+        full_time: [s]
+        look: How the text moves.
+    """
+
+    name: str
+    rank: int
+    text: str
+    length: float
+    full: Scene | None = None
+    full_time: float = 0.0
+    look: Callable[[Dots, float, str, int], None] = dotshows.grown
+
+
+class Display:
+    """The score display of one game.
+
+    Args:
+        start_key: The key that brings a ball, as the display is to write it.
+    """
+
+    def __init__(self, start_key: str = "SPACE") -> None:
+        self.start_key = start_key
+        self._queue: list[tuple[Show, float | None]] = []  # with the time since when it waits
+        self._show: Show | None = None
+        self._began = 0.0
+        self._messages: list[str] = []
+        self._message_began: float | None = None
+        self._points = 0  # of the last hit, shown from the next frame on
+        self._points_began: float | None = None
+        self._score_from, self._score_to, self._score_changed = 0, 0, -COUNT_TIME
+        self._hidden_since: float | None = None
+        self._seen_since = -SEEN_AT_LEAST
+        self._tilted_since: float | None = None
+        self._phase_since = (Phase.READY, 0.0)
+        self._is_beaten = False
+
+    def tell(self, news: Iterable[News]) -> None:
+        """Take note of what has happened; it is shown from the next frame on."""
+        for one in news:
+            if one.kind is NewsKind.SCORED and one.value:
+                self._points, self._points_began = one.value, None
+            elif one.kind is NewsKind.UN_STUCK:
+                self.say("A SHOVE FOR A STILL BALL")
+            else:
+                show = _show_of(one)
+                if show is not None:
+                    self._enqueue(show)
+
+    def say(self, text: str) -> None:
+        """Show a short message below the score; a long one scrolls."""
+        if not self._messages or self._messages[-1] != text:
+            self._messages.append(text)
+
+    def frame(self, face: Face, seconds: float, high_score: int = 0) -> Dots:
+        """What is to be seen.
+
+        Args:
+            face: What the game shows of itself.
+            seconds: By a clock that never goes back [s].
+            high_score: The best score so far; 0 if there is none to beat.
+
+        Returns:
+            A picture of its own.
+        """
+        self._count(face.score, seconds)
+        if face.phase is not self._phase_since[0]:
+            self._phase_since = (face.phase, seconds)
+        if 0 < high_score < face.score and not self._is_beaten and face.phase is not Phase.OVER:
+            self._is_beaten = True
+            self._enqueue(_HIGH_SCORE)
+        if not face.tilted:
+            self._tilted_since = None
+        elif self._tilted_since is None:
+            self._tilted_since, self._show, self._queue = seconds, None, []
+        self._advance(seconds)
+        dots = self._picture(face, seconds)
+        self._draw_message(dots, seconds)
+        return dots
+
+    def _picture(self, face: Face, seconds: float) -> Dots:
+        """What fills the display if something may, else the score and what there is to say."""
+        dots = Dots()
+        scene = self._scene(seconds)
+        if scene is not None and self._may_hide(seconds):
+            scene(dots)
+            return dots
+        if self._hidden_since is not None:
+            self._hidden_since, self._seen_since = None, seconds
+        if self._show is not None:
+            at = seconds - self._began
+            if self._show is _HIGH_SCORE:
+                dotshows.fireworks(dots, at % 2.4)
+            self._show.look(dots, at, self._show.text, 2)
+            dots.box(0, 16, WIDTH, HEIGHT - 16, 0)
+            dots.number(self._score(seconds), WIDTH // 2, 19, WIDTH, (BOLD, NORMAL, TINY))
+        elif face.tilted:
+            dots.text("TILT", WIDTH // 2, 2, BOLD, "center", FULL if seconds % 0.5 < 0.25 else HALF)
+            dots.number(self._score(seconds), WIDTH // 2, 19, WIDTH, (BOLD, NORMAL, TINY))
+        elif face.phase is Phase.READY:
+            self._draw_ready(dots, face, seconds)
+        elif face.phase is Phase.OVER:
+            dots.text("GAME OVER", WIDTH // 2, 1, NORMAL, "center", FULL if seconds % 1.0 < 0.6 else HALF)
+            dots.number(self._score(seconds), WIDTH // 2, 10)
+        else:
+            self._draw_play(dots, face, seconds)
+        return dots
+
+    def _scene(self, seconds: float) -> Callable[[Dots], None] | None:
+        """What wants to fill the display now."""
+        if self._tilted_since is not None:
+            at = seconds - self._tilted_since
+            period = HIDDEN_AT_MOST + SEEN_AT_LEAST
+            return (lambda dots: dotshows.tilt(dots, at)) if at % period < HIDDEN_AT_MOST else None
+        show = self._show
+        if show is None or show.full is None or seconds - self._began >= show.full_time:
+            return None
+        full, since = show.full, seconds - self._began
+        return lambda dots: full(dots, since)
+
+    def _may_hide(self, seconds: float) -> bool:
+        """Whether the score may be hidden in this frame."""
+        if self._hidden_since is not None:
+            return seconds - self._hidden_since < HIDDEN_AT_MOST
+        if seconds - self._seen_since < SEEN_AT_LEAST:
+            return False
+        self._hidden_since = seconds
+        return True
+
+    def _draw_play(self, dots: Dots, face: Face, seconds: float) -> None:
+        dots.number(self._score(seconds), WIDTH // 2, 1, WIDTH - 12)
+        _draw_combo_meters(dots, face.combo, seconds)
+        _draw_balls(dots, face)
+        if face.multiplier > 1:
+            text = f"×{face.multiplier}"
+            width = NORMAL.width(text) + 4
+            dots.box(WIDTH - width, STATUS_Y - 1, width, 8, FULL if seconds % 0.6 < 0.4 else HALF)
+            dots.text(text, WIDTH - 2, STATUS_Y, NORMAL, "right", 0)
+        middle, light = self._middle(face, seconds)
+        dots.text(middle, WIDTH // 2 + 4, STATUS_Y, NORMAL, "center", light)
+
+    def _middle(self, face: Face, seconds: float) -> tuple[str, int]:
+        """What stands in the middle of the lowest line, and how bright."""
+        if face.save_left > 0.0:
+            fast = face.save_left < 2.0
+            return ("BALL SAVE", FULL if seconds % (0.25 if fast else 0.5) < (0.15 if fast else 0.3) else 0)
+        if self._points_began is not None and seconds - self._points_began < POINTS_TIME:
+            share = (seconds - self._points_began) / POINTS_TIME
+            return f"+{self._points:,}", round(FULL * (1.0 - 0.7 * share))
+        if face.combo > 1:
+            return f"COMBO {face.combo}", 200
+        return "", 0
+
+    def _draw_ready(self, dots: Dots, face: Face, seconds: float) -> None:
+        since = seconds - self._phase_since[1]
+        if since % 1.0 < 0.65:
+            text = f"PRESS {self.start_key}"
+            dots.text(text, WIDTH // 2, 4, fitting(text, WIDTH), "center")
+        text = f"BALL {face.ball} OF {face.balls}" if face.balls else "FREE PLAY"
+        dots.text(text, 1, STATUS_Y - 1, NORMAL, "left", HALF)
+        room = WIDTH - NORMAL.width(text) - 8
+        dots.number(self._score(seconds), WIDTH - 1, 20, room, (BOLD, NORMAL, TINY), "right")
+
+    def _draw_message(self, dots: Dots, seconds: float) -> None:
+        """The oldest message, in the lowest line; the next one when it is over."""
+        if not self._messages:
+            return
+        if self._message_began is None:
+            self._message_began = seconds
+        text, at = self._messages[0], seconds - self._message_began
+        width = NORMAL.width(text)
+        length = SAY_TIME if width <= WIDTH else (WIDTH + width) / SAY_SPEED
+        if at >= length:
+            self._messages.pop(0)
+            self._message_began = None
+            self._draw_message(dots, seconds)
+            return
+        dots.box(0, STATUS_Y - 2, WIDTH, HEIGHT - STATUS_Y + 2, 0)
+        x = (WIDTH - width) // 2 if width <= WIDTH else WIDTH - round(at * SAY_SPEED)
+        dots.text(text, x, STATUS_Y, NORMAL)
+
+    def _count(self, score: int, seconds: float) -> None:
+        """Let the score count up, or jump where it has become less: that is another game."""
+        if score == self._score_to:
+            return
+        now = self._score(seconds)
+        self._score_from = now if now < score else score
+        self._score_to, self._score_changed = score, seconds
+        if score == 0:
+            self._is_beaten = False
+
+    def _score(self, seconds: float) -> int:
+        """The score as far as it has counted."""
+        share = min(max((seconds - self._score_changed) / COUNT_TIME, 0.0), 1.0)
+        return self._score_from + round(share * (self._score_to - self._score_from))
+
+    def _enqueue(self, show: Show) -> None:
+        self._queue = [entry for entry in self._queue if entry[0].name != show.name]
+        self._queue.append((show, None))
+        self._queue.sort(key=lambda entry: -entry[0].rank)  # equal ranks stay in their order
+
+    def _advance(self, seconds: float) -> None:
+        """End what is over, and begin what is next or more important."""
+        if self._points_began is None and self._points:
+            self._points_began = seconds
+        if self._show is not None and seconds - self._began >= self._show.length:
+            self._show = None
+        self._queue = [(show, seconds if since is None else since) for show, since in self._queue]
+        self._queue = [(show, since) for show, since in self._queue if seconds - (since or 0.0) <= PATIENCE]
+        if not self._queue:
+            return
+        first = self._queue[0][0]
+        now = self._show
+        if now is None or first.rank > now.rank or first.name == now.name:
+            self._show, self._began = first, seconds
+            self._queue.pop(0)
+
+
+def _combo_scene(value: int) -> Scene:
+    def scene(dots: Dots, at: float) -> None:
+        dotshows.burst(dots, at)
+        dots.text(f"{value}×", WIDTH // 2, 5, BOLD, "center", scale=2)
+
+    return scene
+
+
+def _high_scene(dots: Dots, at: float) -> None:
+    dotshows.fireworks(dots, at + 0.3)
+    dots.box(14, 9, 132, 14, 0)
+    dotshows.grown(dots, at, "HIGH SCORE!", 11)
+
+
+_HIGH_SCORE = Show("high", 6, "HIGH SCORE!", 3.2, _high_scene, 0.8)
+_SAVED = Show("saved", 5, "BALL SAVED", 2.2, dotshows.saved_ball, 0.85)
+_DOUBLE = Show("double", 3, "DOUBLE POINTS", 2.2, dotshows.two_balls, 0.8)
+
+
+def _show_of(news: News) -> Show | None:
+    """How a piece of news is announced; None if it is not."""
+    if news.kind is NewsKind.COMBO and news.value >= COMBO_SHOWN:
+        is_great = news.value % 5 == 0
+        scene = _combo_scene(news.value) if is_great else None
+        return Show("combo", 2, f"COMBO {news.value}", 1.2 if is_great else 0.8, scene, 0.55)
+    if news.kind is NewsKind.BALL_SAVED:
+        return _SAVED
+    if news.kind is NewsKind.DOUBLE_ON:
+        return _DOUBLE
+    if news.kind is NewsKind.WARNING:
+        return Show("warning", 4, "WARNING" + "!" * min(news.value, 3), 1.2, look=dotshows.shaken)
+    if news.kind is NewsKind.BALL_LOST and news.value:
+        return Show("lost", 1, f"BALL {news.value} LOST", 1.4, dotshows.falling_ball, 0.55)
+    return None
+
+
+def _draw_combo_meters(dots: Dots, combo: int, seconds: float) -> None:
+    """Hits in a row climb on both sides of the score."""
+    lit = min(combo, COMBO_FULL) if combo > 1 else 0
+    for cell in range(COMBO_FULL):
+        y = 21 - 3 * cell
+        light = FULL if lit < COMBO_FULL or seconds % 0.2 < 0.1 else HALF
+        if cell < lit:
+            dots.box(0, y, 4, 2, light)
+            dots.box(WIDTH - 4, y, 4, 2, light)
+
+
+def _draw_balls(dots: Dots, face: Face) -> None:
+    """Which ball of how many is played; in free play those on the board."""
+    if face.mode is Mode.ARCADE and face.balls:
+        dots.text(f"BALL {face.ball}/{face.balls}", 0, STATUS_Y, NORMAL, brightness=HALF)
+        return
+    for ball in range(face.most_balls):
+        dots.text("●" if ball < face.on_board else "○", 7 * ball, STATUS_Y, NORMAL)
