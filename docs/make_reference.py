@@ -10,7 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from silverball.table import Board, Cylinder, Paddle, RandomRecipe, SlantWall, Table, TriangularPrism
+from silverball.table import Arcade, Board, Cylinder, Paddle, RandomRecipe, SlantWall, Table, TriangularPrism
 
 PAGE = Path(__file__).parent / "tables.md"
 HEAD = """\
@@ -52,12 +52,13 @@ SECTIONS = (
     ("[[triangular_prism]]", TriangularPrism, "any number"),
     ("[[cylinder]]", Cylinder, "any number"),
     ("[random]", RandomRecipe, "makes the table a recipe, with a board for every seed"),
+    ("[arcade]", Arcade, "once"),
 )
 
 
 def page() -> str:
     """The whole page."""
-    elsewhere = ("board", "slant_wall", "paddle", "triangular_prism", "cylinder")
+    elsewhere = ("board", "slant_wall", "paddle", "triangular_prism", "cylinder", "arcade")
     parts = [HEAD, _table("Top level", Table, "", skip=elsewhere)]
     parts += [_table(f"`{title}`", model, note) for title, model, note in SECTIONS]
     parts.append(MESHES)

@@ -4,6 +4,7 @@ from silverball.table.check import check_table
 from silverball.table.file import dump_table, load_table, parse_table, save_table, table_digest, table_names
 from silverball.table.generate import generate_table
 from silverball.table.parts import (
+    Arcade,
     Board,
     Cylinder,
     CylinderSurface,
@@ -17,6 +18,7 @@ from silverball.table.parts import (
 from silverball.table.reach import ball_places
 
 __all__ = [
+    "Arcade",
     "Board",
     "Cylinder",
     "CylinderSurface",

@@ -17,6 +17,7 @@ from pydantic import BaseModel, ValidationError
 
 from silverball.errors import Problem
 from silverball.table.parts import (
+    Arcade,
     Board,
     Cylinder,
     CylinderSurface,
@@ -156,6 +157,8 @@ def _model_at(location: tuple[str | int, ...]) -> type[BaseModel]:
             return PART_KINDS[kind]
         case ("random",):
             return RandomRecipe
+        case ("arcade",):
+            return Arcade
         case ("random", "prism"):
             return PrismSurface
         case ("random", "cylinder"):
@@ -180,7 +183,7 @@ def _unknown_key(location: tuple[str | int, ...]) -> str:
     close = difflib.get_close_matches(word[:60], known, n=1)
     if close:
         return f"unknown key: did you mean `{close[0]}`?"
-    for section, model in (("board", Board), ("random", RandomRecipe)):
+    for section, model in (("board", Board), ("random", RandomRecipe), ("arcade", Arcade)):
         if word in model.model_fields and location[0] != section:
             return f"unknown key: `{word}` belongs in [{section}]"
     for section, part in PART_KINDS.items():

@@ -27,7 +27,7 @@ from pydantic import BaseModel, ValidationError
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.table.check import Layout, check_layout
 from silverball.table.explain import PART_KINDS, explain
-from silverball.table.parts import Board, Cylinder, RandomRecipe, Table, TriangularPrism
+from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table, TriangularPrism
 from silverball.wholefile import write_whole
 
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
@@ -131,6 +131,8 @@ def dump_table(table: Table) -> str:
         blocks += [_block(f"[[{kind}]]", part) for part in getattr(table, kind)]
     if table.random is not None:
         blocks.append(_block("[random]", table.random))
+    if table.arcade != Arcade():
+        blocks.append(_block("[arcade]", table.arcade))
     return "\n\n".join(blocks) + "\n"
 
 
@@ -142,7 +144,8 @@ def table_digest(table: Table) -> str:
     prisms = [part.resolved() for part in table.triangular_prism]
     cylinders = [part.resolved() for part in table.cylinder]
     whole = table.model_copy(update={"triangular_prism": tuple(prisms), "cylinder": tuple(cylinders)})
-    text = json.dumps(whole.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+    unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as before there was this section
+    text = json.dumps(whole.model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 

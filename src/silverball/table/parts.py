@@ -386,6 +386,45 @@ class RandomRecipe(_Model):
         return area
 
 
+class Arcade(_Model):
+    """The rules of an arcade game on this table; free play knows none of them."""
+
+    balls: Annotated[int, Count(1, 99, "balls")] = 3
+    """Balls of a game. Three make a game of two to four minutes; more forgive more."""
+    ball_save: Annotated[float, Quantity(0.0, 60.0, "s")] = 5.0
+    """[s] a ball lost so soon after its start is given back; 0: never. About as long as a ball lasts that
+    nobody plays, so that bad luck at the start costs nothing."""
+    ball_saves: Annotated[int, Count(0, 9, "times")] = 1
+    """How often one and the same ball is given back; with 1 the ball that comes back is not saved again."""
+    combo_window: Annotated[float, Quantity(0.0, 10.0, "s")] = 1.0
+    """[s] a hit that scores so soon after the one before goes on with the combo; 0: no combos. Choose it
+    between the times of two hits in a row of one shot and of two shots."""
+    combo_step: Annotated[int, Count(1, 100, "hits")] = 3
+    """Hits in a row that raise the factor of a combo by one: with 3 the first to third count once, the
+    fourth to sixth twice, and so on."""
+    combo_limit: Annotated[int, Count(1, 100)] = 5
+    """The greatest factor of a combo; 1: combos are counted but pay nothing."""
+    double: Annotated[int, Count(1, 100)] = 2
+    """The factor while two balls are on the board. The second ball is one of the balls left, so this is what
+    the gamble pays."""
+    tilt_decay: Annotated[float, Quantity(0.1, 60.0, "s")] = 1.5
+    """[s] in which the swing of the plumb-bob falls to 1/e. Every shove adds 1 to the swing."""
+    tilt_warning: Annotated[float, Quantity(0.0, 1000.0)] = 1.5
+    """A shove that swings the bob further than this is warned of. With 1.5 and 1.5 s a second shove within a
+    second is, a single one never; below 1 every shove is."""
+    tilt_limit: Annotated[float, Quantity(0.0, 1000.0)] = 2.4
+    """A swing further than this is a tilt at once: the paddles are dead and nothing scores until the board is empty. With 2.4
+    the third of three quick shoves is one."""
+    warnings: Annotated[int, Count(0, 99, "warnings")] = 2
+    """Warnings for each ball; one shove too many after the last of them is a tilt."""
+    un_stick: Annotated[float, Quantity(0.5, 60.0, "s")] = 3.0
+    """[s] a ball lies still before the machine shoves it. A ball within reach of the paddles is let be while
+    a button is held: the player has caught it."""
+    stall: Annotated[float, Quantity(1.0, 600.0, "s")] = 20.0
+    """[s] without a hit that scores after which the machine shoves in any case, so that a ball cannot be held
+    for ever; longer than any player needs to aim."""
+
+
 def _known_format(value: Any) -> Any:
     if value != FORMAT or isinstance(value, bool):
         refuse(f"must be {FORMAT}, got {shown(value)}: a newer file needs a newer Silverball")
@@ -411,3 +450,5 @@ class Table(_Model):
     """The cylinders."""
     random: RandomRecipe | None = None
     """What to place afresh for every seed, if anything."""
+    arcade: Arcade = Arcade()
+    """The rules of an arcade game."""
