@@ -234,21 +234,21 @@ def _prepare(connection: sqlite3.Connection, schema: Schema) -> None:
             raise _Unfit(f"is damaged ({' '.join(str(found).split())})")
     connection.execute("PRAGMA journal_mode = WAL").fetchall()
     connection.execute(f"PRAGMA journal_size_limit = {LOG_LIMIT}")
-    with _transaction(connection):  # fails here, not at the first record, where writing is not allowed
+    with _transaction(connection):
         if not _is_empty(connection):
             _see_whose_it_is(connection, schema)  # another program may have been quicker
         version = _number(connection, "user_version")
         for statements in schema.migrations[version:]:
             for statement in statements:
                 connection.execute(statement)
-        if version < schema.version:
-            connection.execute(f"PRAGMA application_id = {schema.application}")
-            connection.execute(f"PRAGMA user_version = {schema.version}")
-    for table, columns in schema.tables.items():
-        try:
-            connection.execute(f"SELECT {', '.join(columns)} FROM {table} LIMIT 0")
-        except sqlite3.OperationalError as error:
-            raise _Unfit(f"is damaged ({error})") from None
+        for table, columns in schema.tables.items():
+            try:
+                connection.execute(f"SELECT {', '.join(columns)} FROM {table} LIMIT 0")
+            except sqlite3.OperationalError as error:
+                raise _Unfit(f"is damaged ({error})") from None
+        # Written even if it is so already: better to hear now that nothing can be kept than after the game.
+        connection.execute(f"PRAGMA application_id = {schema.application}")
+        connection.execute(f"PRAGMA user_version = {schema.version}")
 
 
 def _see_whose_it_is(connection: sqlite3.Connection, schema: Schema) -> None:
