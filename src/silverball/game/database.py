@@ -255,6 +255,8 @@ def _see_whose_it_is(connection: sqlite3.Connection, schema: Schema) -> None:
     if _number(connection, "application_id") != schema.application:
         raise _Unfit("is a database of another program")
     version = _number(connection, "user_version")
+    if version < 1:
+        raise _Unfit(f"is damaged (it says that it is of version {version})")
     if version > schema.version:
         raise _Newer(
             f"it was written by a newer Silverball (version {version} of the file, "

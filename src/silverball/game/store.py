@@ -33,13 +33,20 @@ REPLAYS = 20  # kept of a list; more than are shown, for places move up when a s
 _MIGRATIONS = (
     (
         """
+        CREATE TABLE list (
+            id INTEGER PRIMARY KEY,
+            mode TEXT NOT NULL,
+            table_digest TEXT NOT NULL,  -- of the table as it was chosen: of a recipe, not of its board
+            table_name TEXT NOT NULL,
+            UNIQUE (mode, table_digest)
+        )
+        """,
+        """
         CREATE TABLE score (
             id INTEGER PRIMARY KEY AUTOINCREMENT,  -- the number of a removed score is never given again
+            list INTEGER NOT NULL REFERENCES list,
             initials TEXT NOT NULL,
             score INTEGER NOT NULL CHECK (typeof(score) = 'integer'),
-            mode TEXT NOT NULL,
-            table_name TEXT NOT NULL,
-            table_digest TEXT NOT NULL,  -- of the table as it was chosen: of a recipe, not of its board
             seed INTEGER NOT NULL CHECK (typeof(seed) = 'integer'),
             played INTEGER NOT NULL CHECK (typeof(played) = 'integer' AND played BETWEEN 0 AND 253402300799),
             verified INTEGER CHECK (verified IN (0, 1)),  -- NULL: not played back yet
@@ -47,22 +54,25 @@ _MIGRATIONS = (
             replay TEXT  -- NULL: not kept
         )
         """,
-        "CREATE INDEX best ON score (mode, table_digest, score DESC, id)",
-        "CREATE INDEX replays ON score (mode, table_digest, score DESC, id) WHERE replay IS NOT NULL",
+        "CREATE INDEX best ON score (list, score DESC, id)",
+        "CREATE INDEX replays ON score (list, score DESC, id) WHERE replay IS NOT NULL",
         "CREATE TABLE setting (name TEXT PRIMARY KEY, value TEXT NOT NULL)",  # value: JSON
         "CREATE TABLE last_game (id INTEGER PRIMARY KEY CHECK (id = 1), replay TEXT NOT NULL)",
     ),
 )
-_COLUMNS = "id, initials, score, mode, table_name, table_digest, seed, played, verified, why"
-_LOOK = f"SELECT {_COLUMNS}, replay IS NOT NULL FROM score"
 SCHEMA = Schema(
     application=int.from_bytes(b"Silv", "big"),
     migrations=_MIGRATIONS,
     tables={
-        "score": (*_COLUMNS.split(", "), "replay"),
+        "list": ("id", "mode", "table_digest", "table_name"),
+        "score": ("id", "list", "initials", "score", "seed", "played", "verified", "why", "replay"),
         "setting": ("name", "value"),
         "last_game": ("id", "replay"),
     },
+)
+_LOOK = (
+    "SELECT score.id, initials, score, mode, table_name, table_digest, seed, played, verified, why,"
+    " replay IS NOT NULL FROM score JOIN list ON list.id = score.list WHERE"
 )
 
 
@@ -74,7 +84,7 @@ class Score(NamedTuple):
         initials: Of the player.
         score: Points.
         mode: Which game, see `silverball.game.news.Mode`.
-        table_name: The table as it was chosen; of a random board that of its recipe.
+        table_name: The name of the table as it was chosen; of a random board that of its recipe.
         table_digest: The digest of that table.
         seed: Of the world and, if the table is a recipe, of the board.
         when: When the game ended, UTC.
@@ -164,7 +174,7 @@ class Store:
             initials: Of the player.
             score: Points.
             mode: Which game.
-            table_name: The table as it was chosen.
+            table_name: The name of the table as it was chosen; the list goes by the last one it was given.
             table_digest: Its digest; of a recipe that of the recipe, so that all its boards share a list.
             seed: Of the world and, if the table is a recipe, of the board.
             replay_text: The replay.
@@ -174,18 +184,29 @@ class Store:
             Its number.
         """
         played = int((when or datetime.now(UTC)).timestamp())
-        row = (initials, score, str(mode), table_name, table_digest, seed, played, replay_text)
 
         def add(connection: sqlite3.Connection) -> int:
+            connection.execute(
+                "INSERT INTO list (mode, table_digest, table_name) VALUES (?, ?, ?)"
+                " ON CONFLICT DO UPDATE SET table_name = excluded.table_name",
+                (str(mode), table_digest, table_name),
+            )
+            ((number,),) = connection.execute(
+                "SELECT id FROM list WHERE mode = ? AND table_digest = ?", (str(mode), table_digest)
+            ).fetchall()
+            best = "FROM score WHERE list = ? AND replay IS NOT NULL"
+            ((better,),) = connection.execute(
+                f"SELECT count(*) {best} AND score >= ?", (number, score)
+            ).fetchall()
+            replay = replay_text if better < REPLAYS else None
             cursor = connection.execute(
-                "INSERT INTO score (initials, score, mode, table_name, table_digest, seed, played, replay)"
-                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-                row,
+                "INSERT INTO score (list, initials, score, seed, played, replay) VALUES (?, ?, ?, ?, ?, ?)",
+                (number, initials, score, seed, played, replay),
             )
             connection.execute(
-                "UPDATE score SET replay = NULL WHERE id IN (SELECT id FROM score WHERE mode = ?"
-                " AND table_digest = ? AND replay IS NOT NULL ORDER BY score DESC, id LIMIT -1 OFFSET ?)",
-                (str(mode), table_digest, REPLAYS),
+                "UPDATE score SET replay = NULL WHERE id IN"
+                f" (SELECT id {best} ORDER BY score DESC, id LIMIT -1 OFFSET ?)",
+                (number, REPLAYS),
             )
             return int(cursor.lastrowid or 0)
 
@@ -218,8 +239,8 @@ class Store:
     def lists(self) -> list[ScoreList]:
         """All lists, those with the most scores first."""
         rows = self._database.read(
-            "SELECT mode, max(table_name), table_digest, count(*) FROM score"
-            " GROUP BY mode, table_digest ORDER BY count(*) DESC, mode, table_digest"
+            "SELECT mode, table_name, table_digest, count(*) FROM score JOIN list ON list.id = score.list"
+            " GROUP BY list ORDER BY count(*) DESC, list"
         )
         return [ScoreList(*row) for row in rows]
 
@@ -238,10 +259,12 @@ class Store:
             table_name: Of tables of this name only, whatever they contain.
             limit: How many at most; -1: all.
         """
+        wanted = {"mode": mode, "table_digest": table_digest, "table_name": table_name}
+        wanted = {column: value for column, value in wanted.items() if value is not None}
+        which = " AND ".join(f"{column} = ?" for column in wanted) or "true"
+        # One list is read from its index; several are sorted.
         rows = self._database.read(
-            f"{_LOOK} WHERE (?1 IS NULL OR mode = ?1) AND (?2 IS NULL OR table_digest = ?2)"
-            " AND (?3 IS NULL OR table_name = ?3) ORDER BY score DESC, id LIMIT ?4",
-            (None if mode is None else str(mode), table_digest, table_name, limit),
+            f"{_LOOK} {which} ORDER BY score DESC, score.id LIMIT ?", (*map(str, wanted.values()), limit)
         )
         return [_score(row) for row in rows]
 
@@ -251,7 +274,7 @@ class Store:
         Raises:
             SilverballError: There is no score of that number.
         """
-        rows = self._database.read(f"{_LOOK} WHERE id = ?", (id,))
+        rows = self._database.read(f"{_LOOK} score.id = ?", (id,))
         if not rows:
             raise _no_such(id)
         return _score(rows[0])
@@ -262,8 +285,9 @@ class Store:
         No points are no high score.
         """
         ((better,),) = self._database.read(
-            "SELECT count(*) FROM score WHERE mode = ? AND table_digest = ? AND score >= ?",
-            (str(mode), table_digest, score),
+            "SELECT count(*) FROM (SELECT 1 FROM score WHERE score >= ? AND list ="
+            " (SELECT id FROM list WHERE mode = ? AND table_digest = ?) LIMIT ?)",
+            (score, str(mode), table_digest, PLACES),
         )
         return int(better) + 1 if score > 0 and better < PLACES else None
 
