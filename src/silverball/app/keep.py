@@ -1,36 +1,9 @@
-"""Where are the logs of games kept? In the user's data folder, whole or not at all."""
+"""Where is the log of the last game kept? In the data folder, see `silverball.game.folder`."""
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
-from silverball.wholefile import write_whole
+from silverball.game.folder import data_folder, keep
 
 LAST_GAME = "last-game.jsonl"
 
-
-def data_folder() -> Path:
-    """The folder for what a player keeps; the environment variable SILVERBALL_DATA names another one."""
-    import platformdirs
-
-    return Path(
-        os.environ.get("SILVERBALL_DATA") or platformdirs.user_data_dir("silverball", appauthor=False)
-    )
-
-
-def keep(text: str, name: str, folder: Path | None = None) -> Path | None:
-    """Write a text into the data folder.
-
-    A file of that name is replaced in one step, so that there is always a whole one.
-
-    Returns:
-        Where it is, or None where nothing can be written: playing does not depend on it.
-    """
-    path = (folder or data_folder()) / name
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
-    except OSError:
-        return None
-    return path
+__all__ = ["LAST_GAME", "data_folder", "keep"]

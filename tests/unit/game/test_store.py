@@ -1,0 +1,268 @@
+"""Is everything that was kept there again, in the right order, and nothing else?"""
+
+from __future__ import annotations
+
+import sqlite3
+from contextlib import closing
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from silverball.app.settings import Settings
+from silverball.errors import SilverballError
+from silverball.game import store as stores
+from silverball.game.database import Database
+from silverball.game.store import FILE, PLACES, REPLAYS, SCHEMA, Store
+
+BOARD = {"mode": "arcade", "table_name": "random", "table_digest": "d" * 64}
+
+
+def add(store: Store, score: int, initials: str = "AAA", **other: object) -> int:
+    values = BOARD | {"seed": 7, "replay_text": f"replay of {score}\n"} | other
+    return store.add_score(initials, score, **values)  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def store(tmp_path: Path):
+    with Store(tmp_path) as one:
+        yield one
+        assert one.trouble == ""
+        assert one.keeps
+
+
+def test_a_score_is_there_with_all_it_consists_of_when_the_file_is_opened_again(tmp_path):
+    when = datetime(2026, 2, 3, 4, 5, 6, tzinfo=UTC)
+    with Store(tmp_path) as store:
+        number = store.add_score("B.9", 4200, "arcade", "mine", "ab" * 32, 2**63 - 1, "the replay\n", when)
+    with Store(tmp_path) as store:
+        (score,) = store.scores("arcade")
+        assert score == (
+            number,
+            "B.9",
+            4200,
+            "arcade",
+            "mine",
+            "ab" * 32,
+            2**63 - 1,
+            when,
+            None,
+            "",
+            True,
+        )
+        assert store.score(number) == score
+        assert store.replay(number) == "the replay\n"
+
+
+def test_a_score_without_a_time_gets_the_present_one(store):
+    before = int(datetime.now(UTC).timestamp())
+    when = store.score(add(store, 1)).when.timestamp()
+    assert before <= when <= datetime.now(UTC).timestamp()
+
+
+def test_scores_are_ranked_and_of_equal_ones_the_earlier_is_the_better(store):
+    first, second, third, fourth = (add(store, score) for score in (20, 30, 20, 10))
+    assert [score.id for score in store.scores()] == [second, first, third, fourth]
+    assert [score.id for score in store.scores(limit=2)] == [second, first]
+
+
+def test_modes_and_tables_have_lists_of_their_own(store):
+    a = add(store, 10)
+    b = add(store, 20, mode="free")
+    c = add(store, 30, table_name="mine", table_digest="e" * 64)
+    d = add(store, 40, table_name="mine", table_digest="f" * 64)
+
+    def ids(**which: str) -> list[int]:
+        return [score.id for score in store.scores(**which)]  # type: ignore[arg-type]
+
+    assert ids(mode="arcade", table_digest="d" * 64) == [a]
+    assert ids(mode="free") == [b]
+    assert ids(table_digest="e" * 64) == [c]
+    assert ids(table_name="mine") == [d, c]
+    lists = [(one.mode, one.table_digest[0], one.length) for one in store.lists()]
+    assert sorted(lists) == [("arcade", "d", 1), ("arcade", "e", 1), ("arcade", "f", 1), ("free", "d", 1)]
+
+
+def test_all_boards_of_a_recipe_share_a_list_that_shows_their_seeds(store):
+    for seed in (3, 1, 2):
+        add(store, 10 * seed, seed=seed)
+    assert [score.seed for score in store.scores("arcade", BOARD["table_digest"])] == [3, 2, 1]
+
+
+def test_a_high_score_is_one_that_comes_into_the_list_that_is_shown(store):
+    def place(score: int) -> int | None:
+        return store.is_high(score, "arcade", BOARD["table_digest"])
+
+    assert place(1) == 1
+    assert place(0) is None
+    for score in range(10, 10 + PLACES):
+        assert place(score) == 1
+        add(store, score)
+    assert place(10 + PLACES - 1) == 2  # the equal one came first
+    assert place(11) == PLACES
+    assert place(10) is None
+    assert store.is_high(1, "free", BOARD["table_digest"]) == 1
+
+
+def test_the_place_that_is_promised_is_the_place_that_is_got(store):
+    for score in (50, 20, 50, 70, 20, 60, 10):
+        promised = store.is_high(score, "arcade", BOARD["table_digest"])
+        number = add(store, score)
+        listed = [one.id for one in store.scores("arcade", BOARD["table_digest"])]
+        assert listed.index(number) + 1 == promised
+
+
+def test_a_score_saved_under_the_last_initials_is_renamed(store):
+    number = add(store, 10, "OLD")
+    other = add(store, 20, "OLD")
+    store.rename(number, "NEW")
+    assert store.score(number).initials == "NEW"
+    assert store.score(other).initials == "OLD"
+
+
+def test_marks_stay_and_can_be_taken_back(store):
+    number = add(store, 10)
+    store.mark(number, False, "its replay reaches 9")
+    assert store.score(number)[-3:-1] == (False, "its replay reaches 9")
+    store.mark(number, True)
+    assert store.score(number)[-3:-1] == (True, "")
+    store.mark(number, None)
+    assert store.score(number)[-3:-1] == (None, "")
+
+
+def test_a_removed_score_is_gone_and_its_number_is_never_given_again(store):
+    kept, removed = add(store, 10), add(store, 20)
+    store.remove(removed)
+    assert [score.id for score in store.scores()] == [kept]
+    assert add(store, 20) > removed
+
+
+@pytest.mark.parametrize("what", ["score", "replay", "remove", "rename", "mark"])
+def test_a_number_that_no_score_has_is_refused_in_one_sentence(store, what):
+    arguments = {"rename": ("ABC",), "mark": (True,)}.get(what, ())
+    with pytest.raises(SilverballError, match="there is no score 5"):
+        getattr(store, what)(5, *arguments)
+
+
+def test_replays_are_kept_of_the_best_of_every_list_and_scores_of_all(store):
+    ids = {score: add(store, score) for score in (*range(1, 31), *range(60, 30, -1))}
+    other = add(store, 1, mode="free")
+    best = sorted(ids, reverse=True)[:REPLAYS]
+    assert [score.score for score in store.scores("arcade", limit=-1)] == sorted(ids, reverse=True)
+    for score, number in ids.items():
+        assert store.score(number).has_replay == (score in best)
+    assert store.replay(ids[best[-1]]) == f"replay of {best[-1]}\n"
+    with pytest.raises(SilverballError, match=f"score {ids[1]}: its replay was not kept"):
+        store.replay(ids[1])
+    assert store.score(other).has_replay
+
+
+def test_the_last_game_is_kept_and_only_the_last(tmp_path):
+    with Store(tmp_path) as store:
+        assert store.last_game() is None
+        store.keep_last_game("first")
+        store.keep_last_game("second\n")
+    with Store(tmp_path) as store:
+        assert store.last_game() == "second\n"
+
+
+def test_two_stores_see_what_the_other_has_written(tmp_path):
+    with Store(tmp_path) as one, Store(tmp_path) as other:
+        number = add(one, 10)
+        other.rename(number, "TWO")
+        assert one.scores()[0].initials == "TWO"
+
+
+def test_what_is_written_is_forced_onto_the_disk(store):
+    """SQLite does so at every commit with these two: see "synchronous" on https://sqlite.org/pragma.html."""
+    connection = store._database._connection
+    assert connection.execute("PRAGMA synchronous").fetchone() == (2,)
+    assert connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+
+
+def test_the_data_folder_can_be_named_by_a_variable_of_the_environment(tmp_path, monkeypatch):
+    monkeypatch.setenv("SILVERBALL_DATA", str(tmp_path / "new" / "folder"))
+    with Store() as store:
+        add(store, 1)
+    assert (tmp_path / "new" / "folder" / FILE).stat().st_size > 0
+
+
+def test_text_that_looks_like_sql_is_text(store):
+    nasty = "'); DROP TABLE score; --"
+    number = add(store, 1, nasty, table_name=nasty, mode=nasty, table_digest=nasty, replay_text=nasty)
+    assert store.replay(number) == nasty
+    assert [score.initials for score in store.scores(nasty, nasty, nasty)] == [nasty]
+
+
+# ── settings ────────────────────────────────────────────────────────────────────────────────────────────
+
+
+def test_settings_come_back_as_they_were(tmp_path):
+    settings = Settings(
+        theme="dusk", volume=3, muted=True, initials="ZZ.", keys={"left": ("a", "left shift")}
+    )
+    with Store(tmp_path) as store:
+        assert Settings.of(store.settings()) == Settings()
+        store.keep_settings(settings.model_dump())
+    with Store(tmp_path) as store:
+        assert Settings.of(store.settings()) == settings
+
+
+def test_settings_that_are_not_named_stay_as_they_are(store):
+    store.keep_settings({"volume": 3, "of_a_newer_program": {"a": [1, None]}})
+    store.keep_settings({"volume": 4})
+    assert store.settings() == {"volume": 4, "of_a_newer_program": {"a": [1, None]}}
+
+
+def test_settings_are_kept_all_or_none(store):
+    store.keep_settings({"volume": 3, "muted": True})
+    with pytest.raises(TypeError):
+        store.keep_settings({"volume": 4, "muted": object()})
+    with pytest.raises(sqlite3.Error):
+        store.keep_settings({"volume": 4, object(): 1})  # type: ignore[dict-item]
+    assert store.settings() == {"volume": 3, "muted": True}
+
+
+@pytest.mark.parametrize(
+    "value", ["{", "", "nine", "[" * 100_000, "\x00", b"\xff\xfe", '"loud"', "99", "null"]
+)
+def test_a_damaged_setting_is_replaced_by_its_default_and_the_others_stay(tmp_path, value):
+    with Store(tmp_path) as store:
+        store.keep_settings(Settings(volume=3, muted=True).model_dump())
+    with closing(sqlite3.connect(tmp_path / FILE)) as connection, connection:
+        connection.execute("UPDATE setting SET value = ? WHERE name = 'volume'", (value,))
+    with Store(tmp_path) as store:
+        assert Settings.of(store.settings()) == Settings(muted=True)
+        assert store.trouble == ""
+
+
+# ── versions of the file ────────────────────────────────────────────────────────────────────────────────
+
+NEXT = SCHEMA._replace(
+    migrations=(*SCHEMA.migrations, ("ALTER TABLE score ADD COLUMN balls INTEGER NOT NULL DEFAULT 3",)),
+    tables=SCHEMA.tables | {"score": (*SCHEMA.tables["score"], "balls")},
+)
+
+
+def test_a_file_of_an_older_version_is_brought_to_the_present_one_with_all_that_is_in_it(
+    tmp_path, monkeypatch
+):
+    with Store(tmp_path) as store:
+        number = add(store, 42)
+    monkeypatch.setattr(stores, "SCHEMA", NEXT)
+    for _ in range(2):
+        with Store(tmp_path) as store:
+            assert (store.trouble, store.keeps) == ("", True)
+            assert store.score(number).score == 42
+            assert store._database.read("SELECT balls FROM score") == [(3,)]
+
+
+def test_a_file_stays_at_its_version_when_bringing_it_to_the_present_one_fails(tmp_path):
+    with Store(tmp_path) as store:
+        add(store, 42)
+    broken = NEXT._replace(migrations=(*NEXT.migrations, ("SELECT * FROM nowhere",)))
+    with pytest.raises(sqlite3.OperationalError, match="nowhere"):
+        Database(tmp_path / FILE, broken)
+    with Store(tmp_path) as store:
+        assert store.trouble == ""
+        assert [score.score for score in store.scores()] == [42]

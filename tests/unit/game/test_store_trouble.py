@@ -1,0 +1,367 @@
+"""Does play go on, and is the player told in one sentence, whatever is wrong with the file?"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+import pytest
+
+from silverball.errors import SilverballError
+from silverball.game import database
+from silverball.game.store import FILE, SCHEMA, Store
+
+REPLAY = "a line of a replay\n" * 100
+NOBODY = 65534
+
+
+def add(store: Store, score: int, replay: str = REPLAY) -> int:
+    return store.add_score("AAA", score, "arcade", "random", "d" * 64, 7, replay)
+
+
+def listed(store: Store) -> list[int]:
+    return [score.score for score in store.scores(limit=-1)]
+
+
+def assert_play_goes_on(store: Store) -> None:
+    """All that a game asks of a store works, whether it lasts or not."""
+    number = add(store, 123_456)
+    assert store.is_high(123_457, "arcade", "d" * 64) == 1
+    store.rename(number, "NEW")
+    store.mark(number, True)
+    store.keep_last_game("last")
+    store.keep_settings({"volume": 2})
+    assert store.scores()[0][:3] == (number, "NEW", 123_456)
+    assert store.replay(number) == REPLAY
+    assert store.last_game() == "last"
+    assert store.settings()["volume"] == 2
+
+
+def assert_told(store: Store, *words: str, keeps: bool) -> None:
+    """One sentence with the place, what is wrong and, if nothing is kept, what to do."""
+    assert len(store.trouble.splitlines()) == 1
+    remedy = () if keeps else ("nothing of this run is kept", "SILVERBALL_DATA")
+    for word in (str(store.path), *words, *remedy):
+        assert word in store.trouble
+    assert store.keeps == keeps
+
+
+@pytest.fixture
+def folder() -> Iterator[Path]:
+    """A folder in which others may look around too."""
+    path = Path(tempfile.mkdtemp())
+    path.chmod(0o755)
+    yield path
+    shutil.rmtree(path)
+
+
+@contextmanager
+def without_the_rights_of_root() -> Iterator[None]:
+    """Root may write what must not be written; so be somebody else for a while."""
+    if os.name != "posix":
+        pytest.skip("needs the rights of POSIX")
+    root = os.geteuid() == 0
+    if root:
+        os.seteuid(NOBODY)
+    try:
+        yield
+    finally:
+        if root:
+            os.seteuid(0)
+
+
+def with_scores(folder: Path, *scores: int) -> Path:
+    with Store(folder) as store:
+        for score in scores:
+            add(store, score)
+        store.keep_settings({"volume": 9, "muted": True})
+    return folder / FILE
+
+
+# ── it cannot be written ────────────────────────────────────────────────────────────────────────────────
+
+
+def test_a_folder_that_must_not_be_written(folder):
+    folder.chmod(0o555)
+    with without_the_rights_of_root(), Store(folder) as store:
+        assert_told(store, "it cannot be opened or made", keeps=False)
+        assert_play_goes_on(store)
+    assert list(folder.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_made(folder):
+    folder.chmod(0o555)
+    with without_the_rights_of_root(), Store(folder / "new") as store:
+        assert_told(store, "permission denied", str(folder / "new"), keeps=False)
+        assert_play_goes_on(store)
+
+
+@pytest.mark.parametrize("below", ["", "data"])
+def test_a_folder_that_is_a_file(tmp_path, below):
+    (tmp_path / "file").write_text("something")
+    with Store(tmp_path / "file" / below) as store:
+        assert_told(store, "file exists" if not below else "not a directory", keeps=False)
+        assert_play_goes_on(store)
+    assert (tmp_path / "file").read_text() == "something"
+
+
+@pytest.mark.parametrize(
+    ("name", "word"), [(FILE, "it cannot be opened or made"), (f"{FILE}-wal", "reading or writing fails")]
+)
+def test_a_folder_where_a_file_should_be(tmp_path, name, word):
+    (tmp_path / name).mkdir()
+    with Store(tmp_path) as store:
+        assert_told(store, word, keeps=False)
+        assert_play_goes_on(store)
+
+
+@pytest.mark.parametrize("folder_too", [False, True])
+def test_a_file_that_must_not_be_written_is_still_read(folder, folder_too):
+    path = with_scores(folder, 10, 20)
+    before = path.read_bytes()
+    path.chmod(0o444)
+    folder.chmod(0o555 if folder_too else 0o777)
+    with without_the_rights_of_root(), Store(folder) as store:
+        assert_told(store, "writing is not allowed", keeps=False)
+        assert listed(store) == [20, 10]
+        assert store.settings() == {"volume": 9, "muted": True}
+        assert_play_goes_on(store)
+    assert path.read_bytes() == before
+
+
+def test_a_file_that_must_not_be_read(folder):
+    with_scores(folder, 10).chmod(0)
+    with without_the_rights_of_root(), Store(folder) as store:
+        assert_told(store, "it cannot be opened or made", keeps=False)
+        assert_play_goes_on(store)
+    (folder / FILE).chmod(0o644)
+    with Store(folder) as store:
+        assert listed(store) == [10]
+
+
+def fill(store: Store, most: int = 3000) -> list[int]:
+    """Keep scores with replays until that fails; those that were kept."""
+    kept = []
+    for score in range(1, most):
+        add(store, score, REPLAY + "x" * score)
+        if not store.keeps:
+            return kept
+        kept.append(score)
+    raise AssertionError("the disk never was full")
+
+
+def assert_all_goes_on_on_a_full_disk(folder: Path, word: str) -> list[int]:
+    """Fill it up, play on, and see that all that was kept is there; what was kept."""
+    with Store(folder) as store:
+        store.keep_settings({"volume": 9})
+        kept = fill(store)
+        assert_told(store, word, keeps=False)
+        assert listed(store) == [len(kept) + 1, *reversed(kept)]  # the last one as long as the program runs
+        assert store.settings() == {"volume": 9}
+        assert_play_goes_on(store)
+    return kept
+
+
+def test_a_limit_to_the_size_of_files_is_met_in_the_middle(tmp_path):
+    resource = pytest.importorskip("resource")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, hard))
+    try:
+        kept = assert_all_goes_on_on_a_full_disk(tmp_path, "reading or writing fails")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    with Store(tmp_path) as store:
+        assert store.trouble == ""
+        assert listed(store) == kept[::-1]
+
+
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A disk of 512 KiB."""
+    place = tmp_path / "disk"
+    place.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=512k", "none", str(place)]
+    if not shutil.which("mount") or subprocess.run(mount, capture_output=True, check=False).returncode:
+        pytest.skip("only root can mount a small disk")
+    yield place
+    subprocess.run(["umount", str(place)], check=True)
+
+
+def test_the_disk_becomes_full_in_the_middle(small_disk):
+    kept = assert_all_goes_on_on_a_full_disk(small_disk, "the disk is full")
+    with Store(small_disk) as store:  # reads without a byte to spare
+        assert set(kept) <= set(listed(store))
+
+
+def test_the_disk_is_full_from_the_beginning(small_disk):
+    with pytest.raises(OSError, match="No space"):
+        (small_disk / "other").write_bytes(b"x" * 2**20)
+    with Store(small_disk) as store:
+        assert len(store.trouble.splitlines()) == 1
+        assert not store.keeps
+        assert_play_goes_on(store)
+
+
+def test_a_program_that_holds_the_file_for_ever(tmp_path, monkeypatch):
+    with_scores(tmp_path, 10)
+    monkeypatch.setattr(database, "BUSY_SECONDS", 0.2)
+    with Store(tmp_path) as store, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        assert listed(store) == [10]
+        assert_play_goes_on(store)
+        assert_told(store, "another program has held it", keeps=False)
+        with Store(tmp_path) as late:
+            assert_told(late, "another program has held it", keeps=False)
+            assert listed(late) == [10]
+
+
+# ── it is not what it should be ─────────────────────────────────────────────────────────────────────────
+
+
+def set_aside(folder: Path) -> Path:
+    (path,) = folder.glob("silverball-set-aside-*.sqlite3")
+    return path
+
+
+def overwrite_the_middle(path: Path) -> None:
+    content = bytearray(path.read_bytes())
+    content[4096:-4096] = os.urandom(len(content) - 8192)
+    path.write_bytes(content)
+
+
+def lose_a_table(path: Path) -> None:
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("DROP TABLE setting")
+
+
+def belong_to_another_program(path: Path) -> None:
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("PRAGMA application_id = 1")
+
+
+DAMAGES: dict[str, Callable[[Path], object]] = {
+    "not a database at all": lambda path: path.write_bytes(b"hello " * 1000),
+    "the first half": lambda path: os.truncate(path, path.stat().st_size // 2),
+    "the middle overwritten": overwrite_the_middle,
+    "the head overwritten": lambda path: path.write_bytes(os.urandom(100) + path.read_bytes()[100:]),
+    "a table is missing": lose_a_table,
+    "of another program": belong_to_another_program,
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
+def test_a_file_that_cannot_be_used_is_set_aside_and_a_new_one_begun(tmp_path, damage):
+    path = with_scores(tmp_path, *range(1, 40))
+    damage(path)
+    content = path.read_bytes()
+    with Store(tmp_path) as store:
+        assert set_aside(tmp_path).read_bytes() == content
+        word = "another program" if damage is belong_to_another_program else "is damaged"
+        assert_told(store, word, set_aside(tmp_path).name, keeps=True)
+        assert listed(store) == []
+        assert_play_goes_on(store)
+    with Store(tmp_path) as store:
+        assert store.trouble == ""
+        assert listed(store) == [123_456]
+
+
+def test_an_empty_file_is_a_new_one(tmp_path):
+    (tmp_path / FILE).touch()
+    with Store(tmp_path) as store:
+        assert (store.trouble, store.keeps) == ("", True)
+        assert_play_goes_on(store)
+
+
+def test_a_file_that_becomes_damaged_while_the_program_runs(tmp_path):
+    path = with_scores(tmp_path, *range(1, 40))
+    with Store(tmp_path) as store:
+        store._database._connection.execute("PRAGMA cache_size = 0")  # it would not notice before it reads
+        overwrite_the_middle(path)
+        assert_play_goes_on(store)
+        assert_told(store, "is damaged", set_aside(tmp_path).name, keeps=True)
+    with Store(tmp_path) as store:
+        assert listed(store) == [123_456]
+
+
+def test_a_program_that_has_a_file_open_goes_over_to_the_new_one_when_another_finds_it_damaged(tmp_path):
+    path = with_scores(tmp_path, *range(1, 40))
+    with Store(tmp_path) as first:
+        add(first, 50)
+        overwrite_the_middle(path)
+        with Store(tmp_path) as second:
+            assert_told(second, "is damaged", keeps=True)
+            aside = set_aside(tmp_path)
+            assert aside.with_name(f"{aside.name}-wal").stat().st_size > 0  # with what was written last
+            assert_play_goes_on(first)
+            assert_told(first, "was removed or replaced", keeps=True)
+            assert listed(second) == [123_456]
+
+
+def test_a_file_that_is_removed_while_the_program_runs(tmp_path):
+    with_scores(tmp_path, 10)
+    with Store(tmp_path) as store:
+        shutil.rmtree(tmp_path)
+        assert_play_goes_on(store)
+        assert_told(store, "was removed", keeps=True)
+    with Store(tmp_path) as store:
+        assert listed(store) == [123_456]
+
+
+def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_nothing(tmp_path):
+    path = with_scores(tmp_path, 10)
+    program = f"""
+import sys
+from pathlib import Path
+from silverball.game.store import Store
+sys.stdin.readline()
+with Store(Path({str(tmp_path)!r})) as store:
+    store.add_score("AAA", int(sys.argv[1]), "arcade", "random", "d", 0, "")
+"""
+    for _ in range(5):
+        path.write_bytes(b"hello " * 1000)
+        for old in tmp_path.glob("silverball-set-aside-*"):
+            old.unlink()
+        children = [
+            subprocess.Popen([sys.executable, "-c", program, str(score)], stdin=subprocess.PIPE)
+            for score in (1, 2, 3)
+        ]
+        for child in children:
+            child.stdin.write(b"go\n")  # type: ignore[union-attr]
+            child.stdin.close()  # type: ignore[union-attr]
+        assert [child.wait(60) for child in children] == [0, 0, 0]
+        assert set_aside(tmp_path).read_bytes() == b"hello " * 1000
+        with Store(tmp_path) as store:
+            assert listed(store) == [3, 2, 1]
+
+
+def test_a_file_of_a_newer_program_is_left_as_it_is(tmp_path):
+    path = with_scores(tmp_path, 10)
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("PRAGMA user_version = 9")
+        connection.execute("ALTER TABLE score RENAME TO games")
+    before = path.read_bytes()
+    with Store(tmp_path) as store:
+        assert_told(store, "newer Silverball", "version 9", f"up to {SCHEMA.version}", keeps=False)
+        assert listed(store) == []
+        assert_play_goes_on(store)
+    assert path.read_bytes() == before
+    assert [one.name for one in tmp_path.iterdir()] == [FILE]
+
+
+def test_a_mistake_of_the_caller_is_no_trouble_of_the_file(tmp_path):
+    with Store(tmp_path) as store:
+        for wrong in (None, "many"):
+            with pytest.raises(sqlite3.IntegrityError):
+                add(store, wrong)  # type: ignore[arg-type]
+        with pytest.raises(OverflowError):
+            add(store, 2**63)
+        with pytest.raises(SilverballError):
+            store.rename(1, "ABC")
+        assert (store.trouble, store.keeps, listed(store)) == ("", True, [])
