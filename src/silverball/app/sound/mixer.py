@@ -1,0 +1,157 @@
+"""How do notes reach the loudspeakers? Through the channels of pygame's mixer.
+
+Strengths are set on a channel while it is idle, before its sound starts: a mixer thread that comes in between
+would otherwise play the first few milliseconds at full strength.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections import deque
+from collections.abc import Iterator
+
+import numpy as np
+import pygame
+
+from silverball.app.sound.bank import Bank, Key, Samples
+from silverball.app.sound.rolling import LANES, ROLL_SPEEDS, Gains
+from silverball.app.sound.synth import RATE
+from silverball.app.sound.voices import Note
+
+BUFFERS = (512, 1024, 2048)
+"""Sizes of the device's buffer [sample], the first that it takes: 512 are 11 ms. Smaller ones crackle while
+the physics is compiled."""
+
+HIT_CHANNELS = 20
+_SPARE = 4  # channels that are kept free for the next frame
+_FADE = 15  # [ms] in which a sound that has to go fades
+
+
+class Mixer:
+    """An open sound device.
+
+    Raises:
+        pygame.error: There is none.
+    """
+
+    def __init__(self) -> None:
+        self._open()
+        pygame.mixer.set_num_channels(HIT_CHANNELS + LANES * len(ROLL_SPEEDS))
+        channels = [pygame.mixer.Channel(number) for number in range(pygame.mixer.get_num_channels())]
+        self._free = channels[:HIT_CHANNELS]
+        self._busy: deque[pygame.mixer.Channel] = deque()  # the oldest first
+        self._fading: list[pygame.mixer.Channel] = []
+        self._roll = channels[HIT_CHANNELS:]
+        self._rolling: dict[int, tuple[float, float]] = {}
+        self._sounds: dict[Key, pygame.mixer.Sound] = {}
+        self._loops: list[pygame.mixer.Sound] = []
+
+    def _open(self) -> None:
+        for number, buffer in enumerate(BUFFERS):
+            try:
+                with _without_messages():
+                    pygame.mixer.init(RATE, -16, 2, buffer, allowedchanges=0)
+                return
+            except pygame.error:
+                if number == len(BUFFERS) - 1:
+                    raise
+
+    def load(self, bank: Bank) -> None:
+        """Hand the waves to the mixer; may be called from a thread."""
+        loops = [_sound(loop) for loop in bank.loops]
+        self._sounds = {key: _sound(wave) for key, wave in bank.waves.items()}
+        self._loops = loops
+
+    @property
+    def is_loaded(self) -> bool:
+        """Whether there are sounds to play."""
+        return bool(self._loops)
+
+    @property
+    def voices(self) -> int:
+        """How many sounds are being played, rolling included."""
+        return sum(channel.get_busy() for channel in [*self._busy, *self._fading, *self._roll])
+
+    def play(self, note: Note, volume: float) -> None:
+        """Begin a note, if a channel is free."""
+        left, right = volume * note.left, volume * note.right
+        if max(left, right) < 1.0 / 255.0 or not self.is_loaded:  # the mixer's own steps
+            return
+        self._tidy()
+        if not self._free:
+            return
+        channel = self._free.pop()
+        channel.set_volume(min(left, 1.0), min(right, 1.0))
+        channel.play(self._sounds[note.key])
+        self._busy.append(channel)
+
+    def roll(self, gains: Gains, volume: float) -> None:
+        """Let the loops of rolling go on at these strengths; those that are not named end."""
+        if not self.is_loaded:
+            return
+        wanted = {
+            lane * len(ROLL_SPEEDS) + loop: (volume * left, volume * right)
+            for (lane, loop), (left, right) in gains.items()
+        }
+        for number in self._rolling.keys() - wanted.keys():
+            self._roll[number].stop()  # as good as silent by now
+        for number, (left, right) in wanted.items():
+            channel = self._roll[number]
+            channel.set_volume(left, right)
+            if not channel.get_busy():
+                channel.play(self._loops[number % len(ROLL_SPEEDS)], loops=-1)
+        self._rolling = wanted
+
+    def fade_rolling(self) -> None:
+        """Let the rolling end quickly but without a click."""
+        for number in self._rolling:
+            self._roll[number].fadeout(4 * _FADE)
+        self._rolling = {}
+
+    def fade_all(self) -> None:
+        """Silence, without a click."""
+        self.fade_rolling()
+        for channel in self._busy:
+            channel.fadeout(2 * _FADE)
+
+    def close(self) -> None:
+        """Give the device back."""
+        self._sounds, self._loops = {}, []
+        pygame.mixer.quit()
+
+    def _tidy(self) -> None:
+        """Find channels that have become free; if there are few, let the oldest sounds fade."""
+        if len(self._free) > _SPARE:
+            return
+        for group in (self._busy, self._fading):
+            still = [channel for channel in group if channel.get_busy()]
+            self._free.extend(channel for channel in group if not channel.get_busy())
+            group.clear()
+            group.extend(still)
+        while self._busy and len(self._free) + len(self._fading) < _SPARE:
+            oldest = self._busy.popleft()
+            oldest.fadeout(_FADE)
+            self._fading.append(oldest)
+
+
+def _sound(wave: Samples) -> pygame.mixer.Sound:
+    return pygame.mixer.Sound(buffer=np.repeat(wave, 2).tobytes())
+
+
+@contextlib.contextmanager
+def _without_messages() -> Iterator[None]:
+    """Keep the sound system's own words about a missing device off the terminal; we say it in ours."""
+    try:
+        kept = os.dup(2)
+    except OSError:  # there is no standard error, as with pythonw
+        yield
+        return
+    nothing = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nothing, 2)
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nothing)

@@ -1,0 +1,213 @@
+"""What are sounds made of? Sums of decaying tones, coloured noise and gliding tones, as pure functions.
+
+A wave is float32, shape [sample], mono, at `RATE` samples a second. Times are in seconds, pitches in Hz.
+Randomness comes only from the generator that is handed in, so that the same seed makes the same wave.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+RATE = 48_000
+"""Samples a second: what most sound devices run at, so that nothing is resampled."""
+
+Wave: TypeAlias = NDArray[np.floating[Any]]
+
+FADE_IN = 0.0004  # [s] at the start of every sound: shorter clicks, longer takes the edge off a hit
+FADE_OUT = 0.012  # [s] at its end
+NATURAL = -60.0  # [dB] a decay is cut where it has fallen so far
+_BLOCK = 256  # samples in which decaying tones are worked out at once
+
+
+class Partial(NamedTuple):
+    """One decaying tone of a struck thing.
+
+    Attributes:
+        pitch: [Hz].
+        strength: Amplitude at the start.
+        decay: In which it falls by 60 dB [s].
+    """
+
+    pitch: float
+    strength: float
+    decay: float
+
+
+def single(values: Any) -> Wave:
+    """Values as float32: twice as fast to add up, and far finer than 16 bits."""
+    wave: Wave = values.astype(np.float32, copy=False)
+    return wave
+
+
+def sample_count(seconds: float) -> int:
+    """How many samples last so long."""
+    return max(round(seconds * RATE), 1)
+
+
+def ring(partials: Sequence[Partial], seconds: float) -> Wave:
+    """Decaying tones that start together: Σ strength · e^(−6.9·t/decay) · sin(2π·pitch·t).
+
+    A sine and a decay are both powers of one complex number, z^n = z^(256·k) · z^j, so a tone is an outer
+    product of two short rows: some hundred times cheaper than a sine and a power for every sample.
+    """
+    count = sample_count(seconds)
+    blocks = -(-count // _BLOCK)
+    wave = np.zeros((blocks, _BLOCK), np.float32)
+    for pitch, strength, decay in partials:
+        if pitch >= 0.45 * RATE:
+            continue
+        exponent = complex(-math.log(1000.0) / decay, 2.0 * math.pi * pitch) / RATE
+        heard = min(blocks, math.ceil(sample_count(-NATURAL / 60.0 * decay) / _BLOCK))
+        coarse = strength * np.exp(exponent * _BLOCK * np.arange(heard))
+        fine = np.exp(exponent * np.arange(_BLOCK))
+        wave[:heard] += np.outer(coarse.real.astype(np.float32), fine.imag.astype(np.float32))
+        wave[:heard] += np.outer(coarse.imag.astype(np.float32), fine.real.astype(np.float32))
+    return wave.reshape(-1)[:count]
+
+
+def struck(
+    pitch: float,
+    ratios: Sequence[float],
+    decay: float,
+    *,
+    brightness: float = 0.5,
+    damping: float = 0.6,
+    detune: float = 0.0,
+    random: np.random.Generator,
+) -> list[Partial]:
+    """The partials of a struck thing.
+
+    Args:
+        pitch: Of the lowest [Hz].
+        ratios: Of all partials to the lowest.
+        decay: Of the lowest [s].
+        brightness: How strong each partial is to the one below it; a harder blow is brighter.
+        damping: How much faster high partials die: in `decay` · ratio^−damping. Wood 0.9, metal 0.6.
+        detune: How far each partial is off, at most, as a share; makes no two blows alike.
+        random: Draws the detuning and small differences of strength.
+    """
+    partials = []
+    for number, ratio in enumerate(ratios):
+        off = 1.0 + detune * random.uniform(-1.0, 1.0) if number else 1.0
+        strength = brightness**number * random.uniform(0.8, 1.2) if number else 1.0
+        partials.append(Partial(pitch * ratio * off, strength, decay * ratio**-damping))
+    return partials
+
+
+def noise(
+    seconds: float, low: float, high: float, random: np.random.Generator, *, slope: float = 12.0
+) -> Wave:
+    """Noise between two pitches [Hz], falling off outside by `slope` dB an octave; its RMS is 1."""
+    count = _good_length(sample_count(seconds))
+    pitches = np.fft.rfftfreq(count, 1.0 / RATE)
+    spectrum = np.fft.rfft(random.standard_normal(count, np.float32)) * _band(pitches, low, high, slope)
+    wave = np.fft.irfft(spectrum, count)
+    return single(wave[: sample_count(seconds)] / np.sqrt(np.mean(wave**2)))
+
+
+def puff(
+    seconds: float, low: float, high: float, decay: float, random: np.random.Generator, *, rise: float = 0.001
+) -> Wave:
+    """A burst of noise: it rises in `rise` [s] and falls by 60 dB in `decay` [s]."""
+    time = np.arange(sample_count(seconds), dtype=np.float32) / RATE
+    return noise(seconds, low, high, random) * np.minimum(time / rise, 1.0) * _fall(time, decay)
+
+
+def glide(
+    pitch: Callable[[Wave], Wave],
+    seconds: float,
+    overtones: Sequence[float] = (1.0,),
+) -> Wave:
+    """A tone whose pitch [Hz] is a function of the time from 0 to 1, with overtones of given strengths."""
+    count = sample_count(seconds)
+    turns = np.cumsum(pitch(np.arange(count) / count)) / RATE
+    phase = (2.0 * np.pi * (turns % 1.0)).astype(np.float32)
+    wave = np.zeros(count, np.float32)
+    for number, strength in enumerate(overtones, 1):
+        wave += np.float32(strength) * np.sin(np.float32(number) * phase)
+    return wave
+
+
+def envelope(seconds: float, rise: float, decay: float) -> Wave:
+    """From 0 to 1 within `rise` [s], and from there down by 60 dB within `decay` [s]."""
+    time = np.arange(sample_count(seconds), dtype=np.float32) / RATE
+    up = np.minimum(time / rise, 1.0)
+    return (0.5 - 0.5 * np.cos(np.pi * up)) * _fall(np.maximum(time - rise, 0.0), decay)
+
+
+def mix(seconds: float, *layers: tuple[float, float, Wave]) -> Wave:
+    """Waves on top of each other: (start [s], strength, wave)."""
+    total = np.zeros(sample_count(seconds), np.float32)
+    for start, strength, wave in layers:
+        at = round(start * RATE)
+        part = wave[: max(len(total) - at, 0)]
+        total[at : at + len(part)] += np.float32(strength) * part
+    return total
+
+
+def finished(wave: Wave) -> Wave:
+    """A wave that begins and ends at zero and has no offset, so that it starts and stops without a click."""
+    count = len(wave)
+    edge = np.ones(count, np.float32)
+    rise, fall = min(sample_count(FADE_IN), count // 2), min(sample_count(FADE_OUT), count // 2)
+    edge[:rise] = 0.5 - 0.5 * np.cos(np.pi * np.arange(rise) / rise)
+    edge[count - fall :] = 0.5 + 0.5 * np.cos(np.pi * np.arange(1, fall + 1) / fall)
+    wave = wave * edge
+    # What is taken away is shaped like the wave itself, so the ends stay at zero and no slow bow is added.
+    size = np.abs(wave)
+    return wave - size * np.float32(
+        wave.sum(dtype=np.float64) / max(float(size.sum(dtype=np.float64)), 1e-30)
+    )
+
+
+def looped(spectrum: Callable[[Wave], Wave], seconds: float, seed: int) -> Wave:
+    """Noise that goes on without a seam when it is repeated; its RMS is 1.
+
+    It is made of tones that fit the loop a whole number of times, with random phases.
+
+    Args:
+        spectrum: The strength at a pitch [Hz].
+        seconds: Of the loop.
+        seed: Of the phases.
+    """
+    count = sample_count(seconds)
+    pitches = np.fft.rfftfreq(count, 1.0 / RATE)
+    random = np.random.default_rng(seed)
+    drawn = random.standard_normal(len(pitches)) + 1j * random.standard_normal(len(pitches))
+    drawn[0] = 0.0
+    wave = np.fft.irfft(drawn * spectrum(pitches), count)
+    return single(wave / np.sqrt(np.mean(wave**2)))
+
+
+def soft_limit(wave: Wave, knee: float = 0.7) -> Wave:
+    """A wave within −1 to 1: unchanged up to the knee, bent smoothly above it."""
+    over = np.abs(wave) > knee
+    if not over.any():
+        return wave
+    bent = wave.copy()
+    high = wave[over]
+    bent[over] = np.sign(high) * (knee + (1.0 - knee) * np.tanh((np.abs(high) - knee) / (1.0 - knee)))
+    return bent
+
+
+def _fall(time: Wave, decay: float) -> Wave:
+    return single(np.exp(-math.log(1000.0) / decay * time))
+
+
+def _band(pitches: Wave, low: float, high: float, slope: float) -> Wave:
+    power = slope / (20.0 * math.log10(2.0))
+    with np.errstate(divide="ignore"):
+        below = np.minimum(pitches / low, 1.0) ** power
+        above = np.minimum(high / pitches, 1.0) ** power
+    return single(below * above)
+
+
+def _good_length(count: int) -> int:
+    """A length, not below `count`, that a fast Fourier transform likes: 2^n or 3·2^n."""
+    power = 1 << (count - 1).bit_length()
+    return 3 * power // 4 if 3 * power // 4 >= count else power
