@@ -164,7 +164,7 @@ def test_an_input_that_the_rules_refuse_is_named_with_its_tick(extra: str, reaso
 def test_two_replays_of_different_boards_differ_in_the_head():
     other = replace(REPLAY, seed=REPLAY.seed + 1)
     assert compare(REPLAY, other) == Verdict(
-        False, 0, 0, 0, "seed", "2", "3", "tick 0: seed differs: expected 2, got 3"
+        False, 0, 0, 0, "seed", "2", "3", "tick 0, seed: expected 2, got 3"
     )
     assert compare(REPLAY, replace(REPLAY, table=generate_table(1))).field == "table"
     assert compare(REPLAY, REPLAY).ok

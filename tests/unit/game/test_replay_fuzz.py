@@ -109,6 +109,8 @@ def cut(text: str, draw: random.Random) -> str:
 
 def change_input(text: str, draw: random.Random) -> str:
     lines = text.split("\n")
+    if not 0 <= text.find("--- play\n") < text.find("--- end") - 9:
+        return text  # what was damaged before has no lines of play
     at = draw.randrange(lines.index("--- play") + 1, lines.index("--- end"))
     more = "".join(
         f"{draw.choice(('', '', '+', '!'))}{draw.choice('abkzKZ')}" for _ in range(draw.randrange(1, 6))
@@ -162,7 +164,10 @@ def mutated(number: int) -> tuple[str, bytes]:
     mutate = MUTATIONS[number % len(MUTATIONS)]
     text = mutate(draw.choice(SOURCES), draw)
     for _ in range(draw.choice((0, 0, 0, 1, 3))):
-        text = draw.choice(MUTATIONS)(text, draw) if len(text) > 200 and "--- end" in text else text
+        try:
+            text = draw.choice(MUTATIONS)(text, draw)
+        except (IndexError, ValueError):
+            break  # nothing is left that this kind of damage could be done to
     if draw.random() < 0.6 and "checksum = " in text:
         body = text[: text.rindex("checksum = ")]
         text = f"{body}checksum = {_checksum(body)}\n"
