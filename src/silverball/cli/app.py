@@ -16,6 +16,7 @@ from silverball.cli.check import check
 from silverball.cli.demo import demo
 from silverball.cli.generate import generate
 from silverball.cli.play import play
+from silverball.cli.replay import replay
 from silverball.cli.scores import scores
 from silverball.cli.show import show
 from silverball.cli.simulate import simulate
@@ -28,7 +29,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (play, demo, tables, show, check, generate, simulate, bench, scores):
+for command in (play, replay, scores, demo, tables, show, check, generate, simulate, bench):
     app.command()(command)
 COMMANDS = tuple(command.callback.__name__ for command in app.registered_commands if command.callback)
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 TICK_RATE = 240
 SECOND_BALL_AFTER = 3.0  # [s]
-HEIGHTS = {".gif": 720, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
-GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in memory, a byte or two for each
 
 
 def demo(
@@ -50,27 +48,18 @@ def make_demo(
     force: bool = False,
 ) -> None:
     """Make a film, or a picture, of the program playing; say where it is."""
-    from rich.progress import Progress
-
-    from silverball.cli.console import compiling, errors
-    from silverball.drawing import Renderer, best_size
-    from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
-    from silverball.errors import OutputError
+    from silverball.cli.console import compiling
+    from silverball.cli.filming import ENDINGS, film_size, shoot
+    from silverball.drawing import Renderer
+    from silverball.drawing.film import check_output
     from silverball.table import generate_table, load_table
 
-    check_output(out, (".gif", ".mp4", ".png"), force=force)
-    ending = out.suffix.lower()
+    check_output(out, ENDINGS, force=force)
     board = load_table(table)
     board_seed = None if board.random is None else seed
     if board.random is not None:
         board = generate_table(seed, board)
-    height = size or HEIGHTS[ending]
-    width, height = best_size(board.board, height)
-    if ending == ".gif" and width * height * seconds * FILM_RATES[ending] > GIF_LIMIT:
-        raise OutputError(
-            f"{out}: a GIF of {seconds:g} s at {width} × {height} pixels is too large to make; "
-            "ask for fewer --seconds, a smaller --size, or an .mp4"
-        )
+    picture_size = film_size(out, board, seconds, size)
     with compiling():
         from silverball.app.startup import warm_up
         from silverball.players import make_player
@@ -78,18 +67,8 @@ def make_demo(
 
         warm_up(board)
         make_player("reflex").press(World(board))
-    renderer = Renderer(board, (width, height), board_seed=board_seed)
-    with Progress(console=errors, transient=True) as bar:
-        task = bar.add_task(f"playing into {out.name}", total=seconds)
-
-        def advance(done: float) -> None:
-            bar.update(task, completed=done)
-
-        if ending == ".png":
-            write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, advance))[-1])
-        else:
-            write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], advance))
-    typer.echo(f"wrote {out}")
+    renderer = Renderer(board, picture_size, board_seed=board_seed)
+    shoot(out, seconds, lambda rate, advance: film(renderer, seed, seconds, rate, advance))
 
 
 def film(

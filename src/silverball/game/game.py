@@ -35,8 +35,11 @@ KEPT = 4096  # events and news that wait to be taken; older ones are dropped
 LEAP = 64  # ticks that are played at once, at most: the log of a world holds 56 contacts
 MARGIN = 0.1  # [u] kept from the gutter when ticks are played at once
 
+_WORDS = {name: int(field[1]) // 8 for name, field in (WORLD.fields or {}).items()}
 _TICK, _COUNTS, _COUNTS_END = (
-    (WORLD.fields or {})[name][1] // 8 for name in ("tick", "draws", "fault")
+    _WORDS["tick"],
+    _WORDS["draws"],
+    _WORDS["fault"],
 )  # places in the record, in words of eight bytes; what lies between the last two tells of every event
 
 
@@ -83,12 +86,14 @@ class Game:
         self._points = points_by_part(self.world.table)
         self._scores = any(self._points.values())
         self._now = rules.Standing()
+        self._waits = False  # whether a ball is to be put back: read in every tick, so kept beside
         self._watch = stuck.Watch()
         self._left = self._right = False
         self._shove = self._machine = False  # to come in the next tick: the player's, the machine's
         self._record = self.world.records[0]
         self._words = np.frombuffer(self._record, np.int64)
-        self._counted = self._counts()
+        self._counters = self._words[_COUNTS:_COUNTS_END]
+        self._counted = self._counters.tobytes()
         self._world_score = 0
         self._board_x = self._record["ball"]["x"]
         self._board_id = self._record["ball"]["id"]
@@ -324,12 +329,12 @@ class Game:
             raise StateError(f"the state is one of {mode} play, this game is {self.mode}")
         now, watch, own = text
         self.world.restore(world)
-        self._now, self._watch = now, watch
+        self._now, self._watch, self._waits = now, watch, bool(now.waiting)
         self._left, self._right, self._shove, self._machine = own
         self._stopped = ended == "stopped"
         self.fault = self.world.fault
         self._recorder = None
-        self._counted, self._world_score = self._counts(), self.world.score
+        self._counted, self._world_score = self._counters.tobytes(), self.world.score
         tick = self.tick
         self._next_look = (tick // self._look_ticks + 1) * self._look_ticks
         self._next_second = (tick // self.tick_rate + 1) * self.tick_rate
@@ -351,7 +356,7 @@ class Game:
 
     def _free_ticks(self, count: int) -> int:
         """For how many of these ticks no ball can leave the board, at least 1."""
-        if self._now.waiting:
+        if self._waits:
             return 1  # a ball that waits for room may come after every tick
         lowest = min(
             (x for x, ball in zip(self._board_x.tolist(), self._board_id.tolist(), strict=True) if ball),
@@ -359,7 +364,8 @@ class Game:
         )
         if lowest is None:
             return count
-        return max(min(count, LEAP, int((lowest - self._edge) * self._pace) - 1), 1)
+        room = (lowest - self._edge) * self._pace - 1.0
+        return min(count, LEAP, int(room)) if room >= 1.0 else 1  # a place that is no number has no room
 
     def _play(self, count: int) -> None:
         """Play ticks in which only hits happen, or one tick in which anything may."""
@@ -368,7 +374,7 @@ class Game:
             self._step(count)
         except FaultError as error:
             self.fault = error.fault
-        counted = self._counts()
+        counted = self._counters.tobytes()
         if counted != self._counted:
             events = self.world.events
             if before is not None and (
@@ -379,7 +385,7 @@ class Game:
             self._counted = counted
             self._apply(events)
         self._shove = self._machine = False
-        if self._now.waiting:
+        if self._waits:
             self._put_back()
         if self.fault is not None:
             self._tell(rules.ended(self._now, self.tick))
@@ -420,7 +426,7 @@ class Game:
 
     def _put_back(self) -> None:
         """Put a ball that was saved back on the board, if there is a place for it."""
-        while self._now.waiting:
+        while self._waits:
             try:
                 ball = self.world.create_ball()
             except (NoRoom, FaultError):
@@ -431,7 +437,7 @@ class Game:
     def _read_creation(self) -> None:
         """The ball that was just created is an event too; the log shows it behind those of the last tick."""
         self._events.append(self.world.events[-1])
-        self._counted = self._counts()
+        self._counted = self._counters.tobytes()
 
     def _look(self, tick: int) -> None:
         """Look whether the machine must shove."""
@@ -463,11 +469,8 @@ class Game:
 
     def _tell(self, outcome: rules.Outcome) -> None:
         self._now, news = outcome
+        self._waits = bool(self._now.waiting)
         self._news.extend(news)
-
-    def _counts(self) -> bytes:
-        """The counters of the record, which tell whether anything has happened."""
-        return self._words[_COUNTS:_COUNTS_END].tobytes()
 
 
 def points_by_part(table: Table) -> dict[str, int]:

@@ -13,6 +13,8 @@ from base64 import urlsafe_b64encode
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+
 from silverball.physics.layout import WORLD
 
 FIELDS = WORLD.fields
@@ -77,7 +79,7 @@ def _flat(path: str, value: Any) -> Iterator[tuple[str, Any]]:
     if isinstance(value, dict):
         for key, item in value.items():
             yield from _flat(f"{path}.{key}", item)
-    elif isinstance(value, list) or getattr(value, "ndim", 0):
+    elif isinstance(value, list) or np.ndim(value) > 0:
         for number, item in enumerate(value):
             yield from _flat(f"{path}[{number}]", item)
     elif names:

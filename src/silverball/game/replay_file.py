@@ -23,9 +23,10 @@ import os
 import re
 import stat
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, NoReturn, Self
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 
 from pydantic import ValidationError
 
@@ -139,7 +140,7 @@ class Replay:
             raise StateError(
                 f"{source}: a replay has at most {TEXT_LIMIT:,} characters, this has {len(text):,}"
             )
-        return _Reader(source, text).replay(cls)
+        return cls(*_Reader(source, text).parts())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
@@ -167,8 +168,8 @@ class _Reader:
         self.text = text.replace("\r\n", "\n").removeprefix("\ufeff")
         self.lines = self.text.split("\n")
 
-    def replay(self, make: Callable[..., Replay]) -> Replay:
-        """The replay, every part of it checked."""
+    def parts(self) -> tuple[Any, ...]:
+        """The attributes of the replay, in their order, every one checked."""
         self._check_first()
         head, table, play, end = self._sections()
         self._check_checksum(end)
@@ -184,7 +185,7 @@ class _Reader:
         lines, tail = self._play(play, ticks, rate)
         board = self._table(table, self._hex(head, 6, values[6]))
         program = values[0][:40]
-        return make(program, Mode(mode), board, seed, rate, lines, tail, ticks, score, ended, digest)
+        return program, Mode(mode), board, seed, rate, lines, tail, ticks, score, ended, digest
 
     def refuse(self, line: int, message: str) -> NoReturn:
         """Stop with a sentence that says where."""
@@ -221,8 +222,7 @@ class _Reader:
                 )
         edges = [*starts, len(self.lines) + 1]
         head, table, play, end = (
-            _Numbered(first + 1, self.lines[first : after - 1])
-            for first, after in zip(edges, edges[1:], strict=False)
+            _Numbered(first + 1, self.lines[first : after - 1]) for first, after in pairwise(edges)
         )
         if len(end.text) < len(END_KEYS) + 1:
             self.refuse(len(self.lines), f"the file is cut off: the last lines are missing; {AGAIN}")
@@ -284,7 +284,7 @@ class _Reader:
         if len(lines) - has_tail != full or (rest and not has_tail):
             self.refuse(
                 part.first,
-                f"expected a line for each second of {ticks} ticks, {full}{' and a last one' if rest else ''}, "
+                f"{ticks} ticks need {full} lines{' and a last one' if rest else ''}, one for each second, "
                 f"got {len(lines)}; {AGAIN}",
             )
         tail = ""
@@ -325,7 +325,7 @@ class _Reader:
             self.refuse(part.first, f"the table is not valid TOML: {str(error)[:200]}")
         if table.random is not None:
             self.refuse(part.first, "the table is a recipe; a replay has the finished board")
-        if any(one.mesh for one in (*table.triangular_prism, *table.cylinder)):
+        if any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder):
             self.refuse(part.first, "the table names a mesh; a replay has its footprint instead")
         got = table_digest(table)
         if got != digest:
@@ -344,8 +344,8 @@ def _other_version(what: str, got: int, ours: int, program: str = "") -> str:
     """The sentence for a file of another version."""
     if got > ours:
         return f"this replay has {what} {got}, this program knows {what} {ours}; get a newer Silverball"
-    played = f" ({program} wrote it)" if program else ""
-    return f"this replay has {what} {got}, this program has {ours}; play it with the Silverball of its time{played}"
+    its = f"Silverball {program}, which wrote it" if program else "an older Silverball"
+    return f"this replay has {what} {got}, this program has {what} {ours}; play it with {its}"
 
 
 def _shown(text: str) -> str:

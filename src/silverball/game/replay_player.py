@@ -55,7 +55,7 @@ class Playback:
         """Play on with the recorded inputs, at most to the end.
 
         Raises:
-            InputRefusedError: An input could not be given to the game; this is another game than was recorded.
+            InputRefusedError: An input could not be given to the game, so it is not the one recorded.
         """
         rate = self.replay.tick_rate
         target = min(self.tick + max(ticks, 0), self.replay.ticks)

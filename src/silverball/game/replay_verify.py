@@ -187,7 +187,7 @@ def _differs_in_second(score: int, before: int, seen: int, expected: str, got: s
 
 def _differs(score: int, tick: int, seen: int, field: str, expected: str, got: str) -> Verdict:
     where = f"tick {seen}" if tick == seen else f"tick {seen} (equal up to tick {tick})"
-    message = f"{where}: {field} differs: expected {expected}, got {got}"
+    message = f"{where}, {field}: expected {expected}, got {got}"
     return Verdict(False, score, tick, seen, field, expected, got, message)
 
 

@@ -177,7 +177,7 @@ def hit(laws: Laws, now: Standing, tick: int, points: int, part: str) -> Outcome
     combo = running_combo(laws, now, tick) + 1 if laws.combo_ticks >= 0 else 0
     now = now._replace(combo=combo, combo_tick=tick)
     worth = points * multiplier(laws, now, tick)
-    news = (News(NewsKind.SCORED, tick, worth, part),)
+    news: tuple[News, ...] = (News(NewsKind.SCORED, tick, worth, part),)
     if combo > 1:
         news += (News(NewsKind.COMBO, tick, combo, part),)
     return now._replace(score=now.score + worth), news
@@ -205,7 +205,7 @@ def drained(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
         waits = gone._replace(id=0, saves=gone.saves - 1, safe_until=0)
         saved = (News(NewsKind.BALL_SAVED, tick, gone.number),)
         return now._replace(balls=(*others, waits)), saved
-    news = (News(NewsKind.BALL_LOST, tick, gone.number),)
+    news: tuple[News, ...] = (News(NewsKind.BALL_LOST, tick, gone.number),)
     if laws.double > 1 and len(now.balls) > 1 and len(others) <= 1:
         news += (News(NewsKind.DOUBLE_OFF, tick),)
     now = now._replace(balls=others)

@@ -1,8 +1,8 @@
 """When does the machine shove the balls by itself? When one lies still, or when nothing has scored for long.
 
 The game looks four times a second, at ticks that depend on nothing but the tick rate. A ball that is found
-where it was is still: it lies, or it hops on one spot. Where the paddles reach, a ball is the player's while a
-button is held or was let go a moment ago; but who holds it for too long without scoring gets a shove too.
+where it was is still: it lies, or it hops on one spot. Where the paddles reach, a ball is the player's while
+a button is held or was let go a moment ago; but who holds it too long without scoring gets a shove too.
 """
 
 from __future__ import annotations

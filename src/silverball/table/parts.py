@@ -413,8 +413,8 @@ class Arcade(_Model):
     """A shove that swings the bob further than this is warned of. With 1.5 and 1.5 s a second shove within a
     second is, a single one never; below 1 every shove is."""
     tilt_limit: Annotated[float, Quantity(0.0, 1000.0)] = 2.4
-    """A swing further than this is a tilt at once: the paddles are dead and nothing scores until the board is empty. With 2.4
-    the third of three quick shoves is one."""
+    """A swing further than this is a tilt at once: the paddles are dead and nothing scores until the board is
+    empty. With 2.4 the third of three quick shoves is one."""
     warnings: Annotated[int, Count(0, 99, "warnings")] = 2
     """Warnings for each ball; one shove too many after the last of them is a tilt."""
     un_stick: Annotated[float, Quantity(0.5, 60.0, "s")] = 3.0

@@ -1,0 +1,200 @@
+"""`silverball replay`: watch a game again, verify it, compare it with another, or make a film of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from silverball.cli.output import file_name
+from silverball.errors import SilverballError
+
+if TYPE_CHECKING:
+    from silverball.drawing import Renderer
+    from silverball.drawing.film import Picture
+    from silverball.game.replay import Replay, Verdict
+
+LAST = "last"
+DIFFERS = 1  # the exit code for a replay that does not lead to what it says
+
+
+def replay(
+    file: str = typer.Argument(metavar="FILE", help="A replay, or `last` for the game that was played last."),
+    verify: bool = typer.Option(False, "--verify", help="Play it unseen and say whether the same comes out."),
+    against: str | None = typer.Option(
+        None, metavar="OTHER", help="Find the first tick and field in which another replay differs."
+    ),
+    out: Path | None = typer.Option(
+        None, parser=file_name, metavar="FILE", help="Make a film: ends in .gif, .mp4 or .png."
+    ),
+    start: float = typer.Option(0.0, "--from", min=0.0, max=86_400.0, help="Where the film begins [s]."),
+    seconds: float | None = typer.Option(
+        None, min=0.1, max=600.0, help="How much of it to film; a PNG shows the last moment."
+    ),
+    size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
+    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
+    as_json: bool = typer.Option(False, "--json", help="Print what there is to tell as JSON."),
+) -> None:
+    """Watch a recorded game again, in the window or as a film, or verify that it is true.
+
+    Exit codes: 0 done and equal, 1 it differs, 2 it cannot be played.
+
+    Example: `silverball replay last --out game.gif --from 10 --seconds 8`
+    """
+    game = load(file)
+    told = facts(file, game)
+    verdict: Verdict | None = None
+    if verify:
+        verdict = verified(game)
+        told["verify"] = verdict._asdict()
+        say(as_json, f"{file}: {verdict.message}")
+    if against is not None and (verdict is None or verdict.ok):
+        verdict = compared(game, load(against))
+        told["against"] = {"file": against} | verdict._asdict()
+        say(as_json, f"{file} and {against}: {verdict.message}")
+    if out is not None and (verdict is None or verdict.ok):
+        make_film(out, game, start, seconds, size, force=force, quiet=as_json)
+        told["out"] = str(out)
+    if as_json:
+        typer.echo(json.dumps(told, ensure_ascii=False))
+    elif out is None and verdict is None:
+        watch(game)
+    if verdict is not None and not verdict.ok:
+        raise typer.Exit(DIFFERS)
+
+
+def load(file: str) -> Replay:
+    """The replay of a file, or of the last game.
+
+    Raises:
+        SilverballError: There is none, or it cannot be played.
+    """
+    from silverball.cli.console import compiling
+
+    with compiling():
+        from silverball.game.replay import Replay
+
+    if file != LAST:
+        return Replay.load(file)
+    text = last_game()
+    if text is None:
+        raise SilverballError("there is no last game yet; play one, or give the path of a replay")
+    return Replay.from_text(text, "the last game")
+
+
+def last_game() -> str | None:
+    """The replay of the game that was played last, if there is one."""
+    from importlib import import_module
+
+    with import_module("silverball.game.store").Store() as store:
+        text: str | None = store.last_game()
+    return text
+
+
+def facts(file: str, game: Replay) -> dict[str, Any]:
+    """What a replay says of itself."""
+    return {
+        "file": file,
+        "program": game.program,
+        "mode": str(game.mode),
+        "table": game.table.name,
+        "seed": game.seed,
+        "tick_rate": game.tick_rate,
+        "ticks": game.ticks,
+        "seconds": game.seconds,
+        "score": game.score,
+        "ended": game.ended,
+    }
+
+
+def say(as_json: bool, sentence: str) -> None:
+    """Print a sentence, unless JSON is to be printed."""
+    if not as_json:
+        typer.echo(sentence)
+
+
+def verified(game: Replay) -> Verdict:
+    """Play a replay with a moving line."""
+    from rich.progress import Progress
+
+    from silverball.cli.console import compiling, errors
+    from silverball.game.replay import verify
+
+    with compiling():
+        pass
+    with Progress(console=errors, transient=True) as bar:
+        task = bar.add_task("playing", total=game.ticks)
+        return verify(game, lambda ticks: bar.update(task, completed=ticks))
+
+
+def compared(game: Replay, other: Replay) -> Verdict:
+    """Play two replays side by side."""
+    from silverball.cli.console import errors
+    from silverball.game.replay import compare
+
+    with errors.status("playing both …"):
+        return compare(game, other)
+
+
+def watch(game: Replay) -> None:
+    """Watch a replay in the window."""
+    from silverball.cli import play
+
+    open_window: Any = play.open_window
+    open_window(replay=game)
+
+
+def make_film(
+    out: Path,
+    game: Replay,
+    start: float,
+    seconds: float | None,
+    size: int | None,
+    *,
+    force: bool,
+    quiet: bool = False,
+) -> None:
+    """Make a film, or a picture of the last moment, of a part of a replay.
+
+    Raises:
+        SilverballError: The part is empty, or the file cannot be written.
+    """
+    from silverball.cli.filming import ENDINGS, film_size, shoot
+    from silverball.drawing import Renderer
+    from silverball.drawing.film import check_output
+
+    check_output(out, ENDINGS, force=force)
+    if start >= game.seconds:
+        raise SilverballError(f"--from must be before the game's end at {game.seconds:.2f} s, got {start:g}")
+    length = min(game.seconds - start, game.seconds if seconds is None else seconds)
+    renderer = Renderer(game.table, film_size(out, game.table, length, size))
+    shoot(
+        out, length, lambda rate, advance: pictures(renderer, game, start, length, rate, advance), quiet=quiet
+    )
+
+
+def pictures(
+    renderer: Renderer,
+    game: Replay,
+    start: float,
+    length: float,
+    rate: float,
+    advance: Callable[[float], None],
+) -> Iterator[Picture]:
+    """The pictures of a part of a replay, `rate` for every second of play."""
+    from silverball.drawing import Moment
+    from silverball.game.replay import ReplayPlayer
+
+    player = ReplayPlayer(game)
+    first = round(start * game.tick_rate)
+    player.seek(first)
+    for number in range(1, max(round(length * rate), 1) + 1):
+        until = first + round(number * game.tick_rate / rate)
+        while player.tick < until and not player.at_end:
+            player.advance()
+            renderer.note(player.game.take_events(), game.tick_rate)
+        yield renderer.array(Moment.of(player.game.world)._replace(score=player.game.score))
+        advance(number / rate)

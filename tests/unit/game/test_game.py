@@ -1,0 +1,304 @@
+"""Does a game go by its rules on a real board?"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from games import IN_POCKET, POCKET, bare, bumper, hit_bumper, kinds, lose, put, reflex_game
+
+from boards import PADDLES
+from silverball.errors import BoardFull, SilverballError
+from silverball.game.game import Game, points_by_part
+from silverball.game.news import Mode, NewsKind, Phase
+from silverball.game.stuck import LOOKS
+from silverball.table import generate_table, load_table
+
+
+def test_a_new_game_is_ready_for_its_first_ball():
+    game = Game(bare())
+    face = game.face
+    assert (face.phase, face.ball, face.balls, face.on_board, face.score) == (Phase.READY, 1, 3, 0, 0)
+    assert [(one.kind, one.value) for one in game.take_news()] == [(NewsKind.BALL_READY, 1)]
+    assert game.take_news() == []
+
+
+def test_a_hit_scores_the_points_of_the_part():
+    game = Game(bare(bumper(70)))
+    game.create_ball()
+    news = hit_bumper(game)
+    assert [(one.kind, one.value, one.part) for one in news] == [(NewsKind.SCORED, 70, "cylinder[0]")]
+    assert game.score == 70
+
+
+@pytest.mark.parametrize("table", [load_table("classic"), generate_table(3)], ids=["classic", "random"])
+def test_every_part_that_the_world_counts_points_for_has_a_path(table):
+    game = Game(table)
+    board, colliders = game.world.records[1:]
+    points = points_by_part(table)
+    names = game.world.hits
+    by_number = colliders["points"][board["collider_first"] : board["collider_end"]].tolist()
+    assert [points.get(name, 0) for name in names] == by_number
+
+
+def test_in_free_play_the_score_is_the_worlds():
+    game = reflex_game("classic", 5, Mode.FREE, seconds=40)
+    assert game.score == game.world.score > 0
+    assert game.face.balls == 0
+
+
+def test_in_free_play_balls_have_no_end_and_there_are_two_at_a_time():
+    game = Game(bare(), mode=Mode.FREE)
+    for number in range(1, 12):
+        game.create_ball()
+        assert game.face.ball == number
+        lose(game)
+    game.create_ball()
+    game.create_ball()
+    with pytest.raises(BoardFull, match="2 balls"):
+        game.create_ball()
+    assert not game.is_over
+
+
+def test_ball_is_saved_in_the_first_seconds_but_the_one_that_comes_back_is_not():
+    game = Game(bare(ball_save=2.0))
+    game.create_ball()
+    assert game.face.save_left == 2.0
+    assert kinds(lose(game)) == [NewsKind.BALL_SAVED]
+    face = game.face
+    assert (face.on_board, face.ball, face.save_left, face.phase) == (1, 1, 0.0, Phase.PLAY)
+    assert kinds(lose(game)) == [NewsKind.BALL_LOST, NewsKind.BALL_READY]
+    assert game.face.ball == 2
+
+
+def test_ball_is_not_saved_after_the_first_seconds():
+    game = Game(bare(*POCKET, ball_save=2.0))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.advance(ticks=2 * 240)
+    assert game.face.save_left == 0.0
+    assert kinds(lose(game))[0] is NewsKind.BALL_LOST
+
+
+def test_a_ball_can_be_saved_as_often_as_the_table_says():
+    game = Game(bare(ball_save=60.0, ball_saves=3))
+    game.create_ball()
+    for _ in range(3):
+        assert kinds(lose(game)) == [NewsKind.BALL_SAVED]
+    assert kinds(lose(game))[0] is NewsKind.BALL_LOST
+
+
+def test_hits_in_a_row_make_a_combo_and_a_pause_ends_it():
+    game = Game(bare(bumper(10), combo_window=1.0, combo_step=1, combo_limit=3))
+    game.create_ball()
+    expected = 0
+    for place in range(5):
+        news = hit_bumper(game)
+        worth = 10 * min(1 + place, 3)
+        expected += worth
+        assert [one.value for one in news] == [worth] + [place + 1] * (place > 0)
+        assert game.face.combo == place + 1
+        assert game.face.multiplier == min(1 + place, 3)
+    assert game.score == expected
+    put(game, 3.0, 4.0, vx=10.0)
+    game.advance(ticks=241)
+    assert (game.face.combo, game.face.multiplier) == (0, 1)
+    assert [one.value for one in hit_bumper(game)] == [10]
+
+
+def test_a_second_ball_early_uses_one_of_the_balls_left_and_doubles_the_points():
+    game = Game(bare(bumper(100), ball_save=0.0, combo_window=0.0))
+    game.create_ball()
+    hit_bumper(game)
+    put(game, 0.0, 3.0, vx=5.0)
+    game.create_ball()
+    assert kinds(game.take_news()) == [NewsKind.DOUBLE_ON]
+    assert (game.face.ball, game.face.on_board, game.face.multiplier) == (2, 2, 2)
+    put(game, 5.0, -3.0, slot=1)
+    assert [one.value for one in hit_bumper(game)] == [200]
+    assert game.score == 300
+    with pytest.raises(BoardFull):
+        game.create_ball()
+    assert kinds(lose(game, 1)) == [NewsKind.BALL_LOST, NewsKind.DOUBLE_OFF]
+    game.create_ball()
+    lose(game, 0)
+    with pytest.raises(SilverballError, match="no ball is left: this is ball 3 of 3"):
+        game.create_ball()
+    assert kinds(lose(game, 1)) == [NewsKind.BALL_LOST, NewsKind.OVER]
+    assert game.is_over
+
+
+def test_three_balls_and_the_game_is_over_and_nothing_moves_any_more():
+    game = Game(bare(ball_save=0.0))
+    for number in (1, 2, 3):
+        assert game.face.ball == number
+        game.create_ball()
+        lose(game)
+    assert (game.phase, game.ended) == (Phase.OVER, "over")
+    digest = game.digest()
+    game.advance(True, True, ticks=100)
+    assert not game.jitter()
+    with pytest.raises(SilverballError, match="the game is over"):
+        game.create_ball()
+    assert game.digest() == digest
+
+
+def test_a_game_ends_when_the_player_leaves_it():
+    game = Game(bare(bumper(10)))
+    game.create_ball()
+    hit_bumper(game)
+    game.end()
+    assert [(one.kind, one.value) for one in game.take_news()] == [(NewsKind.OVER, 10)]
+    assert (game.phase, game.ended) == (Phase.OVER, "stopped")
+    game.end()
+    assert game.take_news() == []
+
+
+def test_a_shove_moves_the_ball_and_two_in_one_tick_are_one():
+    game = Game(bare(*POCKET))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.advance(ticks=240)
+    game.take_events()
+    assert game.jitter()
+    assert not game.jitter()
+    game.advance()
+    assert [event.kind for event in game.take_events()].count("jitter") == 1
+
+
+def test_a_shove_needs_a_ball():
+    game = Game(bare())
+    with pytest.raises(SilverballError, match="no ball to shove"):
+        game.jitter()
+
+
+def test_shoves_cost_a_warning_and_then_a_tilt_and_in_free_play_nothing():
+    for mode, expected in ((Mode.ARCADE, [NewsKind.WARNING, NewsKind.TILT]), (Mode.FREE, [])):
+        game = Game(bare(*POCKET), mode=mode)
+        game.create_ball()
+        game.take_news()
+        put(game, *IN_POCKET)
+        for _ in range(3):
+            game.jitter()
+            game.advance(ticks=24)
+        assert kinds(game.take_news()) == expected
+        assert game.face.tilted == bool(expected)
+
+
+def test_with_tilt_the_paddles_are_dead_until_the_board_is_empty_whatever_is_pressed():
+    game = Game(bare(*PADDLES, *POCKET, tilt_limit=0.5, ball_save=60.0))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    rest = [paddle.angle for paddle in game.world.paddles]
+    game.advance(True, True, ticks=48)
+    up = [paddle.angle for paddle in game.world.paddles]
+    assert min(up) > max(rest)
+    game.jitter()
+    assert game.face.tilted
+    game.advance(True, True, ticks=48)
+    assert [paddle.angle for paddle in game.world.paddles] == rest
+    assert not game.jitter()
+    with pytest.raises(SilverballError, match="tilt"):
+        game.create_ball()
+    put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0)
+    game.take_news()
+    game.advance(True, True, ticks=60)
+    assert kinds(game.take_news()) == [NewsKind.BALL_LOST, NewsKind.BALL_READY]
+    assert [paddle.angle for paddle in game.world.paddles] == up
+
+
+def looks(seconds: float) -> int:
+    """The ticks until a ball that lies still from the start must have been shoved: two looks more."""
+    return round((seconds + 2 / LOOKS) * 240)
+
+
+def test_a_still_ball_is_shoved_by_the_machine_again_and_again():
+    game = Game(bare(*POCKET, un_stick=2.0))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.advance(ticks=240)  # it comes to rest
+    game.take_news()
+    game.take_events()
+    start = game.tick
+    game.advance(ticks=looks(2.0))
+    (news,) = game.take_news()
+    assert news.kind is NewsKind.UN_STUCK
+    assert 240 < news.tick - start <= looks(2.0)
+    assert [event.tick for event in game.take_events() if event.kind == "jitter"] == [news.tick]
+    assert game.face.warnings == 0
+
+
+def test_a_ball_caught_with_a_raised_paddle_is_let_be_until_nothing_has_scored_for_long():
+    wall = POCKET[0].model_copy(update={"start": (-6.0, -1.5), "end": (-7.5, 0.0)})
+    other = POCKET[1].model_copy(update={"start": (-7.5, 0.0), "end": (-6.0, 1.5)})
+    table = bare(*PADDLES, wall, other, bumper(), un_stick=2.0, stall=8.0)
+    for held, expected in ((True, 8.0), (False, 2.0)):
+        game = Game(table)
+        game.create_ball()
+        put(game, -6.6, 0.0)
+        game.take_news()
+        while not (news := game.take_news()):
+            game.advance(left=held)
+            assert game.tick < 3000
+        assert kinds(news) == [NewsKind.UN_STUCK]
+        assert expected * 240 <= news[0].tick <= (expected + 1.0) * 240
+
+
+def test_a_ball_that_no_paddle_reaches_is_shoved_however_the_player_bangs_the_paddles():
+    game = Game(bare(*PADDLES, *POCKET, un_stick=2.0))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.take_news()
+    for _ in range(240):
+        game.advance(True, False, ticks=2)
+        game.advance(False, True, ticks=2)
+    assert NewsKind.UN_STUCK in kinds(game.take_news())
+
+
+def test_on_a_table_where_nothing_scores_a_moving_ball_is_let_be():
+    game = Game(bare(*PADDLES, stall=1.0))
+    game.create_ball()
+    put(game, 0.0, 0.0, vx=12.0)
+    game.take_news()
+    game.advance(ticks=600)
+    assert game.face.on_board == 1
+    assert kinds(game.take_news()) == []
+
+
+def test_in_free_play_the_machine_never_shoves_but_a_still_ball_shows():
+    game = Game(bare(*POCKET), mode=Mode.FREE)
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.take_news()
+    assert not game.has_still_ball
+    game.advance(ticks=6 * 240)
+    assert game.has_still_ball
+    assert kinds(game.take_news()) == []
+
+
+def test_a_fault_of_the_world_ends_the_game_and_the_replay_names_it():
+    game = Game(bare())
+    game.create_ball()
+    game.advance(ticks=10)
+    put(game, np.nan, 0.0)
+    game.take_news()
+    game.advance(ticks=10)
+    assert (game.fault, game.phase, game.ended) == ("not_finite", Phase.OVER, "not_finite")
+    assert kinds(game.take_news()) == [NewsKind.OVER]
+    assert game.replay.ended == "not_finite"
+
+
+def test_events_and_news_that_nobody_takes_are_dropped_in_the_end():
+    game = Game(bare(bumper(), ball_save=0.0, balls=99), mode=Mode.FREE)
+    game.create_ball()
+    for _ in range(4300):
+        put(game, 0.0, 1.2, vz=-10.0)
+        game.advance(ticks=15)
+    assert len(game.take_news()) == 4096
+    assert len(game.take_events()) <= 4096
+
+
+def test_bad_arguments_are_refused():
+    with pytest.raises(ValueError, match="tick_rate must be 10 to 1000"):
+        Game(bare(), tick_rate=5000)
+    with pytest.raises(ValueError, match="seed"):
+        Game(bare(), seed=-1)

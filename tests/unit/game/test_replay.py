@@ -1,0 +1,381 @@
+"""Do replays lead to the very same game, and are all others refused in words?"""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from games import POCKET, bare, bumper, frantic_game, reflex_game
+from hypothesis import given
+from hypothesis import strategies as st
+
+from silverball.errors import StateError
+from silverball.game import replay_lines
+from silverball.game.game import Game
+from silverball.game.news import Mode, NewsKind
+from silverball.game.replay import InputRefusedError, Replay, ReplayPlayer, Verdict, compare, verify
+from silverball.game.replay_digest import GROUPS
+from silverball.game.replay_file import _checksum
+from silverball.table import generate_table
+
+GAME = reflex_game("classic", 2, seconds=50.3)
+REPLAY = GAME.replay
+TEXT = REPLAY.to_text()
+LINES = TEXT.split("\n")
+
+
+def resealed(text: str) -> str:
+    """The text with the checksum that belongs to it."""
+    body = text[: text.rindex("checksum = ")]
+    return f"{body}checksum = {_checksum(body)}\n"
+
+
+def line_of(text: str) -> int:
+    return LINES.index(text)
+
+
+inputs = st.lists(st.tuples(st.integers(0, 999), st.sampled_from("LR+!")), max_size=30)
+
+
+@given(inputs)
+def test_inputs_come_back_from_their_line(given_inputs):
+    ordered = sorted(given_inputs, key=lambda one: one[0])
+    last, line = 0, ""
+    for tick, kind in ordered:
+        line += replay_lines.written(kind, tick - last)
+        last = tick
+    assert [tuple(one) for one in replay_lines.read(line)] == ordered
+    assert not line or replay_lines.TAIL.fullmatch(f"= {line}")
+
+
+@pytest.mark.parametrize(
+    "game", [GAME, reflex_game(generate_table(4), 4, Mode.FREE, 12.3)], ids=["arcade", "free"]
+)
+def test_a_replay_comes_back_from_its_text_and_verifies(game: Game):
+    replay = game.replay
+    again = Replay.from_text(replay.to_text())
+    assert again == replay
+    assert again.to_text() == replay.to_text()
+    verdict = verify(again)
+    assert verdict.ok, verdict
+    assert verdict.score == game.score > 0
+    assert verdict.seen == game.tick
+
+
+def test_a_replay_has_a_line_for_each_second_and_one_for_the_rest():
+    play = LINES[line_of("--- play") + 1 : line_of("--- end")]
+    assert len(play) == GAME.tick // 240 + 1
+    assert play[-1].startswith("=")
+
+
+def test_a_minute_of_play_takes_no_more_than_two_kilobytes():
+    for game in (reflex_game("random", 1, seconds=60), frantic_game(1, seconds=60)):
+        text = game.replay.to_text()
+        play = text[text.index("--- play") : text.index("--- end")]
+        assert len(play.encode()) / (game.tick / 240 / 60) <= 2000
+
+
+@pytest.mark.parametrize("ticks", [0, 1, 239, 240, 241, 480])
+def test_games_of_any_length_can_be_played_again(ticks: int):
+    game = Game("classic", 3)
+    game.create_ball()
+    game.advance(ticks=ticks)
+    game.jitter()
+    assert verify(Replay.from_text(game.replay.to_text())).ok
+    game.end()
+    replay = Replay.from_text(game.replay.to_text())
+    assert replay.ended == "stopped"
+    assert verify(replay).ok
+
+
+def test_a_replay_whose_last_inputs_come_after_its_last_tick_needs_them():
+    game = Game("classic", 3)
+    game.create_ball()
+    assert verify(game.replay).ok
+    assert verify(replace(game.replay, tail="")).field == "digest"
+
+
+def test_the_fault_of_a_world_is_played_again_as_far_as_it_went():
+    replay = replace(REPLAY, ended="outside")
+    verdict = verify(replay)
+    assert (verdict.field, verdict.expected, verdict.got) == ("ended", "outside", "running")
+
+
+def test_one_changed_press_is_found_in_its_second():
+    number, line = next((n, line) for n, line in enumerate(REPLAY.lines) if re.search(r" .*[b-y]$", line))
+    changed = line[:-1] + chr(ord(line[-1]) + 1)
+    lines = (*REPLAY.lines[:number], changed, *REPLAY.lines[number + 1 :])
+    verdict = verify(replace(REPLAY, lines=lines))
+    assert not verdict.ok
+    assert (verdict.tick, verdict.seen) == (number * 240, (number + 1) * 240)
+    assert verdict.field in GROUPS
+    assert f"tick {verdict.seen}" in verdict.message
+    compared = compare(REPLAY, replace(REPLAY, lines=lines))
+    assert verdict.tick <= compared.tick < compared.seen <= verdict.seen
+    assert compared.seen == compared.tick + 1
+    assert compared.expected != compared.got
+    assert "rules" in compared.field or "paddle" in compared.field
+
+
+@pytest.mark.parametrize("number", range(len(GROUPS)))
+def test_a_changed_digest_is_named_with_its_group(number: int):
+    line = REPLAY.lines[7]
+    at = 2 * number
+    other = "A" if line[at] != "A" else "B"
+    lines = (*REPLAY.lines[:7], line[:at] + other + line[at + 1 :], *REPLAY.lines[8:])
+    verdict = verify(replace(REPLAY, lines=lines))
+    assert (verdict.field, verdict.tick, verdict.seen) == (GROUPS[number], 7 * 240, 8 * 240)
+    assert (verdict.expected, verdict.got) == (other + line[at + 1], line[at : at + 2])
+
+
+def test_a_score_that_was_not_reached_is_named():
+    text = resealed(TEXT.replace(f"score = {GAME.score}\n", f"score = {GAME.score + 1}\n"))
+    verdict = verify(Replay.from_text(text))
+    assert (verdict.field, verdict.expected, verdict.got) == ("score", str(GAME.score + 1), str(GAME.score))
+    assert verdict.score == GAME.score
+
+
+def test_a_longer_replay_than_its_game_says_when_the_game_ended():
+    game = Game(bare(balls=1, ball_save=0.0))
+    game.create_ball()
+    game.advance(ticks=1000)
+    assert game.is_over
+    longer = replace(game.replay, ticks=game.tick + 10)
+    verdict = verify(longer)
+    assert (verdict.field, verdict.expected) == ("ticks", str(game.tick + 10))
+    assert verdict.got == f"{game.tick} (over)"
+
+
+@pytest.mark.parametrize(
+    ("extra", "reason"), [("+a+a+a", "no ball is left|already holds"), ("!a!a", "shoved")]
+)
+def test_an_input_that_the_rules_refuse_is_named_with_its_tick(extra: str, reason: str):
+    lines = (f"{REPLAY.lines[0]}", f"{REPLAY.lines[1][:12]} {extra}", *REPLAY.lines[2:])
+    verdict = verify(replace(REPLAY, lines=lines))
+    assert verdict.field == "inputs"
+    assert (verdict.tick, verdict.seen) == (240, 240)
+    assert re.search(reason, verdict.got)
+    assert compare(REPLAY, replace(REPLAY, lines=lines)).field
+
+
+def test_two_replays_of_different_boards_differ_in_the_head():
+    other = replace(REPLAY, seed=REPLAY.seed + 1)
+    assert compare(REPLAY, other) == Verdict(
+        False, 0, 0, 0, "seed", "2", "3", "tick 0, seed: expected 2, got 3"
+    )
+    assert compare(REPLAY, replace(REPLAY, table=generate_table(1))).field == "table"
+    assert compare(REPLAY, REPLAY).ok
+
+
+def test_a_shorter_replay_of_the_same_game_differs_where_it_ends():
+    count = 5
+    shorter = replace(REPLAY, lines=REPLAY.lines[:count], tail="", ticks=count * 240)
+    verdict = compare(REPLAY, shorter)
+    assert (verdict.field, verdict.tick) == ("ticks", count * 240 - 1)
+
+
+# --- watching
+# -----------------------------------------------------------------------------------------------------
+
+
+def states(replay: Replay, ticks: list[int]) -> dict[int, str]:
+    """The digests at some ticks, played straight on."""
+    player = ReplayPlayer(replay)
+    seen = {}
+    for tick in sorted(set(ticks)):
+        player.advance(tick - player.tick)
+        seen[tick] = player.game.digest()
+    return seen
+
+
+def test_a_player_gets_to_the_end_that_the_replay_says():
+    player = ReplayPlayer(REPLAY)
+    assert (player.tick, player.ticks, player.at_end) == (0, REPLAY.ticks, False)
+    player.advance(REPLAY.ticks + 1000)
+    assert (player.tick, player.at_end) == (REPLAY.ticks, True)
+    assert player.game.digest() == REPLAY.digest
+    player.advance(10)
+    assert player.tick == REPLAY.ticks
+
+
+def test_seeking_anywhere_shows_the_same_moment_as_playing_there():
+    ticks = [
+        5000,
+        17,
+        960,
+        961,
+        959,
+        8000,
+        7999,
+        0,
+        240,
+        11_999,
+        3,
+        REPLAY.ticks,
+        4800,
+        4801,
+        REPLAY.ticks - 1,
+    ]
+    expected = states(REPLAY, ticks)
+    player = ReplayPlayer(REPLAY)
+    game = player.game
+    for tick in ticks:
+        player.seek(tick)
+        assert player.tick == tick
+        assert player.game is game
+        assert game.digest() == expected[tick], tick
+        assert game.take_events() == []
+    player.seek(-5)
+    assert player.tick == 0
+    player.seek(10**9)
+    assert player.at_end
+    player.seek(100)
+    player.advance(REPLAY.ticks)
+    assert game.digest() == REPLAY.digest
+
+
+def test_preparing_plays_ahead_unseen():
+    player = ReplayPlayer(REPLAY)
+    shares = []
+    while not shares or shares[-1] < 1.0:
+        shares.append(player.prepare(1000))
+    assert shares == sorted(shares)
+    assert len(shares) >= REPLAY.ticks // 1000
+    assert player.tick == 0
+    player.seek(9000)
+    assert player.game.digest() == states(REPLAY, [9000])[9000]
+
+
+def test_watching_shows_the_news_and_events_of_the_game():
+    game = Game(bare(bumper(), *POCKET), 5)
+    game.create_ball()
+    game.advance(True, False, 700)
+    player = ReplayPlayer(game.replay)
+    player.advance(700)
+    news = game.take_news()
+    assert NewsKind.BALL_READY in [one.kind for one in news]
+    assert player.game.take_news() == news
+    assert player.game.take_events() == game.take_events()
+
+
+def test_watching_a_replay_of_another_game_stops_with_a_sentence():
+    player = ReplayPlayer(replace(REPLAY, lines=(f"{REPLAY.lines[0][:12]} !a", *REPLAY.lines[1:])))
+    with pytest.raises(InputRefusedError, match="tick 0: a shove was recorded, but there is no ball"):
+        player.advance(240)
+
+
+# --- what is refused
+# -----------------------------------------------------------------------------------------------------
+
+
+def changed(line: int, to: str) -> str:
+    """The replay with one line changed, and the checksum put right."""
+    return resealed("\n".join([*LINES[:line], to, *LINES[line + 1 :]]))
+
+
+PLAY, END = line_of("--- play"), line_of("--- end")
+REFUSED = {
+    "empty": ("", "the file is empty"),
+    "foreign": ('{"format": 1}\n', r"line 1: this is no replay: it begins with '\{"),
+    "newer format": (TEXT.replace("replay 1", "replay 2", 1), "line 1: .*format 2.*newer Silverball"),
+    "newer physics": (changed(2, "physics = 999"), "line 3: .*physics 999.*newer Silverball"),
+    "older physics": (changed(2, "physics = 0"), r"line 3: .*physics 0.*play it with Silverball \d"),
+    "newer rules": (changed(3, "rules = 99"), "line 4: .*rules 99.*newer Silverball"),
+    "unknown mode": (changed(4, "mode = chess"), "line 5: expected one of free, arcade, got 'chess'"),
+    "seed too large": (changed(5, f"seed = {2**63}"), "line 6: expected a whole number from 0 to 92"),
+    "seed no number": (changed(5, "seed = -1"), "line 6: expected a whole number"),
+    "absurd tick rate": (changed(6, "tick_rate = 999999"), "line 7: expected a whole number from 10 to 1000"),
+    "table digest": (changed(7, "table = abc"), "line 8: expected 64 hexadecimal digits, got 'abc'"),
+    "no such key": (changed(5, "sead = 1"), "line 6: expected 'seed = …', got 'sead = 1'"),
+    "extra head": (changed(7, f"{LINES[7]}\nmore = 1"), "line 9: expected '--- table'"),
+    "edited": (
+        TEXT.replace(LINES[PLAY + 3], LINES[PLAY + 3] + "b"),
+        r"line \d+: the text was changed or damaged",
+    ),
+    "cut off in play": ("\n".join(LINES[: PLAY + 5]), "cut off or damaged: there is no line '--- end'"),
+    "cut off in the table": ("\n".join(LINES[:12]), "there is no line '--- play'"),
+    "cut off at the end": ("\n".join(LINES[:-2]) + "\n", "the last lines are missing"),
+    "bad checksum": (TEXT[:-10] + "zzz\n", r"expected 'checksum = ' and 32 hexadecimal digits"),
+    "more behind": (TEXT + "more\n", "more text behind the checksum"),
+    "another table": (changed(10, "name = 'Other'"), "line 10: this is not the table that was played"),
+    "table nonsense": (changed(9, "name = ["), "line 10: the table is not valid TOML"),
+    "table unusable": (changed(9, "nome = 'x'"), "line 10: the table cannot be used: nome: unknown key"),
+    "table recipe": (changed(PLAY - 1, LINES[PLAY - 1] + "\n[random]"), "line 10: the table is a recipe"),
+    "table deep": (changed(9, "x = " + "[" * 5000), "nested too deeply|not valid TOML"),
+    "table mesh": (changed(9, "[[cylinder]]\nmesh = '/etc/passwd'"), "names a mesh"),
+    "table parts": (
+        changed(9, "[[slant_wall]]\nstart=[0,0]\nend=[1,1]\n" * 300),
+        "at most 256 parts, got 304",
+    ),
+    "billion ticks": (changed(END + 1, "ticks = 1000000000"), "expected a whole number from 0 to 20736240"),
+    "other ticks": (changed(END + 1, "ticks = 240"), rf"line {PLAY + 2}: 240 ticks need 1 lines, .* got"),
+    "unknown end": (changed(END + 3, "ended = won"), "expected one of running, over, stopped"),
+    "score": (changed(END + 2, "score = 1e5"), "expected a whole number from 0"),
+    "a line gone": (changed(PLAY + 4, LINES[PLAY + 4] + "\n" + LINES[PLAY + 4]), "ticks need"),
+    "bad line": (changed(PLAY + 4, "abc"), rf"line {PLAY + 5}: expected 12 characters of digests"),
+    "bad inputs": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " 0a"), "expected inputs such as"),
+    "capital mark": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " +A"), "expected inputs such as"),
+    "late inputs": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " 9999a"), "up to tick 239 of the second"),
+    "surrogates": (changed(9, "name = '\ud800'"), "line 10"),
+    "huge number": (changed(5, "seed = " + "9" * 5000), "line 6: expected a whole number"),
+    "digits of elsewhere": (changed(5, "seed = ٣"), "line 6: expected a whole number"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_played_is_refused_in_one_sentence_that_says_where(name: str):
+    text, message = REFUSED[name]
+    with pytest.raises(StateError, match=message) as caught:
+        Replay.from_text(text, "game.replay")
+    said = str(caught.value)
+    assert said.startswith("game.replay")
+    assert "\n" not in said
+    assert len(said) < 400
+
+
+def test_no_two_kinds_of_damage_give_the_same_sentence():
+    said = {}
+    for name, (text, _) in REFUSED.items():
+        with pytest.raises(StateError) as caught:
+            Replay.from_text(text)
+        said[name] = str(caught.value)
+    assert sorted(set(said.values())) == sorted(said.values())
+
+
+@pytest.mark.parametrize("start", range(7))
+def test_a_file_that_is_cut_off_anywhere_is_refused(start: int):
+    for end in range(start, len(TEXT) - 1, 7):
+        with pytest.raises(StateError):
+            Replay.from_text(TEXT[:end])
+
+
+def test_a_text_without_end_is_refused_unread():
+    with pytest.raises(StateError, match="at most 5,058,576 characters, this has 100,000,000"):
+        Replay.from_text("x" * 10**8)
+
+
+def test_line_ends_of_windows_are_no_damage():
+    assert Replay.from_text(TEXT.replace("\n", "\r\n")) == REPLAY
+
+
+def test_files_that_are_no_replays_are_refused(tmp_path: Path):
+    good = tmp_path / "good.replay"
+    good.write_text(TEXT, encoding="utf-8")
+    assert Replay.load(good) == REPLAY
+    (tmp_path / "latin.replay").write_bytes(b"silverball replay 1\nprogram = caf\xe9\n")
+    with open(tmp_path / "huge.replay", "wb") as file:
+        file.truncate(100 * 10**6)
+    os.mkfifo(tmp_path / "pipe.replay")
+    for name, message in {
+        "latin.replay": "no UTF-8 text .byte 34",
+        "huge.replay": "100,000,000 bytes long",
+        "pipe.replay": "no ordinary file",
+        "missing.replay": "no such file",
+        ".": "a folder",
+        "a\0b": "cannot be read",
+    }.items():
+        with pytest.raises(StateError, match=message):
+            Replay.load(os.path.join(tmp_path, name))
