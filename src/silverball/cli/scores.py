@@ -51,7 +51,7 @@ def scores(
             write_replay(store, replay, export, force)
         else:
             lists = chosen(store, table, mode)
-            wrong = verify_all(store, lists, limit, as_json) if verify else 0
+            wrong = verify_all(store, lists, as_json) if verify else 0
             show(store, lists, limit, as_json)
             raise typer.Exit(1 if wrong else 0)
 
@@ -100,10 +100,10 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
 
     path = file_name(out)
     text = store.replay(id)
-    if path.exists() and not force:
-        raise OutputError(f"{out}: this file exists; choose another name, or overwrite it with --force")
     if path.is_dir():
         raise OutputError(f"{out}: this is a folder; give the name of a file in it")
+    if path.exists() and not force:
+        raise OutputError(f"{out}: this file exists; choose another name, or overwrite it with --force")
     if not path.absolute().parent.is_dir():
         raise OutputError(f"{out}: there is no folder {path.parent}: make it first")
     try:
@@ -113,47 +113,30 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     typer.echo(f"wrote {out}")
 
 
-def verify_all(store: Store, lists: list[ScoreList], limit: int, quiet: bool) -> int:
+def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> int:
     """Play all replays back and mark their scores; how many do not reach them."""
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
 
+    with compiling():
+        from silverball.game.proof import prove
     every = [score for one in lists for score in of(store, one, -1)]
     with_replay = [score for score in every if score.has_replay]
-    wrong = 0
-    with compiling(), Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+    found = {True: 0, False: 0, None: 0}
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         for score in bar.track(with_replay, description="playing back"):
-            why = what_is_wrong(score, store.replay(score.id))
-            store.mark(score.id, not why, why)
-            wrong += bool(why)
-            if why and not quiet:
-                typer.echo(f"score {score.id}, {score.score:,} by {score.initials}: {why}")
+            proof = prove(score, store.replay(score.id))
+            store.mark(score.id, *proof)
+            found[proof.verified] += 1
+            if proof.why and not quiet:
+                typer.echo(f"score {score.id}, {score.score:,} by {score.initials}: {proof.why}")
     if not quiet:
         typer.echo(
-            f"{len(with_replay)} replays were played back, {wrong} of them do not reach their score; "
-            f"{len(every) - len(with_replay)} scores have no replay any more"
+            f"of {len(every)} scores {found[True]} are true, {found[False]} are not, {found[None]} are of "
+            f"another version, and {len(every) - len(with_replay)} have no replay any more"
         )
-    return wrong
-
-
-def what_is_wrong(score: Score, text: str) -> str:
-    """Why a replay does not reach its score; empty if it does."""
-    import importlib
-
-    from silverball.errors import SilverballError
-
-    replays: Any = importlib.import_module("silverball.game.replay")
-    try:
-        played = replays.Replay.from_text(text)
-        verdict = replays.verify(played)
-    except SilverballError as error:
-        return str(error)
-    if not verdict.ok:
-        return str(verdict.why)
-    if verdict.score != score.score:
-        return f"its replay reaches {verdict.score:,}"
-    return ""
+    return found[False]
 
 
 def of(store: Store, one: ScoreList, limit: int) -> list[Score]:
@@ -170,7 +153,8 @@ def show(store: Store, lists: list[ScoreList], limit: int, as_json: bool) -> Non
     if not lists:
         typer.echo("there are no scores yet: play a game with `silverball`")
     for one in lists:
-        print_list(one, ranked(store, one, limit), [other.table_name for other in lists])
+        versions = sum((other.mode, other.table_name) == (one.mode, one.table_name) for other in lists)
+        print_list(one, ranked(store, one, limit), versions > 1)
 
 
 def ranked(store: Store, one: ScoreList, limit: int) -> list[tuple[int, Score]]:
@@ -183,15 +167,14 @@ def as_object(place: int, score: Score) -> dict[str, Any]:
     return {"place": place} | score._asdict() | {"when": score.when.isoformat()}
 
 
-def print_list(one: ScoreList, rows: list[tuple[int, Score]], names: list[str]) -> None:
-    """A list as people like to read it."""
+def print_list(one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several: bool) -> None:
+    """A list as people like to read it; of several of one name the digests tell which is which."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    # Two lists of one name: the table was changed between them, its digest says which is which.
-    version = f" · version {one.table_digest[:8]}" if names.count(one.table_name) > 1 else ""
+    version = f" · version {one.table_digest[:8]}" if is_one_of_several else ""
     grid = Table(
         title=Text(f"{one.table_name} · {one.mode}{version}"), title_justify="left", box=box.SIMPLE_HEAD
     )
@@ -203,8 +186,9 @@ def print_list(one: ScoreList, rows: list[tuple[int, Score]], names: list[str]) 
     grid.add_column("replay")
     grid.add_column("ID", justify="right")
     for place, score in rows:
-        words = {None: "kept", True: "true", False: "does not reach it"}
-        kept = words[score.verified] if score.has_replay else "not kept"
+        kept = "kept" if score.has_replay else "not kept"
+        if score.verified is not None:
+            kept = "true" if score.verified else "does not reach it"
         when = f"{score.when.astimezone():%Y-%m-%d %H:%M}"
         cells = (str(place), f"{score.score:,}", score.initials, str(score.seed), when, kept, str(score.id))
         grid.add_row(*map(Text, cells), style="red" if score.verified is False else None)
