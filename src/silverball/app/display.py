@@ -69,7 +69,7 @@ class Display:
         self._message_began: float | None = None
         self._points = 0  # of the last hit, shown from the next frame on
         self._points_began: float | None = None
-        self._score_from, self._score_to, self._score_changed = 0, 0, -COUNT_TIME
+        self._score_from, self._score_to, self._score_changed = 0, -1, 0.0  # nothing seen yet
         self._hidden_since: float | None = None
         self._seen_since = -SEEN_AT_LEAST
         self._tilted_since: float | None = None
@@ -175,8 +175,9 @@ class Display:
         if face.multiplier > 1:
             text = f"×{face.multiplier}"
             width = NORMAL.width(text) + 4
-            dots.box(WIDTH - width, STATUS_Y - 1, width, 8, FULL if seconds % 0.6 < 0.4 else HALF)
-            dots.text(text, WIDTH - 2, STATUS_Y, NORMAL, "right", 0)
+            is_lit = seconds % 0.6 < 0.4
+            dots.box(WIDTH - width, STATUS_Y - 1, width, 8, FULL if is_lit else 0)
+            dots.text(text, WIDTH - 2, STATUS_Y, NORMAL, "right", 0 if is_lit else FULL)
         middle, light = self._middle(face, seconds)
         dots.text(middle, WIDTH // 2 + 4, STATUS_Y, NORMAL, "center", light)
 
@@ -225,7 +226,7 @@ class Display:
         if score == self._score_to:
             return
         now = self._score(seconds)
-        self._score_from = now if now < score else score
+        self._score_from = now if 0 <= now < score and self._score_to >= 0 else score
         self._score_to, self._score_changed = score, seconds
         if score == 0:
             self._is_beaten = False
@@ -289,7 +290,7 @@ def _show_of(news: News) -> Show | None:
     if news.kind is NewsKind.WARNING:
         return Show("warning", 4, "WARNING" + "!" * min(news.value, 3), 1.2, look=dotshows.shaken)
     if news.kind is NewsKind.BALL_LOST and news.value:
-        return Show("lost", 1, f"BALL {news.value} LOST", 1.4, dotshows.falling_ball, 0.55)
+        return Show("lost", 1, f"BALL {news.value} LOST", 1.4, dotshows.falling_ball, 0.45)
     return None
 
 

@@ -19,11 +19,11 @@ BEZEL: Color = (34, 32, 38)
 
 RADIUS = 0.43  # of a dot, in spacings; half a spacing would touch the neighbour
 UNLIT = 0.075  # how much of its light a dot shows that is off: a plasma display is never quite dark
-BLOOM = 0.17  # how much light the whole neighbourhood throws between the dots
+BLOOM = 0.26  # how much light the whole neighbourhood throws between the dots
 HOT = 0.42  # how far the middle of the brightest dot goes from its colour to white
 GAMMA = 0.8  # dim dots are lifted, for they are small and have dark around them
 
-LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 4, 5
+LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
 LEAST_SPACING = 4.0  # [pixel] below it dots are drawn larger and shrunk
 WHOLE_SPACING = 0.86  # spacings are rounded down to whole pixels where that leaves so much of the size
 BEZEL_SHARE = 0.03  # of the height, on each side, at least
@@ -114,15 +114,15 @@ def _glow(levels: Levels) -> NDArray[np.uint16]:
     """How much light reaches a dot from those around it, 0 to 255."""
     wide = np.zeros((HEIGHT + 4, WIDTH + 4), np.uint16)
     wide[2:-2, 2:-2] = levels
-    across: NDArray[np.uint16] = (
-        wide[:, :-4] + 2 * wide[:, 1:-3] + 2 * wide[:, 2:-2] + 2 * wide[:, 3:-1] + wide[:, 4:]
-    )
-    # Eight shares across and eight down; divided in between, so that sixteen bits hold it.
-    across >>= 3
-    both: NDArray[np.uint16] = (
-        across[:-4] + 2 * across[1:-3] + 2 * across[2:-2] + 2 * across[3:-1] + across[4:]
-    )
-    both >>= 3
+    # Shares of 1, 4, 6, 4 and 1 sixteenths across, then down; divided in between, so that sixteen bits hold it.
+    across: NDArray[np.uint16] = wide[:, :-4] + wide[:, 4:]
+    across += (wide[:, 1:-3] + wide[:, 3:-1]) << 2
+    across += wide[:, 2:-2] * 6
+    across >>= 4
+    both: NDArray[np.uint16] = across[:-4] + across[4:]
+    both += (across[1:-3] + across[3:-1]) << 2
+    both += across[2:-2] * 6
+    both >>= 4
     return both
 
 

@@ -90,7 +90,8 @@ def two_balls(dots: Dots, at: float) -> None:
     else:
         away = 4.5 + 160.0 * (at - meet)
         ring(dots, at - meet)
-        dots.text("×2", WIDTH // 2, 5, BOLD, "center", scale=2)
+        if away > 24.0:
+            dots.text("×2", WIDTH // 2, 5, BOLD, "center", scale=2)
     draw_ball(dots, WIDTH / 2 - away, HEIGHT / 2)
     draw_ball(dots, WIDTH / 2 + away, HEIGHT / 2)
 
@@ -117,8 +118,8 @@ def saved_ball(dots: Dots, at: float) -> None:
 
 
 def falling_ball(dots: Dots, at: float) -> None:
-    """A ball falls out of the display; 0.6 s."""
-    y = -6.0 + 60.0 * at + 90.0 * at * at
+    """A ball falls out of the display; 0.45 s."""
+    y = 60.0 * at + 90.0 * at * at
     for row in range(max(round(y) - 14, 0), min(max(round(y), 0), HEIGHT)):
         dots.line(76, row, 84, row, max(10 * (row - round(y) + 14), 0))
     draw_ball(dots, WIDTH / 2, y)

@@ -16,7 +16,7 @@ from silverball.drawing.dots import FULL, WIDTH, Dots
 DELETE, END = "◄", "END"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.- "
 LARGE_MOST = 3  # letters that are written twice as large, the help beside them
-HELP_X = 94  # [dot] where it begins then
+HELP_X, END_WIDTH = 68, 29  # [dot] where it may begin then, and how much of it END takes
 
 
 class LettersPage(Page):
@@ -86,9 +86,11 @@ class LettersPage(Page):
         does = {END: "DONE", DELETE: "DELETE"}.get(choice, "TAKE")
         help_ = ("◄ ►: TURN", f"{desk.key('create')}: {does}")
         if self._most <= LARGE_MOST:
-            self._draw_places(dots, 4, 9, 2, seconds)
-            dots.text(help_[0], HELP_X, 12, NORMAL, brightness=190)
-            dots.text(help_[1], HELP_X, 23, NORMAL, brightness=190)
+            self._draw_places(dots, 4, 8, 2, seconds)
+            for line, y in zip(help_, (11, 22), strict=True):
+                room = WIDTH - HELP_X - (END_WIDTH if choice == END else 0)
+                left = WIDTH - min(NORMAL.width(line), room)
+                layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
         else:
             self._draw_places(dots, (WIDTH - 28 - self._most * 11) // 2, layout.MIDDLE_Y, 1, seconds)
             layout.foot(dots, ("   ".join(help_),), seconds)
@@ -104,7 +106,7 @@ class LettersPage(Page):
             letter = self.text[place] if place < count else here
             light = FULL if here or choice == END else layout.HALF
             dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
-            dots.box(x, y + 11 * scale, step - 2, 1, FULL if place == count else layout.HALF)
+            dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else layout.HALF)
         if choice == END and layout.blinks(seconds):
             dots.text(END, left + count * step + 2, y + 11 * scale - 11, BOLD)
         if choice == DELETE and layout.blinks(seconds):
