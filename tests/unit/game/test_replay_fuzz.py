@@ -240,7 +240,7 @@ def run(numbers: range, tmp_path) -> Counter[tuple[str, str]]:
 
 
 def test_hundreds_of_damaged_replays_are_refused_or_named(tmp_path):
-    outcomes = run(range(600), tmp_path)
+    outcomes = run(range(400), tmp_path)
     seen = {outcome for _, outcome in outcomes}
     assert seen == {"refused", "named", "equal"}
     assert outcomes["change_input", "named"] > 10
