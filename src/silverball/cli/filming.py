@@ -48,7 +48,7 @@ def shoot(out: Path, seconds: float, pictures: Pictures, *, quiet: bool = False)
     from silverball.drawing.film import FILM_RATES, write_film, write_picture
 
     ending = out.suffix.lower()
-    with Progress(console=errors, transient=True) as bar:
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         task = bar.add_task(f"playing into {out.name}", total=seconds)
 
         def advance(done: float) -> None:

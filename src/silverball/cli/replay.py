@@ -120,12 +120,10 @@ def verified(game: Replay) -> Verdict:
     """Play a replay with a moving line."""
     from rich.progress import Progress
 
-    from silverball.cli.console import compiling, errors
+    from silverball.cli.console import errors
     from silverball.game.replay import verify
 
-    with compiling():
-        pass
-    with Progress(console=errors, transient=True) as bar:
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         task = bar.add_task("playing", total=game.ticks)
         return verify(game, lambda ticks: bar.update(task, completed=ticks))
 

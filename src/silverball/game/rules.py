@@ -153,8 +153,9 @@ def refusal(laws: Laws, now: Standing) -> str:
 
 
 def started(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
-    """The player has brought a ball, which has this id in the world."""
-    mine = InPlay(ball, now.used + 1, tick + laws.save_ticks if laws.saves else 0, laws.saves)
+    """The player has brought a ball, which has this id in the world; only one that comes alone is saved."""
+    saves = laws.saves if not now.balls else 0
+    mine = InPlay(ball, now.used + 1, tick + laws.save_ticks if saves else 0, saves)
     after = now._replace(used=now.used + 1, balls=(*now.balls, mine), quiet_since=tick)
     doubles = laws.double > 1 and len(after.balls) > 1
     return after, (News(NewsKind.DOUBLE_ON, tick, laws.double),) if doubles else ()

@@ -100,9 +100,16 @@ def test_a_ball_is_given_back_in_its_first_seconds_and_no_more_often_than_the_ta
 def test_the_saved_ball_counts_as_one_in_play_so_that_double_points_go_on():
     laws = laws_of(ball_save=4.0)
     now = with_balls(laws, 2)
-    now, news = rules.drained(laws, now, 100, 2)
+    now, news = rules.drained(laws, now, 100, 1)
     assert [one.kind for one in news] == [NewsKind.BALL_SAVED]
     assert rules.multiplier(laws, now, 100) == laws.double
+
+
+def test_a_second_ball_that_is_brought_early_is_not_saved():
+    laws = laws_of(ball_save=4.0)
+    now, news = rules.drained(laws, with_balls(laws, 2), 100, 2)
+    assert [one.kind for one in news] == [NewsKind.BALL_LOST, NewsKind.DOUBLE_OFF]
+    assert now.waiting == ()
 
 
 def test_double_points_are_told_when_they_begin_and_when_they_end():
