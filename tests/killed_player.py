@@ -1,25 +1,24 @@
-"""A player who plays short games as fast as possible and says what was shown to him, until he is killed.
+"""Players who play short games as fast as possible and say what was shown to them, until they are killed.
 
-Imported by the server that the tests fork players from, so that each of them begins to play at once.
+    python killed_player.py
+
+loads the game once; then for every line `seed folder` that it reads it forks a player, says `pid N`, passes
+on what the player is shown, and says `dead` when he is.
 """
 
 from __future__ import annotations
 
+import os
 import random
+import sys
 from collections.abc import Iterator
-from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NamedTuple
 
 from silverball.game.store import Store
 
-try:
-    from silverball.game.game import Game
-except ImportError:  # pragma: no cover
-    Game = None  # type: ignore[assignment,misc]
-
 MOST_TICKS = 240  # of a game: a second of play
-BOARD = ("arcade", "random", "d" * 64)
+LIST = ("arcade", "Classic", "d" * 64)
 
 
 class Played(NamedTuple):
@@ -32,6 +31,10 @@ class Played(NamedTuple):
 
 def games(seed: int) -> Iterator[Played]:
     """Games with random presses, as many as one likes."""
+    try:
+        from silverball.game.game import Game
+    except ImportError:  # a stand-in until there are games
+        Game = None  # noqa: N806
     draw = random.Random(seed)
     while True:
         number = draw.randrange(1, 2**31)
@@ -52,30 +55,52 @@ def initials(id: int) -> str:
     return f"{id % 1000:03}"
 
 
-def play(folder: Path, seed: int, shown: Connection) -> None:
-    """Play games and keep them; what was shown is sent as it is shown."""
+def show(*words: object) -> None:
+    """Say something in one piece."""
+    os.write(sys.stdout.fileno(), (" ".join(map(str, words)) + "\n").encode())
+
+
+def play(folder: Path, seed: int) -> None:
+    """Play games and keep them; what was shown is said as it is shown."""
     with Store(folder) as store:
         assert store.trouble == ""
-        shown.send(("opened",))
+        show("opened")
         for count, game in enumerate(games(seed)):
             store.keep_last_game(f"{count}\n{game.replay}")
-            shown.send(("last game", count))
-            id = store.add_score("OLD", game.score, *BOARD, game.seed, game.replay)
-            shown.send(("score", id, game.score, game.seed))
+            show("last_game", count)
+            id = store.add_score("OLD", game.score, *LIST, game.seed, game.replay)
+            show("score", id, game.score, game.seed)
             store.rename(id, initials(id))
-            shown.send(("renamed", id))
+            show("renamed", id)
             store.keep_settings({"initials": initials(id), "count": count, "again": count})
-            shown.send(("settings", count))
+            show("settings", count)
 
 
 def add_scores(folder: Path, first: int, count: int) -> None:
     """Keep so many scores as fast as possible."""
     with Store(folder) as store:
         for score in range(first, first + count):
-            id = store.add_score("OLD", score, *BOARD, 0, "a replay\n" * 100)
+            id = store.add_score("OLD", score, *LIST, 0, "a replay\n" * 100)
             store.rename(id, initials(score))
         assert (store.trouble, store.keeps) == ("", True)
 
 
-if Game is not None:
-    next(games(0))  # loads the compiled physics, once for all players
+def main() -> None:
+    """Fork the players that are asked for."""
+    next(games(0))  # loads the compiled physics, once for all of them
+    show("ready")
+    for line in sys.stdin:
+        seed, folder = line.rstrip("\n").split(" ", 1)
+        player = os.fork()
+        if player == 0:
+            try:
+                play(Path(folder), int(seed))
+            finally:
+                os._exit(1)
+        show("pid", player)
+        os.waitpid(player, 0)
+        show("dead")
+
+
+if __name__ == "__main__":
+    main()

@@ -184,12 +184,13 @@ class Store:
             Its number.
         """
         played = int((when or datetime.now(UTC)).timestamp())
+        name = table_name.encode("utf-8", "replace").decode("utf-8")  # a path may have bytes that are no text
 
         def add(connection: sqlite3.Connection) -> int:
             connection.execute(
                 "INSERT INTO list (mode, table_digest, table_name) VALUES (?, ?, ?)"
                 " ON CONFLICT DO UPDATE SET table_name = excluded.table_name",
-                (str(mode), table_digest, table_name),
+                (str(mode), table_digest, name),
             )
             ((number,),) = connection.execute(
                 "SELECT id FROM list WHERE mode = ? AND table_digest = ?", (str(mode), table_digest)

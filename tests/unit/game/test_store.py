@@ -194,6 +194,11 @@ def test_text_that_looks_like_sql_is_text(store):
     assert [score.initials for score in store.scores(nasty, nasty, nasty)] == [nasty]
 
 
+def test_a_table_whose_path_is_no_text_has_scores_too(store):
+    add(store, 1, table_name="caf\udce9.toml")
+    assert store.scores()[0].table_name == "caf?.toml"
+
+
 # ── settings ────────────────────────────────────────────────────────────────────────────────────────────
 
 

@@ -2,47 +2,60 @@
 
 from __future__ import annotations
 
-import multiprocessing
+import os
 import random
+import signal
 import sqlite3
+import subprocess
+import sys
 import time
+from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from killed_player import BOARD, add_scores, initials, play
+import killed_player
+from killed_player import LIST, initials
 from silverball.game.store import FILE, REPLAYS, Store
 
-HOW = "forkserver" if "forkserver" in multiprocessing.get_all_start_methods() else "spawn"
-LONGEST = 0.12  # [s] that a player plays before he is killed: some twenty games
+MOST_THINGS = 12  # that are shown to a player before he is killed: three games
+LONGEST = {"write": 0.003, "game": 0.04}  # [s] that he lives on then; what takes about so long
+KILLABLE = pytest.mark.skipif(not hasattr(os, "fork"), reason="players are forked")
+
+
+class Players:
+    """Where players come from."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self.process = process
+        assert self.heard() == ["ready"]
+
+    def heard(self) -> list[str]:
+        assert self.process.stdout is not None
+        return self.process.stdout.readline().split()
+
+    def what_was_shown_until_killed(
+        self, folder: Path, seed: int, things: int, after: float
+    ) -> list[tuple[Any, ...]]:
+        """Let a player play, kill him so many seconds after so many things, and return what was shown."""
+        assert self.process.stdin is not None
+        print(seed, folder, file=self.process.stdin, flush=True)
+        what, player = self.heard()
+        assert what == "pid"
+        heard = [self.heard() for _ in range(things)]
+        time.sleep(after)
+        os.kill(int(player), signal.SIGKILL)
+        heard += iter(self.heard, ["dead"])
+        return [(what, *map(int, values)) for what, *values in heard]
 
 
 @pytest.fixture(scope="module")
-def players() -> Any:
-    """Where players come from."""
-    context = multiprocessing.get_context(HOW)
-    context.set_forkserver_preload(["killed_player"])
-    return context
-
-
-def what_was_shown_until_it_was_killed(players: Any, folder: Path, seed: int, after: float) -> list[Any]:
-    """Let a player play, kill him, and return what he has been shown."""
-    ours, theirs = players.Pipe(duplex=False)
-    player = players.Process(target=play, args=(folder, seed, theirs))
-    player.start()
-    theirs.close()
-    time.sleep(after)
-    player.kill()
-    player.join()
-    shown = []
-    with closing(ours):
-        while True:
-            try:
-                shown.append(ours.recv())
-            except EOFError:
-                return shown
+def players() -> Iterator[Players]:
+    command = [sys.executable, killed_player.__file__]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        yield Players(process)
 
 
 class Expected:
@@ -61,7 +74,7 @@ class Expected:
                 self.initials[id] = "OLD"
             elif what == "renamed":
                 self.initials[values[0]] = initials(values[0])
-            elif what == "last game":
+            elif what == "last_game":
                 self.last_game = values[0]
             elif what == "settings":
                 self.settings = values[0]
@@ -75,13 +88,13 @@ class Expected:
             assert (store.trouble, store.keeps) == ("", True)
             there = {score.id: score for score in store.scores(limit=-1)}
             unseen = set(there) - set(self.scores)
-            assert len(unseen) <= (last[0] == "last game")
+            assert len(unseen) <= (last[0] == "last_game")
             for id, (points, seed) in self.scores.items():
                 score = there[id]
                 assert (score.score, score.seed) == (points, seed)
                 entered = {initials(id)} if last == ("score", id, points, seed) else set()
                 assert score.initials in {self.initials[id]} | entered
-            best = store.scores("arcade", BOARD[2], limit=REPLAYS)
+            best = store.scores("arcade", LIST[2], limit=REPLAYS)
             assert all(score.has_replay and store.replay(score.id) for score in best)
             self.check_the_single_ones(store, last, shown)
             # What was not shown may stay; from now on it must.
@@ -91,7 +104,7 @@ class Expected:
     def check_the_single_ones(self, store: Store, last: tuple[Any, ...], shown: list[Any]) -> None:
         game = store.last_game()
         number = int(game.splitlines()[0]) if game is not None else -1
-        written = [values[0] for what, *values in shown if what == "last game"]
+        written = [values[0] for what, *values in shown if what == "last_game"]
         coming = (written[-1] + 1 if written else 0) if last[0] in ("settings", "opened", "") else number
         assert number in (self.last_game, coming)
         self.last_game = number
@@ -102,39 +115,47 @@ class Expected:
         self.settings = count
 
 
-def kill_and_look(players: Any, folder: Path, kills: int, seed: int) -> int:
-    """Kill so many players, on one file and on new ones; how many things they were shown."""
+def kill_and_look(players: Players, folder: Path, kills: int, seed: int) -> None:
+    """Kill so many players, on one file and on new ones, and see after each that all is there."""
     draw = random.Random(seed)
-    things = 0
     old = Expected()
+    ends = set()
     for kill in range(kills):
         is_new = kill % 4 == 3
         expected, place = (Expected(), folder / str(kill)) if is_new else (old, folder)
-        after = draw.uniform(0, LONGEST / 4 if is_new else LONGEST)
-        shown = what_was_shown_until_it_was_killed(players, place, kill, after)
+        things = draw.randrange(1 if is_new else MOST_THINGS)
+        after = draw.uniform(0, LONGEST[draw.choice(["write", "game"])])
+        shown = players.what_was_shown_until_killed(place, kill, things, after)
         expected.learn(shown)
         if place.exists():
             expected.check(place, shown)
-        things += len(shown)
-    return things
+        ends.add(shown[-1][0] if shown else "")
+    assert len(old.scores) > kills / 2  # else nobody had time to play
+    assert len(ends) > 3  # and not always at the same place
 
 
+@KILLABLE
 def test_nothing_that_was_shown_is_lost_when_the_program_is_killed(players, tmp_path):
-    assert kill_and_look(players, tmp_path, kills=12, seed=1) > 12
+    kill_and_look(players, tmp_path, kills=12, seed=1)
 
 
+@KILLABLE
 @pytest.mark.slow
 def test_nothing_that_was_shown_is_lost_when_the_program_is_killed_a_hundred_times(players, tmp_path):
-    assert kill_and_look(players, tmp_path, kills=100, seed=2) > 100
+    kill_and_look(players, tmp_path, kills=100, seed=2)
 
 
-def test_two_programs_at_once_lose_no_score(players, tmp_path):
-    both = [players.Process(target=add_scores, args=(tmp_path, first, 200)) for first in (1000, 2000)]
-    for one in both:
-        one.start()
-    for one in both:
-        one.join(60)
-    assert [one.exitcode for one in both] == [0, 0]
+def test_two_programs_at_once_lose_no_score(tmp_path):
+    code = (
+        "import sys; from pathlib import Path; from killed_player import add_scores;"
+        "add_scores(Path(sys.argv[1]), int(sys.argv[2]), 200)"
+    )
+    paths = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    both = [
+        subprocess.Popen([sys.executable, "-c", code, str(tmp_path), first], env=paths)
+        for first in ("1000", "2000")
+    ]
+    assert [one.wait(60) for one in both] == [0, 0]
     with Store(tmp_path) as store:
         there = {score.score: score.initials for score in store.scores(limit=-1)}
     assert there == {score: initials(score) for first in (1000, 2000) for score in range(first, first + 200)}
