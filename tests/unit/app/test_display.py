@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reading import reads
 
+from reading import reads
 from silverball.app.display import HIDDEN_AT_MOST, Display
 from silverball.drawing.dotfonts import BOLD, HUGE
 from silverball.game.news import Face, Mode, News, NewsKind, Phase
@@ -168,7 +168,11 @@ def test_more_important_news_interrupt_and_less_important_ones_wait():
 
 
 KINDS = st.builds(
-    News, st.sampled_from(list(NewsKind)), st.just(1), st.integers(0, 12), st.sampled_from(["", "cylinder[0]"])
+    News,
+    st.sampled_from(list(NewsKind)),
+    st.just(1),
+    st.integers(0, 12),
+    st.sampled_from(["", "cylinder[0]"]),
 )
 FACES = st.builds(
     FACE._replace,
@@ -204,7 +208,7 @@ def played(moments, rate: float, scores: tuple[int, int]) -> list[tuple[float, n
     return frames
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(moments=MOMENTS, rate=st.sampled_from([10.0, 30.0, 60.0]))
 def test_the_score_is_never_hidden_for_more_than_a_second(moments, rate):
     hidden_since = None
@@ -218,7 +222,7 @@ def test_the_score_is_never_hidden_for_more_than_a_second(moments, rate):
     assert HIDDEN_AT_MOST < 1.0
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(moments=MOMENTS)
 def test_the_same_news_at_the_same_times_show_the_same_dots(moments):
     for _, one, other in played(moments, 30.0, (4321, 4321)):
