@@ -25,7 +25,7 @@ GAMMA = 0.8  # dim dots are lifted, for they are small and have dark around them
 
 LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
 LEAST_SPACING = 4.0  # [pixel] below it dots are drawn larger and shrunk
-WHOLE_SPACING = 0.86  # spacings are rounded down to whole pixels where that leaves so much of the size
+WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels where that leaves so much of the size
 BEZEL_SHARE = 0.03  # of the height, on each side, at least
 
 
