@@ -25,7 +25,7 @@ GAMMA = 0.8  # dim dots are lifted, for they are small and have dark around them
 
 LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
 LEAST_SPACING = 4.0  # [pixel] below it dots are drawn larger and shrunk
-WHOLE_SPACING = 0.86  # spacings are rounded down to whole pixels where that leaves so much of the size
+WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels where that leaves so much of the size
 BEZEL_SHARE = 0.03  # of the height, on each side, at least
 
 
@@ -114,7 +114,7 @@ def _glow(levels: Levels) -> NDArray[np.uint16]:
     """How much light reaches a dot from those around it, 0 to 255."""
     wide = np.zeros((HEIGHT + 4, WIDTH + 4), np.uint16)
     wide[2:-2, 2:-2] = levels
-    # Shares of 1, 4, 6, 4 and 1 sixteenths across, then down; divided in between, so that sixteen bits hold it.
+    # Shares of 1, 4, 6, 4, 1 sixteenths across, then down; divided in between: sixteen bits hold it.
     across: NDArray[np.uint16] = wide[:, :-4] + wide[:, 4:]
     across += (wide[:, 1:-3] + wide[:, 3:-1]) << 2
     across += wide[:, 2:-2] * 6

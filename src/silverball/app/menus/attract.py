@@ -25,9 +25,6 @@ class AttractPage(Page):
     name = "attract"
     repeats = False
 
-    def __init__(self, since: float) -> None:
-        self._since = since
-
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Somebody is there."""
         desk.back()
@@ -36,7 +33,7 @@ class AttractPage(Page):
     def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
         """The page whose turn it is."""
         pages = self._pages(desk)
-        turn, at = divmod(max(seconds - self._since, 0.0), PAGE_TIME)
+        turn, at = divmod(max(seconds - self.shown_at, 0.0), PAGE_TIME)
         now = pages[int(turn) % len(pages)](desk, at)
         if turn < 1.0 or at >= CHANGE_TIME:
             return now

@@ -26,7 +26,6 @@ class ScoresPage(Page):
 
     def __init__(self) -> None:
         self._index = 0
-        self._since: float | None = None
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Turn to another table, or go back."""
@@ -35,7 +34,7 @@ class ScoresPage(Page):
             return None
         count = max(len(desk.boards()), 1)
         self._index = (self._index + (-1 if button is Button.LEFT else 1)) % count
-        self._since = desk.now
+        self.shown_at = desk.now
         return None
 
     def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
@@ -47,7 +46,7 @@ class ScoresPage(Page):
             layout.middle(dots, "NO SCORES YET", seconds)
             layout.foot(dots, (f"{desk.key('create')}: BACK",), seconds)
             return dots
-        since = max(seconds - (self._since if self._since is not None else 0.0), 0.0)
+        since = max(seconds - self.shown_at, 0.0)
         index = min(self._index, len(boards) - 1)
         entry, mode, rows = boards[index]
         draw_board(dots, entry, mode, rows[:ROWS], since)

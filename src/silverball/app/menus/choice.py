@@ -92,7 +92,6 @@ class ChoicePage(Page):
         self._is_editing = False
         self._moved_at = -1.0
         self._direction = 0
-        self._since: float | None = None
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Turn, choose, or go back."""
@@ -108,7 +107,7 @@ class ChoicePage(Page):
             return self._choose(items[self.index], desk)
         step = -1 if button is Button.LEFT else 1
         self.index = (self.index + step) % len(items)
-        self._since, self._moved_at, self._direction = desk.now, desk.now, step
+        self.shown_at, self._moved_at, self._direction = desk.now, desk.now, step
         return None
 
     def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
@@ -117,7 +116,7 @@ class ChoicePage(Page):
         items = self._items()
         index = min(self.index, len(items) - 1)
         item = items[index]
-        since = seconds - (0.0 if self._since is None else self._since)
+        since = seconds - self.shown_at
         heading = self._title if isinstance(self._title, str) else self._title()
         if self._is_editing and item.value is not None:
             _draw_value(dots, item, item.value.place(desk), since)
@@ -144,12 +143,12 @@ class ChoicePage(Page):
         if item.value is not None:
             self._is_editing = True
             self._kept = getattr(desk.settings, item.value.field)
-            self._since = desk.now
+            self.shown_at = desk.now
             return None
         return item.choose() if item.choose is not None else None
 
     def _edit(self, button: Button, desk: Desk, value: Value) -> Command | None:
-        self._since = desk.now
+        self.shown_at = desk.now
         if button is Button.START:
             self._is_editing = False
             return None

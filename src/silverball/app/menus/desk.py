@@ -55,6 +55,8 @@ class Page(ABC):
     """Whether a paddle button that is held counts again and again."""
     quiet = True
     """Whether the program may begin to play by itself when nobody touches anything."""
+    shown_at = 0.0
+    """Since when it is shown as it is [s]: texts begin to scroll then."""
 
     @abstractmethod
     def press(self, button: Button, desk: Desk) -> Command | None:
@@ -112,12 +114,14 @@ class Desk:
 
     def open(self, page: Page) -> None:
         """Show a page on top of the others."""
+        page.shown_at = self.now
         self.pages.append(page)
 
     def back(self) -> None:
         """Show the page below; the lowest one stays."""
         if len(self.pages) > 1:
             self.pages.pop()
+            self.pages[-1].shown_at = self.now
 
     def close(self) -> None:
         """Show the game."""

@@ -172,7 +172,7 @@ class Menus:
     def open_attract(self) -> Command:
         """Show the pages for those who only pass by; the main menu is below them."""
         self.open_main()
-        self._desk.open(AttractPage(self._desk.now))
+        self._desk.open(AttractPage())
         return Attract(True)
 
     def open_pause(self) -> None:
@@ -202,7 +202,7 @@ class Menus:
 
     def open_transport(self, face: ReplayFace) -> None:
         """A replay is shown."""
-        self._desk.pages.clear()
+        self._desk.pages.clear()  # not closed: one comes back to the pages from which it was opened
         self._desk.open(TransportPage(face))
 
     def show_replay(self, face: ReplayFace) -> None:

@@ -17,7 +17,6 @@ from silverball.app.menus.desk import Desk, Page
 from silverball.drawing.dots import Dots
 
 PATIENCE = 8.0  # [s] to press the key; who has no keyboard at hand comes back by waiting
-ASK_TIME = 2.0  # [s] for which an answer in words stands
 
 TITLES = {"keys": "KEYS", "pad": "GAMEPAD"}
 THING = {"keys": "KEY", "pad": "BUTTON"}
@@ -85,7 +84,6 @@ class CapturePage(Page):
         self.kind = kind
         self._line = line
         self._way = way
-        self._since: float | None = None
         self._complaint = ""
 
     def press(self, button: Button, desk: Desk) -> Command | None:
@@ -95,15 +93,13 @@ class CapturePage(Page):
 
     def tick(self, desk: Desk) -> Command | None:
         """Wait no longer than patience lasts."""
-        if self._since is None:
-            self._since = desk.now
-        elif desk.now - self._since > PATIENCE:
+        if desk.now - self.shown_at > PATIENCE:
             desk.back()
         return None
 
     def capture(self, desk: Desk, name: str) -> Command | None:
         """The key was pressed."""
-        self._since = desk.now
+        self.shown_at = desk.now
         if name in RESERVED[self.kind]:
             desk.back()
             return None
@@ -128,10 +124,9 @@ class CapturePage(Page):
         if layout.blinks(seconds, 0.8):
             layout.middle(dots, f"PRESS A {THING[self.kind]}", seconds)
         if self._complaint:
-            layout.foot(dots, (self._complaint,), seconds - (self._since or 0.0), 255)
+            layout.foot(dots, (self._complaint,), seconds - self.shown_at, 255)
         else:
-            left = 1.0 - (seconds - self._since) / PATIENCE if self._since is not None else 1.0
-            layout.meter(dots, 30, layout.FOOT_Y, 100, left)
+            layout.meter(dots, 30, layout.FOOT_Y, 100, 1.0 - (seconds - self.shown_at) / PATIENCE)
         return dots
 
     def signature(self) -> Hashable:

@@ -19,7 +19,7 @@ from silverball.drawing.dotfonts import NORMAL
 from silverball.drawing.dots import WIDTH, Dots
 
 JUMP = 5.0  # [s]
-HELP_TIME = 4.0  # [s] for which the help stands after a button was pressed
+HELP_TIME = 3.0  # [s] for which the help stands
 SPEEDS = {0.25: "1/4×", 0.5: "1/2×"}  # as glyphs they would be too small to read
 
 
@@ -54,11 +54,10 @@ class TransportPage(Page):
 
     def __init__(self, face: ReplayFace) -> None:
         self.face = face
-        self._touched: float | None = None
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Ask the window for what the button means; it alone knows the replay."""
-        self._touched = desk.now
+        self.shown_at = desk.now
         if button is Button.START:
             return EndReplay() if self._is_over() else ReplayPause()
         if button is Button.BACK:
@@ -70,9 +69,11 @@ class TransportPage(Page):
         """What the game shows, and below it the line of the replay."""
         dots = Dots()
         layout.under(dots, below)
-        since = seconds - (self._touched if self._touched is not None else 0.0)
-        if since % (4.0 * HELP_TIME) < HELP_TIME and self._touched is not None:
-            layout.foot(dots, (self._help(desk),), 0.0)
+        # Where it stands matters most, so the help waits until nobody has touched anything for a while.
+        since = max(seconds - self.shown_at, 0.0)
+        turn = int(since / HELP_TIME) % 6
+        if turn in (2, 5):
+            layout.foot(dots, (self._help(desk) if turn == 2 else "BOTH PADDLES HELD: LEAVE",), 0.0)
         else:
             self._draw_line(dots, seconds)
         return dots

@@ -1,0 +1,239 @@
+"""Does the display tell what happens, without hiding the score for long?"""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reading import reads
+from silverball.app.display import HIDDEN_AT_MOST, Display
+from silverball.drawing.dotfonts import BOLD, HUGE
+from silverball.game.news import Face, Mode, News, NewsKind, Phase
+
+FACE = Face(
+    mode=Mode.ARCADE,
+    phase=Phase.PLAY,
+    score=120,
+    ball=1,
+    balls=3,
+    on_board=1,
+    combo=0,
+    multiplier=1,
+    save_left=0.0,
+    warnings=0,
+    tilted=False,
+    most_balls=2,
+)
+
+
+def film(face: Face, news: tuple[News, ...] = (), seconds: float = 4.0, rate: int = 15, high_score: int = 0):
+    """The pictures of some seconds after news."""
+    display = Display()
+    display.frame(face, 0.0)
+    display.tell(news)
+    return [display.frame(face, 10.0 + tick / rate, high_score) for tick in range(round(seconds * rate))]
+
+
+def news(kind: NewsKind, value: int = 0) -> tuple[News, ...]:
+    return (News(kind, 1, value),)
+
+
+def test_the_score_is_large_and_the_ball_is_told():
+    dots = film(FACE)[0]
+    assert reads(dots, "120", (HUGE,))
+    assert reads(dots, "BALL 1/3")
+
+
+def test_scores_of_any_size_are_shown():
+    for score in (0, 7, 999_999_999, 1_234_567_890, 10**15):
+        dots = film(FACE._replace(score=score))[0]
+        assert reads(dots, f"{score:,}")
+
+
+def test_free_play_shows_the_balls_on_the_board_instead_of_a_number():
+    face = FACE._replace(mode=Mode.FREE, balls=0)
+    one, two = film(face)[0], film(face._replace(on_board=2))[0]
+    assert reads(one, "●○"[0])
+    assert reads(one, "○")
+    assert not reads(two, "○")
+    assert not reads(one, "BALL")
+
+
+def test_before_a_ball_it_says_which_key_brings_one():
+    display = Display("RETURN")
+    assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RETURN")
+
+
+def test_a_key_with_a_long_name_still_fits():
+    display = Display("RIGHT SHIFT")
+    assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RIGHT SHIFT")
+
+
+def test_double_points_are_shown_as_long_as_they_last():
+    assert all(reads(dots, "×2") for dots in film(FACE._replace(multiplier=2), seconds=1.0))
+    assert not reads(film(FACE)[0], "×2")
+
+
+def test_ball_save_blinks_while_it_lasts():
+    shown = [reads(dots, "BALL SAVE") for dots in film(FACE._replace(save_left=5.0), seconds=2.0)]
+    assert any(shown)
+    assert not all(shown)
+    assert not any(reads(dots, "BALL SAVE") for dots in film(FACE, seconds=1.0))
+
+
+@pytest.mark.parametrize(
+    ("told", "says"),
+    [
+        (news(NewsKind.BALL_SAVED), "BALL SAVED"),
+        (news(NewsKind.DOUBLE_ON), "DOUBLE POINTS"),
+        (news(NewsKind.COMBO, 3), "COMBO 3"),
+        (news(NewsKind.COMBO, 5), "COMBO 5"),
+        (news(NewsKind.WARNING, 1), "WARNING!"),
+        (news(NewsKind.BALL_LOST, 2), "BALL 2 LOST"),
+        (news(NewsKind.SCORED, 250), "+250"),
+        (news(NewsKind.UN_STUCK), "A SHOVE FOR A STILL BALL"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_news_are_told_beside_the_score(told, says):
+    frames = film(FACE, told)
+    assert any(reads(dots, says) and reads(dots, "120") for dots in frames)
+    assert not reads(frames[-1], says)
+
+
+def test_tilt_fills_the_display_and_the_score_comes_back_between():
+    frames = film(FACE._replace(tilted=True), news(NewsKind.TILT), seconds=3.0)
+    filled = [dots for dots in frames if not reads(dots, "120")]
+    assert filled
+    assert max((dots.pixels > 0).mean() for dots in filled) > 0.5
+    assert any(reads(dots, "TILT") and reads(dots, "120") for dots in frames)
+
+
+def test_the_end_says_game_over_with_the_score():
+    dots = film(FACE._replace(phase=Phase.OVER))[0]
+    assert reads(dots, "GAME OVER")
+    assert reads(dots, "120", (HUGE,))
+
+
+def test_a_beaten_high_score_is_told_once_and_only_when_there_was_one():
+    display = Display()
+    before = [display.frame(FACE._replace(score=99), tick / 30, 100) for tick in range(30)]
+    after = [display.frame(FACE, 1.0 + tick / 10, 100) for tick in range(50)]
+    later = [display.frame(FACE._replace(score=500), 6.0 + tick / 10, 100) for tick in range(50)]
+    assert not any(reads(dots, "HIGH SCORE!") for dots in before)
+    assert any(reads(dots, "HIGH SCORE!") for dots in after)
+    assert not any(reads(dots, "HIGH SCORE!") for dots in later)
+    assert not any(reads(dots, "HIGH SCORE!") for dots in film(FACE, high_score=0))
+
+
+def test_the_score_counts_up_and_arrives():
+    display = Display()
+    display.frame(FACE, 0.0)
+    half = display.frame(FACE._replace(score=1120), 1.0)
+    display.frame(FACE._replace(score=1120), 1.1)
+    assert not reads(half, "1,120")
+    assert reads(display.frame(FACE._replace(score=1120), 1.5), "1,120")
+
+
+def test_a_new_game_begins_at_its_own_score_at_once():
+    display = Display()
+    display.frame(FACE, 0.0)
+    assert reads(display.frame(FACE._replace(score=0), 1.0), "0", (HUGE,))
+
+
+def test_messages_follow_each_other_and_long_ones_scroll_to_their_end():
+    display = Display()
+    display.frame(FACE, 0.0)
+    display.say("FIRST")
+    display.say("THEN A MESSAGE THAT IS FAR TOO LONG FOR ONE LINE")
+    frames = [display.frame(FACE, 1.0 + tick / 10) for tick in range(160)]
+    first = [reads(dots, "FIRST") for dots in frames]
+    end = [reads(dots, "ONE LINE") for dots in frames]
+    assert first.index(True) < end.index(True)
+    assert not reads(frames[-1], "ONE LINE")
+    assert all(reads(dots, "120") for dots in frames)
+
+
+def test_more_important_news_interrupt_and_less_important_ones_wait():
+    display = Display()
+    display.frame(FACE, 0.0)
+    display.tell(news(NewsKind.COMBO, 3))
+    display.frame(FACE, 1.0)
+    display.tell((*news(NewsKind.BALL_SAVED), *news(NewsKind.WARNING, 1)))
+    frames = [display.frame(FACE, 1.1 + tick / 10) for tick in range(60)]
+    saved = [reads(dots, "BALL SAVED") for dots in frames]
+    warned = [reads(dots, "WARNING!") for dots in frames]
+    assert True in saved
+    assert saved.index(True) < warned.index(True)
+
+
+KINDS = st.builds(
+    News,
+    st.sampled_from(list(NewsKind)),
+    st.just(1),
+    st.integers(0, 12),
+    st.sampled_from(["", "cylinder[0]"]),
+)
+FACES = st.builds(
+    FACE._replace,
+    phase=st.sampled_from(list(Phase)),
+    mode=st.sampled_from(list(Mode)),
+    combo=st.integers(0, 12),
+    multiplier=st.integers(1, 4),
+    save_left=st.floats(0.0, 8.0),
+    tilted=st.booleans(),
+    on_board=st.integers(0, 2),
+)
+MOMENTS = st.lists(
+    st.tuples(st.lists(KINDS, max_size=3), FACES, st.integers(1, 30), st.booleans()), min_size=1, max_size=6
+)
+
+
+def played(moments, rate: float, scores: tuple[int, int]) -> list[tuple[float, np.ndarray, np.ndarray]]:
+    """The same story told by two displays that differ in the score alone: times and both pictures."""
+    one, other = Display(), Display()
+    seconds, frames = 3.0, []
+    for told, face, count, says in moments:
+        for display in (one, other):
+            display.tell(told)
+            if says:
+                display.say("MORE THAN ONE CAN READ AT ONCE ON THIS DISPLAY")
+        for _ in range(count):
+            seconds += 1.0 / rate
+            pictures = [
+                display.frame(face._replace(score=score), seconds, 50).pixels
+                for display, score in zip((one, other), scores, strict=True)
+            ]
+            frames.append((seconds, *pictures))
+    return frames
+
+
+@settings(max_examples=25, deadline=None)
+@given(moments=MOMENTS, rate=st.sampled_from([10.0, 30.0, 60.0]))
+def test_the_score_is_never_hidden_for_more_than_a_second(moments, rate):
+    hidden_since = None
+    for seconds, one, other in played(moments, rate, (888_888, 111_111)):
+        # Where two different scores give the same picture, no score is seen.
+        if (one != other).any():
+            hidden_since = None
+        else:
+            hidden_since = seconds if hidden_since is None else hidden_since
+            assert seconds - hidden_since <= 1.0
+    assert HIDDEN_AT_MOST < 1.0
+
+
+@settings(max_examples=10, deadline=None)
+@given(moments=MOMENTS)
+def test_the_same_news_at_the_same_times_show_the_same_dots(moments):
+    for _, one, other in played(moments, 30.0, (4321, 4321)):
+        assert (one == other).all()
+
+
+def test_a_combo_climbs_on_its_meters():
+    lit = [int((film(FACE._replace(combo=combo))[0].pixels[:23, :4] > 0).sum()) for combo in range(2, 9)]
+    assert lit == sorted(lit)
+    assert len(set(lit)) == len(lit)
+
+
+def test_large_words_are_written_in_the_bold_font():
+    assert any(reads(dots, "WARNING!!", (BOLD,)) for dots in film(FACE, news(NewsKind.WARNING, 2)))
