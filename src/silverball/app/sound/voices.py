@@ -150,21 +150,21 @@ class Voices:
         if not name or event.kind == "jam":
             return None
         is_hit = event.kind in ("hit", "ball_hit")
-        strength = max(strength_of(event.speed), least if is_hit else 0.0)
+        strength = max(strength_of(event.speed), least if is_hit else 0.0) * self._freshness(event.ball, time)
         if strength < SOFTEST or self._is_again(event.ball, event.part, time, strength):
             return None
-        strength *= self._freshness(event.ball, time)
         layer = 1 if event.speed >= HARD else 0
         if is_hit and name in ("cylinder", "prism"):
             self._climb(event.tick, time)
             if name == "cylinder":
                 layer = step_of(self._run)
-        return (name, layer, strength) if strength >= SOFTEST else None
+        return name, layer, strength
 
     def _is_again(self, ball: int, part: str, time: float, strength: float) -> bool:
         before, as_strong = self._last.get((ball, part), (-math.inf, 0.0))
         is_again = 0.0 <= time - before < AGAIN_SECONDS and strength < 2.0 * as_strong
-        self._last[ball, part] = (time, max(strength, as_strong) if is_again else strength)
+        if not is_again:
+            self._last[ball, part] = (time, strength)
         return is_again
 
     def _freshness(self, ball: int, time: float) -> float:
