@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import wave
 
 import numpy as np
@@ -10,6 +11,8 @@ import pytest
 import silverball as sb
 from silverball.app.sound import Frame, RollingBall, mixdown, write_wav
 from silverball.app.sound.synth import RATE
+from silverball.drawing.film import write_film
+from silverball.drawing.video import Soundtrack, is_whole_mp4, require_ffmpeg
 from silverball.game.news import News, NewsKind
 from silverball.table import load_table
 from silverball.world.events import Event
@@ -136,3 +139,69 @@ def test_a_wav_file_holds_the_samples(tmp_path):
     with wave.open(str(tmp_path / "out.wav")) as file:
         assert (file.getnchannels(), file.getsampwidth(), file.getframerate()) == (2, 2, RATE)
         assert np.array_equal(np.frombuffer(file.readframes(RATE), "<i2").reshape(-1, 2), samples)
+
+
+# --- in an MP4 ------------------------------------------------------------------------------------------
+
+
+def pictures(count: int) -> list[np.ndarray]:
+    return [np.full((64, 48, 3), number, np.uint8) for number in range(count)]
+
+
+def decoded(path) -> np.ndarray:
+    """The sound of a film as ffmpeg reads it, float [sample, 2]."""
+    done = subprocess.run(
+        [require_ffmpeg(), "-v", "error", "-i", path, "-f", "s16le", "-ar", str(RATE), "-ac", "2", "-"],
+        capture_output=True,
+        check=True,
+    )
+    return np.frombuffer(done.stdout, "<i2").reshape(-1, 2).astype(float)
+
+
+def test_an_mp4_carries_the_sound(tmp_path):
+    pytest.importorskip("imageio_ffmpeg")
+    samples = mixdown(frames(60, {30: {"events": (hit("cylinder[0]", 120, z=-4.0),)}}), 1.0, TABLE, TICKS)
+    write_film(tmp_path / "out.mp4", pictures(60), lambda: Soundtrack(samples, RATE))
+    assert is_whole_mp4(tmp_path / "out.mp4")
+    heard = decoded(tmp_path / "out.mp4")
+    # Packing blurs: the hit at 0.5 s stands out of what little is before it, on the left.
+    left, right = (heard**2).sum(axis=0)
+    assert left > 4.0 * right
+    power = (heard**2).sum(axis=1)
+    assert power[: int(0.49 * RATE)].sum() < 1e-3 * power.sum()
+    assert len(heard) / RATE == pytest.approx(1.0, abs=0.05)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.mp4"]
+
+
+def test_the_sound_is_asked_for_after_the_last_picture(tmp_path):
+    pytest.importorskip("imageio_ffmpeg")
+    order = []
+
+    def drawn():
+        for number, picture in enumerate(pictures(10)):
+            order.append(number)
+            yield picture
+
+    def sound() -> Soundtrack:
+        order.append("sound")
+        return Soundtrack(mix(10 / 60, {}).astype(np.int16), RATE)
+
+    write_film(tmp_path / "out.mp4", drawn(), sound)
+    assert order == [*range(10), "sound"]
+
+
+def test_a_sound_that_cannot_be_made_leaves_no_film(tmp_path):
+    pytest.importorskip("imageio_ffmpeg")
+
+    def fail() -> Soundtrack:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        write_film(tmp_path / "out.mp4", pictures(10), fail)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_film_without_sound_has_no_sound_track(tmp_path):
+    pytest.importorskip("imageio_ffmpeg")
+    write_film(tmp_path / "out.mp4", pictures(10))
+    assert b"soun" not in (tmp_path / "out.mp4").read_bytes()  # the handler of ISO/IEC 14496-12, 8.4.3

@@ -114,9 +114,11 @@ class Sounds:
 
     def rolling(self, balls: Iterable[tuple[int, float, float, float]], dt: float, width: float) -> None:
         """Where the balls are: (id, x [u], z [u], speed [u/s]) each, so many seconds after the last time."""
+        if self._is_paused:
+            return
         self._play(self._voices.pass_time(dt))
         gains = self._rolling.update(balls, dt, width)
-        if self._mixer is not None and not self._is_paused:
+        if self._mixer is not None:
             self._mixer.roll(gains if self._volume > 0.0 else {}, self._volume)
 
     def menu(self, what: str) -> None:
