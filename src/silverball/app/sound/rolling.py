@@ -23,7 +23,7 @@ ROLL_SPEEDS = tuple(_RATIO**number for number in range(8))
 ROLL_SECONDS = 1.5
 """Length of a loop: long enough that one does not hear it come again."""
 
-ROLL_LEVEL = -27.0
+ROLL_LEVEL = -28.0
 """Loudness of a loop at full strength [dB]: well below a hit."""
 
 _TURN = 1.57  # [u] that a ball of the usual radius of 0.25 u goes in one turn
