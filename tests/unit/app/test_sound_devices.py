@@ -331,3 +331,11 @@ def test_a_program_that_ends_without_closing_ends_well():
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert "open" in done.stdout
+
+
+def test_sounds_do_not_wait_for_the_physics():
+    script = "import sys, silverball.app.sound; print('numba' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout.strip() == "False"

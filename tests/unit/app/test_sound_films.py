@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import silverball as sb
-from silverball.app.sound import Frame, RollingBall, mixdown, write_wav
+from silverball.app.sound import FilmSound, Frame, RollingBall, mixdown, write_wav
 from silverball.app.sound.synth import RATE
 from silverball.drawing.film import write_film
 from silverball.drawing.video import Soundtrack, is_whole_mp4, require_ffmpeg
@@ -108,7 +108,7 @@ def test_rolling_has_no_click_where_frames_meet():
 def game(seconds: float) -> np.ndarray:
     """A real game with two balls and restless paddles."""
     world = sb.World(sb.generate_table(seed=7), seed=7)
-    film = []
+    film = FilmSound(world.table, world.tick_rate, 60)
     for number in range(round(60 * seconds)):
         events = []
         buttons = (number % 40 < 15, number % 50 < 20)
@@ -116,8 +116,11 @@ def game(seconds: float) -> np.ndarray:
             world.create_ball()
             events += world.events[-1:]
         world.step(*buttons, ticks=4)
-        film.append(Frame.of(world, (number + 1) / 60, [*events, *world.events], buttons))
-    return mixdown(film, seconds, world.table, world.tick_rate)
+        film.note(world, [*events, *world.events], buttons)
+    track = film.track()
+    assert track.rate == RATE
+    assert len(track.samples) == round(seconds * RATE)
+    return track.samples
 
 
 def test_the_same_game_has_the_same_sound_twice():

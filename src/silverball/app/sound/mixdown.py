@@ -17,12 +17,12 @@ from silverball.app.sound.bank import FULL, Bank, Samples, make_bank, to_samples
 from silverball.app.sound.rolling import LANES, Gains, Rolling, RollingBall
 from silverball.app.sound.synth import RATE, Wave, single, soft_limit
 from silverball.app.sound.voices import Note, Voices
-from silverball.game.news import News
-from silverball.table import Table
-from silverball.world.events import Event
 
 if TYPE_CHECKING:
-    from silverball.world import World
+    from silverball.drawing.video import Soundtrack
+    from silverball.game.news import News
+    from silverball.table import Table
+    from silverball.world import Event, World
 
 VOLUME = 0.8
 """Strength of a film's sound: a film should not be louder than others."""
@@ -63,6 +63,38 @@ class Frame(NamedTuple):
     ) -> Self:
         """The frame that ends with a world as it is now, at a time in the film [s]."""
         return cls(time, world.time, tuple(events), rolling_balls(world), buttons, tuple(news))
+
+
+class FilmSound:
+    """Collects what is heard of a film, picture by picture.
+
+    Args:
+        table: On which is played.
+        tick_rate: Ticks per second of the world.
+        picture_rate: Pictures per second of the film.
+    """
+
+    def __init__(self, table: Table, tick_rate: int, picture_rate: float) -> None:
+        self._table, self._tick_rate, self._picture_rate = table, tick_rate, picture_rate
+        self._frames: list[Frame] = []
+
+    def note(
+        self,
+        world: World,
+        events: Iterable[Event],
+        buttons: tuple[bool, bool] = (False, False),
+        news: Iterable[News] = (),
+    ) -> None:
+        """The next picture: a world as it is now, what happened since the last one, the buttons now."""
+        time = (len(self._frames) + 1) / self._picture_rate
+        self._frames.append(Frame.of(world, time, events, buttons, news))
+
+    def track(self) -> Soundtrack:
+        """The sound of all pictures so far, for `write_film`."""
+        from silverball.drawing.video import Soundtrack
+
+        seconds = len(self._frames) / self._picture_rate
+        return Soundtrack(mixdown(self._frames, seconds, self._table, self._tick_rate), RATE)
 
 
 def rolling_balls(world: World) -> tuple[RollingBall, ...]:

@@ -10,12 +10,12 @@ from silverball.app.settings import Settings
 from silverball.app.sound.bank import make_bank
 from silverball.app.sound.rolling import Rolling
 from silverball.app.sound.voices import Note, Voices
-from silverball.game.news import News
-from silverball.table import Table
-from silverball.world.events import Event
 
 if TYPE_CHECKING:
     from silverball.app.sound.mixer import Mixer
+    from silverball.game.news import News
+    from silverball.table import Table
+    from silverball.world import Event
 
 
 def master_volume(settings: Settings) -> float:

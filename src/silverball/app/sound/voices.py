@@ -8,15 +8,17 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.sound.bank import Key
 from silverball.app.sound.placing import pan, strength_of
 from silverball.app.sound.recipes import RECIPES
 from silverball.app.sound.scale import BELL_STEPS, SCALE
 from silverball.game.news import News, NewsKind
-from silverball.table import Table
-from silverball.world.events import Event
+
+if TYPE_CHECKING:  # the window opens before the physics is loaded
+    from silverball.table import Table
+    from silverball.world import Event
 
 MOST_NEW = 4
 """Hits that begin to sound in one frame; the loudest are taken."""
