@@ -339,3 +339,20 @@ def test_sounds_do_not_wait_for_the_physics():
         [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True
     )
     assert done.stdout.strip() == "False"
+
+
+def test_a_device_that_goes_away_in_the_middle_ends_the_sounds_and_nothing_else(dummy):
+    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    pygame.mixer.quit()
+    dummy.note([hit()], TICKS, WIDTH)
+    assert dummy.trouble.startswith("no sound any more: the audio device is gone (")
+    use_all(dummy)
+
+
+def test_a_mixer_that_was_open_with_another_rate_is_opened_anew(monkeypatch):
+    monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
+    pygame.mixer.init(22050, -16, 1)
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert pygame.mixer.get_init() == (RATE, -16, 2)
+    sounds.close()
