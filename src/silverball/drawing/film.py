@@ -16,7 +16,7 @@ from typing import IO, TYPE_CHECKING, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.video import require_ffmpeg, write_mp4
+from silverball.drawing.video import Soundtrack, require_ffmpeg, write_mp4
 from silverball.errors import OutputError
 from silverball.wholefile import write_whole
 
@@ -73,15 +73,24 @@ def write_picture(path: Path, picture: Picture) -> None:
     _write_whole(path, lambda place: place.write_bytes(encoded.getbuffer()))
 
 
-def write_film(path: Path, pictures: Iterable[Picture]) -> None:
+def write_film(
+    path: Path, pictures: Iterable[Picture], sound: Callable[[], Soundtrack] | None = None
+) -> None:
     """Write pictures as GIF or MP4, at the rate of `FILM_RATES`.
+
+    Args:
+        path: Of the file; its ending says which.
+        pictures: All of one size.
+        sound: Asked after the last picture; a GIF is silent.
 
     Raises:
         OutputError: It cannot be written.
         MissingExtra: An MP4 needs the package imageio-ffmpeg.
     """
-    write = {".gif": _write_gif, ".mp4": _write_mp4}[path.suffix.lower()]
-    _write_whole(path, lambda place: write(place, iter(pictures)))
+    if path.suffix.lower() == ".gif":
+        _write_whole(path, lambda place: _write_gif(place, iter(pictures)))
+    else:
+        _write_whole(path, lambda place: _write_mp4(place, iter(pictures), sound))
 
 
 def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
@@ -145,9 +154,10 @@ def _pattern(shape: tuple[int, ...]) -> NDArray[np.int16]:
     return np.rint(DITHER * even).astype(np.int16)[..., None]
 
 
-def _write_mp4(place: Path, pictures: Iterator[Picture]) -> None:
+def _write_mp4(place: Path, pictures: Iterator[Picture], sound: Callable[[], Soundtrack] | None) -> None:
     first = next(pictures)
-    write_mp4(place, chain([first], pictures), (first.shape[1], first.shape[0]), FILM_RATES[".mp4"])
+    size = (first.shape[1], first.shape[0])
+    write_mp4(place, chain([first], pictures), size, FILM_RATES[".mp4"], sound)
 
 
 class _Sink:

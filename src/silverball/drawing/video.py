@@ -10,9 +10,9 @@ import os
 import re
 import subprocess
 import threading
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from silverball.errors import MissingExtra
 
 QUALITY = 15  # ffmpeg's -crf: 0 loses nothing, 23 is usual; chosen so that the thin bright lines stay clean
+SOUND_QUALITY = "160k"  # bits a second: no one hears a difference to more
 _NAMED = re.compile(r"^\[[^\]]*\] ")  # which part of ffmpeg speaks: "[out#0/mp4 @ 0x55…] "
 
 
@@ -36,21 +37,66 @@ def require_ffmpeg() -> Path:
     return Path(imageio_ffmpeg.get_ffmpeg_exe())
 
 
-def write_mp4(place: Path, pictures: Iterable[NDArray[np.uint8]], size: tuple[int, int], rate: int) -> None:
+class Soundtrack(NamedTuple):
+    """The sound of a film.
+
+    Attributes:
+        samples: int16 [sample, 2], left and right.
+        rate: Samples a second.
+    """
+
+    samples: NDArray[np.int16]
+    rate: int
+
+
+def write_mp4(
+    place: Path,
+    pictures: Iterable[NDArray[np.uint8]],
+    size: tuple[int, int],
+    rate: int,
+    sound: Callable[[], Soundtrack] | None = None,
+) -> None:
     """Write pictures of a width and height [pixel] as MP4, so many per second.
+
+    Args:
+        place: Of the file.
+        pictures: RGB, shape [row, column, 3].
+        size: Of each.
+        rate: Pictures a second.
+        sound: Asked after the last picture, so that it may be made of what happened in them.
 
     Raises:
         OSError: The film is not whole; the message is ffmpeg's own where it gave one.
     """
-    process = _start(place, size, rate)
+    raw = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}", "-r", str(rate), "-i", "-"]
+    as_film = ["-c:v", "libx264", "-crf", str(QUALITY), "-pix_fmt", "yuv420p"]
+    data = (np.ascontiguousarray(picture).data for picture in pictures)
+    if sound is None:
+        _run([*raw, *as_film], data, place)
+        return
+    silent = place.with_name(f"{place.stem}-silent{place.suffix}")
+    try:
+        _run([*raw, *as_film], data, silent)
+        track = sound()
+        # The pictures are copied as they are; only the sound is packed now.
+        with_sound = ["-i", os.fspath(silent), "-f", "s16le", "-ar", str(track.rate), "-ac", "2", "-i", "-"]
+        packed = ["-map", "0:v", "-map", "1:a", "-c:v", "copy", "-c:a", "aac", "-b:a", SOUND_QUALITY]
+        _run([*with_sound, *packed], [track.samples.astype("<i2").tobytes()], place)
+    finally:
+        silent.unlink(missing_ok=True)
+
+
+def _run(arguments: list[str], data: Iterable[Any], place: Path) -> None:
+    """Let ffmpeg make a film of what it is fed with."""
+    process = _start(arguments, place)
     complaints: list[bytes] = []
     # Read all the time: ffmpeg would wait for ever on a full pipe.
     reader = threading.Thread(target=lambda: complaints.extend(process.stderr), daemon=True)
     reader.start()
     try:
         try:
-            for picture in pictures:
-                process.stdin.write(np.ascontiguousarray(picture).data)
+            for piece in data:
+                process.stdin.write(piece)
             process.stdin.close()
         except BrokenPipeError:
             pass  # it has given up, and says why below
@@ -90,22 +136,18 @@ def is_whole_mp4(place: Path) -> bool:
     return at == whole and {b"moov", b"mdat"} <= kinds
 
 
-def _start(place: Path, size: tuple[int, int], rate: int) -> Any:
-    pictures_in = [
-        "-f",
-        "rawvideo",
-        "-pix_fmt",
-        "rgb24",
-        "-s",
-        f"{size[0]}x{size[1]}",
-        "-r",
-        str(rate),
-        "-i",
-        "-",
-    ]
-    film_out = ["-c:v", "libx264", "-crf", str(QUALITY), "-pix_fmt", "yuv420p", "-movflags", "+faststart"]
+def _start(arguments: list[str], place: Path) -> Any:
     return subprocess.Popen(
-        [os.fspath(require_ffmpeg()), "-y", "-v", "error", *pictures_in, *film_out, os.fspath(place)],
+        [
+            os.fspath(require_ffmpeg()),
+            "-y",
+            "-v",
+            "error",
+            *arguments,
+            "-movflags",
+            "+faststart",
+            os.fspath(place),
+        ],
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,

@@ -62,7 +62,9 @@ def make_bank() -> Bank:
     for number, (name, recipe) in enumerate(RECIPES.items()):
         for layer in range(recipe.layers):
             for variation in range(recipe.variations):
-                random = np.random.default_rng([number, layer, variation])
+                random = np.random.default_rng(
+                    [number, variation]
+                )  # layers differ in the blow, not in the thing
                 wave = finished(recipe.make(layer, random))
                 waves[Key(name, layer, variation)] = to_samples(levelled(wave, recipe.level))
     loops = (to_samples(levelled(roll_loop(number), ROLL_LEVEL)) for number in range(len(ROLL_SPEEDS)))

@@ -12,21 +12,23 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from silverball.app.sound.bank import FULL, Bank, Samples, make_bank, to_samples
-from silverball.app.sound.rolling import Gains, Rolling, RollingBall
-from silverball.app.sound.synth import RATE, soft_limit
+from silverball.app.sound.rolling import LANES, Gains, Rolling, RollingBall
+from silverball.app.sound.synth import RATE, Wave, single, soft_limit
 from silverball.app.sound.voices import Note, Voices
-from silverball.game.news import News
-from silverball.table import Table
-from silverball.world.events import Event
 
 if TYPE_CHECKING:
-    from silverball.world import World
+    from silverball.drawing.video import Soundtrack
+    from silverball.game.news import News
+    from silverball.table import Table
+    from silverball.world import Event, World
 
 VOLUME = 0.8
 """Strength of a film's sound: a film should not be louder than others."""
+
+
+LONGEST_FRAME = RATE // 2  # [sample] in which strengths change evenly; in a longer frame, then no more
 
 
 class Frame(NamedTuple):
@@ -63,6 +65,38 @@ class Frame(NamedTuple):
         return cls(time, world.time, tuple(events), rolling_balls(world), buttons, tuple(news))
 
 
+class FilmSound:
+    """Collects what is heard of a film, picture by picture.
+
+    Args:
+        table: On which is played.
+        tick_rate: Ticks per second of the world.
+        picture_rate: Pictures per second of the film.
+    """
+
+    def __init__(self, table: Table, tick_rate: int, picture_rate: float) -> None:
+        self._table, self._tick_rate, self._picture_rate = table, tick_rate, picture_rate
+        self._frames: list[Frame] = []
+
+    def note(
+        self,
+        world: World,
+        events: Iterable[Event],
+        buttons: tuple[bool, bool] = (False, False),
+        news: Iterable[News] = (),
+    ) -> None:
+        """The next picture: a world as it is now, what happened since the last one, the buttons now."""
+        time = (len(self._frames) + 1) / self._picture_rate
+        self._frames.append(Frame.of(world, time, events, buttons, news))
+
+    def track(self) -> Soundtrack:
+        """The sound of all pictures so far, for `write_film`."""
+        from silverball.drawing.video import Soundtrack
+
+        seconds = len(self._frames) / self._picture_rate
+        return Soundtrack(mixdown(self._frames, seconds, self._table, self._tick_rate), RATE)
+
+
 def rolling_balls(world: World) -> tuple[RollingBall, ...]:
     """The balls of a world, as rolling wants to know them."""
     return tuple(
@@ -83,7 +117,9 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
         tick_rate: Ticks per second of the world.
     """
     bank = make_bank()
-    total = np.zeros((max(round(seconds * RATE), 1), 2), np.float32)
+    loops = [single(np.concatenate([loop, loop[:LONGEST_FRAME]]) / FULL) for loop in bank.loops]
+    total = np.zeros((2, max(round(seconds * RATE), 1)), np.float32)
+    width = table.board.width
     voices, rolling = Voices(), Rolling()
     voices.begin(table)
     gains: Gains = {}
@@ -91,17 +127,20 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
     for frame in frames:
         dt = max(frame.time - before, 0.0)
         notes = voices.news(frame.news)
-        notes += voices.hits(frame.events, tick_rate, table.board.width, frame.world_time)
+        notes += voices.hits(frame.events, tick_rate, width, frame.world_time)
         # The buttons went down when the frame began: what they do is due within it.
         notes += [note._replace(ago=dt) for note in voices.buttons(*frame.buttons)]
         notes += voices.pass_time(dt) + voices.menu(frame.menu)
         for note in notes:
             _add_note(total, bank, note, frame.time - min(note.ago, dt))
-        following = rolling.update(frame.balls, dt, table.board.width)
-        _add_rolling(total, bank, (gains, following), (before, frame.time))
+        following = rolling.update(frame.balls, dt, width)
+        begin, end = (min(round(time * RATE), total.shape[1]) for time in (before, frame.time))
+        for start in range(begin, end, LONGEST_FRAME):
+            _add_rolling(total, loops, (gains, following), slice(start, min(start + LONGEST_FRAME, end)))
+            gains = following
         gains, before = following, max(frame.time, before)
     _fade_out(total)
-    return to_samples(soft_limit(VOLUME * total))
+    return to_samples(soft_limit(VOLUME * total).T)
 
 
 def write_wav(path: Path, samples: Samples) -> None:
@@ -117,30 +156,27 @@ def write_wav(path: Path, samples: Samples) -> None:
         file.writeframes(samples.astype("<i2").tobytes())
 
 
-def _add_note(total: NDArray[np.float32], bank: Bank, note: Note, time: float) -> None:
+def _add_note(total: Wave, bank: Bank, note: Note, time: float) -> None:
     begin = max(round(time * RATE), 0)
-    samples = bank.waves[note.key][: max(len(total) - begin, 0)]
-    strengths = np.array([note.left, note.right], np.float32) / np.float32(FULL)
-    total[begin : begin + len(samples)] += samples[:, None] * strengths
+    samples = bank.waves[note.key][: max(total.shape[1] - begin, 0)]
+    for ear, strength in zip(total, (note.left, note.right), strict=True):
+        ear[begin : begin + len(samples)] += np.float32(strength / FULL) * samples
 
 
-def _add_rolling(
-    total: NDArray[np.float32], bank: Bank, gains: tuple[Gains, Gains], times: tuple[float, float]
-) -> None:
-    """Add the loops from one time to another [s], with strengths that change evenly."""
-    begin, end = (min(max(round(time * RATE), 0), len(total)) for time in times)
-    if end <= begin:
-        return
-    share = (np.arange(end - begin, dtype=np.float32) / np.float32(end - begin))[:, None]
-    for lane, loop in gains[0].keys() | gains[1].keys():
-        first, last = (
-            np.array(one.get((lane, loop), (0.0, 0.0)), np.float32) / np.float32(FULL) for one in gains
-        )
+def _add_rolling(total: Wave, loops: list[Wave], gains: tuple[Gains, Gains], span: slice) -> None:
+    """Add the loops to a span of samples, with strengths that change evenly from one to the other."""
+    count = span.stop - span.start
+    share = np.arange(count, dtype=np.float32) / np.float32(max(count, 1))
+    for lane, loop in sorted(gains[0].keys() | gains[1].keys()):
+        length = len(loops[loop]) - LONGEST_FRAME
         # Lanes start at different places of the loop, or two balls of one speed would sound like one.
-        at = (begin + lane * RATE // 2 + np.arange(end - begin)) % len(bank.loops[loop])
-        total[begin:end] += bank.loops[loop][at, None] * (first + share * (last - first))
+        begin = (span.start + lane * length // LANES) % length
+        piece = loops[loop][begin : begin + count]
+        firsts, lasts = (one.get((lane, loop), (0.0, 0.0)) for one in gains)
+        for ear, first, last in zip(total[:, span], firsts, lasts, strict=True):
+            np.add(ear, piece * (np.float32(first) + share * np.float32(last - first)), out=ear)
 
 
-def _fade_out(total: NDArray[np.float32]) -> None:
-    count = min(RATE // 50, len(total))
-    total[len(total) - count :] *= np.linspace(1.0, 0.0, count, dtype=np.float32)[:, None]
+def _fade_out(total: Wave) -> None:
+    count = min(RATE // 50, total.shape[1])
+    total[:, total.shape[1] - count :] *= np.linspace(1.0, 0.0, count, dtype=np.float32)

@@ -48,6 +48,7 @@ class Mixer:
         self._loops: list[pygame.mixer.Sound] = []
 
     def _open(self) -> None:
+        pygame.mixer.quit()  # whoever opened it before may have asked for another rate
         for number, buffer in enumerate(BUFFERS):
             try:
                 with _without_messages():
@@ -98,8 +99,11 @@ class Mixer:
             self._roll[number].stop()  # as good as silent by now
         for number, (left, right) in wanted.items():
             channel = self._roll[number]
+            was_busy = (
+                channel.get_busy()
+            )  # asked first: it may end in between, and would start at full strength
             channel.set_volume(left, right)
-            if not channel.get_busy():
+            if not was_busy:
                 channel.play(self._loops[number % len(ROLL_SPEEDS)], loops=-1)
         self._rolling = wanted
 

@@ -23,7 +23,7 @@ ROLL_SPEEDS = tuple(_RATIO**number for number in range(8))
 ROLL_SECONDS = 1.5
 """Length of a loop: long enough that one does not hear it come again."""
 
-ROLL_LEVEL = -27.0
+ROLL_LEVEL = -28.0
 """Loudness of a loop at full strength [dB]: well below a hit."""
 
 _TURN = 1.57  # [u] that a ball of the usual radius of 0.25 u goes in one turn
@@ -64,8 +64,9 @@ LANES = 3
 
 _STILL = 0.15  # [u/s] below it a ball is silent
 _FULL = 20.0  # [u/s] at which a ball is at full strength
-_LOUDER, _SOFTER = 0.045, 0.09  # [s] in which strength follows by 63 %
-_SILENT = 0.004  # strength below which a lane is silent
+_LOUDER, _SOFTER = 0.08, 0.12  # [s] in which the strength of a loop follows by 63 %
+_MOST_SHARE = 0.25  # of a change in one frame: the mixer sets strengths in steps, and large ones click
+_SILENT = 0.008  # strength below which a loop that is no longer wanted ends
 
 
 class RollingBall(NamedTuple):
@@ -94,61 +95,50 @@ class Rolling:
     def update(self, balls: Iterable[tuple[int, float, float, float]], seconds: float, width: float) -> Gains:
         """Which loops are heard after so many more seconds; balls as `RollingBall`, the table's width [u]."""
         there = {ball[0]: ball for ball in balls}
-        for lane in self._lanes:
-            ball = there.pop(lane.ball, None)
-            lane.follow(ball, seconds, width)
-        for ball in there.values():
-            free = min(self._lanes, key=lambda lane: (lane.is_taken, lane.strength))
-            if not free.is_taken:
-                free.begin(ball, width)
-                free.follow(ball, seconds, width)
+        followed = [(lane, there.pop(lane.ball, None)) for lane in self._lanes]
+        for number, (lane, ball) in enumerate(followed):
+            if ball is None and there and not lane.gains:
+                lane.ball, found = there.popitem()
+                followed[number] = (lane, found)
+        for lane, ball in followed:
+            lane.follow({} if ball is None else _wanted(ball[3], pan(ball[2], width)), seconds)
         return {
-            (number, loop): gains for number, lane in enumerate(self._lanes) for loop, gains in lane.gains()
+            (number, loop): gains
+            for number, lane in enumerate(self._lanes)
+            for loop, gains in lane.gains.items()
         }
 
 
 class _Lane:
+    """One ball's loops, and how strong they are by now."""
+
     def __init__(self) -> None:
         self.ball = 0
-        self.is_taken = False
-        self.strength = 0.0
-        self._place = 0.0  # among the loops, 0 the slowest
-        self._left = self._right = math.sqrt(0.5)
+        self.gains: dict[int, tuple[float, float]] = {}
 
-    def begin(self, ball: tuple[int, float, float, float], width: float) -> None:
-        self.ball, self.strength = ball[0], 0.0
-        self._place = _place(ball[3])
-        self._left, self._right = pan(ball[2], width)
-
-    def follow(self, ball: tuple[int, float, float, float] | None, seconds: float, width: float) -> None:
-        self.is_taken = ball is not None
-        wanted = 0.0
-        if ball is not None:
-            _, _, z, speed = ball
-            wanted = min(speed / _FULL, 1.0) ** 0.6 if speed > _STILL else 0.0
-            share = 1.0 - math.exp(-seconds / _LOUDER)
-            self._place += share * (_place(speed) - self._place)
-            left, right = pan(z, width)
-            self._left += share * (left - self._left)
-            self._right += share * (right - self._right)
-        time = _LOUDER if wanted > self.strength else _SOFTER
-        self.strength += (1.0 - math.exp(-seconds / time)) * (wanted - self.strength)
-        if wanted == 0.0 and self.strength < _SILENT:
-            self.strength = 0.0
-
-    def gains(self) -> list[tuple[int, tuple[float, float]]]:
-        if self.strength == 0.0:
-            return []
-        loop = min(int(self._place), len(ROLL_SPEEDS) - 2)
-        turn = 0.5 * math.pi * (self._place - loop)  # equal power: two different noises add up as squares
-        weights = ((loop, math.cos(turn)), (loop + 1, math.sin(turn)))
-        return [
-            (number, (self.strength * weight * self._left, self.strength * weight * self._right))
-            for number, weight in weights
-            if self.strength * weight > 0.5 * _SILENT
-        ]
+    def follow(self, wanted: dict[int, tuple[float, float]], seconds: float) -> None:
+        louder, softer = (min(1.0 - math.exp(-seconds / time), _MOST_SHARE) for time in (_LOUDER, _SOFTER))
+        gains = {}
+        for loop in self.gains.keys() | wanted.keys():
+            left, right = self.gains.get(loop, (0.0, 0.0))
+            to_left, to_right = wanted.get(loop, (0.0, 0.0))
+            left += (louder if to_left > left else softer) * (to_left - left)
+            right += (louder if to_right > right else softer) * (to_right - right)
+            if loop in wanted or max(left, right) > _SILENT:
+                gains[loop] = (left, right)
+        self.gains = gains
 
 
-def _place(speed: float) -> float:
-    """Where a speed lies among the loops: 2.5 is halfway, in ratio, between the third and the fourth."""
-    return min(max(math.log(max(speed, 1e-3) / ROLL_SPEEDS[0]) / _STEP, 0.0), len(ROLL_SPEEDS) - 1.0)
+def _wanted(speed: float, ears: tuple[float, float]) -> dict[int, tuple[float, float]]:
+    """The loops of a ball that has long had a speed [u/s]."""
+    if speed <= _STILL:
+        return {}
+    strength = min(speed / _FULL, 1.0) ** 0.6
+    place = min(max(math.log(speed) / _STEP, 0.0), len(ROLL_SPEEDS) - 1.0)
+    loop = min(int(place), len(ROLL_SPEEDS) - 2)
+    turn = 0.5 * math.pi * (place - loop)  # equal power: two different noises add up as squares
+    return {
+        number: (strength * weight * ears[0], strength * weight * ears[1])
+        for number, weight in ((loop, math.cos(turn)), (loop + 1, math.sin(turn)))
+        if strength * weight > _SILENT
+    }

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from silverball.app.settings import Settings
 from silverball.app.sound.bank import make_bank
 from silverball.app.sound.rolling import Rolling
 from silverball.app.sound.voices import Note, Voices
-from silverball.game.news import News
-from silverball.table import Table
-from silverball.world.events import Event
 
 if TYPE_CHECKING:
     from silverball.app.sound.mixer import Mixer
+    from silverball.game.news import News
+    from silverball.table import Table
+    from silverball.world import Event
 
 
 def master_volume(settings: Settings) -> float:
@@ -89,15 +89,15 @@ class Sounds:
     def change(self, settings: Settings) -> None:
         """Follow the settings; muting ends at once what is being played."""
         self._volume = master_volume(settings)
-        if self._mixer is not None and self._volume == 0.0:
-            self._mixer.fade_all()
+        if self._volume == 0.0:
+            self._try(lambda mixer: mixer.fade_all())
 
     # --- what happens ---------------------------------------------------------------------------------
 
     def begin(self, table: Table) -> None:
         """Another game begins, on a table, whose paddles say when they reach their stops."""
         self._voices.begin(table)
-        self._rolling.reset()
+        self._end_rolling()
 
     def tell(self, news: Iterable[News]) -> None:
         """What the game says; before `note`, so that bells know of the hits in a row."""
@@ -114,10 +114,11 @@ class Sounds:
 
     def rolling(self, balls: Iterable[tuple[int, float, float, float]], dt: float, width: float) -> None:
         """Where the balls are: (id, x [u], z [u], speed [u/s]) each, so many seconds after the last time."""
+        if self._is_paused:
+            return
         self._play(self._voices.pass_time(dt))
         gains = self._rolling.update(balls, dt, width)
-        if self._mixer is not None and not self._is_paused:
-            self._mixer.roll(gains if self._volume > 0.0 else {}, self._volume)
+        self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, self._volume))
 
     def menu(self, what: str) -> None:
         """What a menu says: "move", "choose", "back", "refuse", "high_score" or "attract"."""
@@ -126,15 +127,30 @@ class Sounds:
     def pause(self) -> None:
         """Time stands still: rolling fades, what was struck rings out, menus are still heard."""
         self._is_paused = True
-        self._rolling.reset()
-        if self._mixer is not None:
-            self._mixer.fade_rolling()
+        self._end_rolling()
 
     def resume(self) -> None:
         """Time goes on."""
         self._is_paused = False
 
+    def _end_rolling(self) -> None:
+        self._rolling.reset()
+        self._try(lambda mixer: mixer.fade_rolling())
+
     def _play(self, notes: list[Note]) -> None:
-        if self._mixer is not None and self._volume > 0.0:
+        def play(mixer: Mixer) -> None:
             for note in notes:
-                self._mixer.play(note, self._volume)
+                mixer.play(note, self._volume)
+
+        if notes and self._volume > 0.0:
+            self._try(play)
+
+    def _try(self, action: Callable[[Mixer], None]) -> None:
+        """Ask something of the mixer; if its device is gone, the game goes on in silence."""
+        if self._mixer is None:
+            return
+        try:
+            action(self._mixer)
+        except Exception as error:
+            self._mixer = None
+            self.trouble = f"no sound any more: the audio device is gone ({error})"

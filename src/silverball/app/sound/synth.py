@@ -20,8 +20,10 @@ Wave: TypeAlias = NDArray[np.floating[Any]]
 
 FADE_IN = 0.0004  # [s] at the start of every sound: shorter clicks, longer takes the edge off a hit
 FADE_OUT = 0.012  # [s] at its end
-NATURAL = -60.0  # [dB] a decay is cut where it has fallen so far
+NATURAL = -80.0  # [dB] a decay is cut where it has fallen so far
 _BLOCK = 256  # samples in which decaying tones are worked out at once
+_EDGE = 480  # samples in which a layer of a mix ends
+_FALL = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, _EDGE + 1) / _EDGE)).astype(np.float32)
 
 
 class Partial(NamedTuple):
@@ -141,12 +143,16 @@ def envelope(seconds: float, rise: float, decay: float) -> Wave:
 
 
 def mix(seconds: float, *layers: tuple[float, float, Wave]) -> Wave:
-    """Waves on top of each other: (start [s], strength, wave)."""
+    """Waves on top of each other, each ending softly: (start [s], strength, wave)."""
     total = np.zeros(sample_count(seconds), np.float32)
     for start, strength, wave in layers:
         at = round(start * RATE)
         part = wave[: max(len(total) - at, 0)]
+        fall = min(_EDGE, len(part))
         total[at : at + len(part)] += np.float32(strength) * part
+        total[at + len(part) - fall : at + len(part)] -= (
+            strength * part[len(part) - fall :] * _FALL[_EDGE - fall :]
+        )
     return total
 
 

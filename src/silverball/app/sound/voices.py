@@ -8,15 +8,17 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.sound.bank import Key
 from silverball.app.sound.placing import pan, strength_of
 from silverball.app.sound.recipes import RECIPES
 from silverball.app.sound.scale import BELL_STEPS, SCALE
 from silverball.game.news import News, NewsKind
-from silverball.table import Table
-from silverball.world.events import Event
+
+if TYPE_CHECKING:  # the window opens before the physics is loaded
+    from silverball.table import Table
+    from silverball.world import Event
 
 MOST_NEW = 4
 """Hits that begin to sound in one frame; the loudest are taken."""
@@ -150,21 +152,21 @@ class Voices:
         if not name or event.kind == "jam":
             return None
         is_hit = event.kind in ("hit", "ball_hit")
-        strength = max(strength_of(event.speed), least if is_hit else 0.0)
+        strength = max(strength_of(event.speed), least if is_hit else 0.0) * self._freshness(event.ball, time)
         if strength < SOFTEST or self._is_again(event.ball, event.part, time, strength):
             return None
-        strength *= self._freshness(event.ball, time)
         layer = 1 if event.speed >= HARD else 0
         if is_hit and name in ("cylinder", "prism"):
             self._climb(event.tick, time)
             if name == "cylinder":
                 layer = step_of(self._run)
-        return (name, layer, strength) if strength >= SOFTEST else None
+        return name, layer, strength
 
     def _is_again(self, ball: int, part: str, time: float, strength: float) -> bool:
         before, as_strong = self._last.get((ball, part), (-math.inf, 0.0))
         is_again = 0.0 <= time - before < AGAIN_SECONDS and strength < 2.0 * as_strong
-        self._last[ball, part] = (time, max(strength, as_strong) if is_again else strength)
+        if not is_again:
+            self._last[ball, part] = (time, strength)
         return is_again
 
     def _freshness(self, ball: int, time: float) -> float:

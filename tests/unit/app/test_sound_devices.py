@@ -1,0 +1,358 @@
+"""Through pygame's own mixer: no device, a device that swallows all, and one that writes it into a file."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import numpy as np
+import pygame
+import pytest
+
+from silverball.app.settings import Settings
+from silverball.app.sound import Sounds
+from silverball.app.sound.bank import Key, make_bank
+from silverball.app.sound.mixer import HIT_CHANNELS, Mixer
+from silverball.app.sound.rolling import LANES, ROLL_SPEEDS
+from silverball.app.sound.sounds import master_volume
+from silverball.app.sound.synth import RATE
+from silverball.app.sound.voices import Note
+from silverball.game.news import News, NewsKind
+from silverball.world.events import Event
+
+WIDTH, TICKS = 10.0, 240
+LOUD = Settings(volume=10)
+TOO_MUCH = HIT_CHANNELS + LANES * len(ROLL_SPEEDS)
+DRIVER_BUFFER = 512  # [sample]
+BYTES = 4  # of a sample in both ears
+
+
+def hit(part="board.left", *, ball=1, tick=0, z=0.0, speed=20.0) -> Event:
+    return Event("hit", part, ball, tick, 0.0, (0.0, 1.0, z), (1.0, 0.0, 0.0), speed)
+
+
+@pytest.fixture
+def dummy(monkeypatch):
+    """Open sounds on a device that swallows everything."""
+    monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert sounds.trouble == ""
+    sounds.wait()
+    yield sounds
+    sounds.close()
+
+
+# --- no device ----------------------------------------------------------------------------------------
+
+
+def use_all(sounds: Sounds) -> None:
+    """Call everything that a window calls."""
+    sounds.begin(_classic())
+    sounds.change(Settings(volume=3))
+    sounds.tell([News(NewsKind.TILT, 1)])
+    sounds.note([hit(), hit("cylinder[0]")], TICKS, WIDTH)
+    sounds.buttons(True, False)
+    sounds.rolling([(1, 0.0, 0.0, 10.0)], 1 / 60, WIDTH)
+    sounds.menu("choose")
+    sounds.pause()
+    sounds.resume()
+    sounds.rolling([], 1 / 60, WIDTH)
+    sounds.wait()
+    sounds.close()
+    sounds.close()
+
+
+def _classic():
+    from silverball.table import load_table
+
+    return load_table("classic")
+
+
+def test_without_a_device_it_is_silent_and_says_why_in_one_sentence(monkeypatch, capfd):
+    monkeypatch.setenv("SDL_AUDIODRIVER", "nonexistent")
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert sounds.trouble.startswith("no sound: no audio device could be opened (")
+    assert "\n" not in sounds.trouble
+    use_all(sounds)
+    assert sounds.voices == 0
+    assert capfd.readouterr().err == ""
+
+
+def test_without_pygames_mixer_it_is_silent(monkeypatch):
+    class Missing:
+        def __getattr__(self, name):
+            raise NotImplementedError(f"mixer module not available: {name}")
+
+    monkeypatch.setattr(pygame, "mixer", Missing())
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert "mixer module not available" in sounds.trouble
+    use_all(sounds)
+
+
+def test_before_it_is_opened_it_is_silent_without_a_complaint():
+    sounds = Sounds(LOUD)
+    use_all(sounds)
+    assert sounds.trouble == ""
+
+
+def test_a_device_that_refuses_a_small_buffer_gets_a_larger_one(monkeypatch):
+    tried = []
+    init = pygame.mixer.init
+
+    def refuse_small(rate, size, channels, buffer, **more):
+        tried.append(buffer)
+        if buffer < 2000:
+            raise pygame.error("too small")
+        init(rate, size, channels, buffer, **more)
+
+    monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
+    monkeypatch.setattr(pygame.mixer, "init", refuse_small)
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert sounds.trouble == ""
+    assert tried == sorted(tried)
+    assert len(tried) > 1
+    sounds.close()
+
+
+def test_sounds_can_be_closed_and_opened_again(dummy):
+    dummy.close()
+    assert pygame.mixer.get_init() is None
+    dummy.open()
+    dummy.wait()
+    dummy.menu("choose")
+    assert dummy.voices == 1
+
+
+# --- a device that swallows everything ------------------------------------------------------------------
+
+
+def test_the_device_is_stereo_of_16_bits(dummy):
+    assert pygame.mixer.get_init() == (RATE, -16, 2)
+
+
+def test_what_happens_is_played(dummy):
+    dummy.note([hit(), hit("cylinder[1]")], TICKS, WIDTH)
+    dummy.buttons(True, True)
+    dummy.menu("move")
+    assert dummy.voices == 5
+
+
+def test_a_storm_of_a_thousand_events_has_few_voices(dummy):
+    parts = [f"cylinder[{number}]" for number in range(40)]
+    for frame in range(100):
+        events = [
+            hit(parts[(10 * frame + number) % 40], ball=number % 2, tick=4 * frame, speed=5.0 + number % 7)
+            for number in range(10)
+        ]
+        dummy.note(events, TICKS, WIDTH)
+        dummy.buttons(frame % 2 == 0, frame % 2 == 1)
+        dummy.rolling([(1, 0.0, -3.0, 15.0), (2, 0.0, 3.0, 7.0)], 1 / 60, WIDTH)
+        assert dummy.voices <= HIT_CHANNELS + 2 * LANES
+    assert dummy.voices > 4
+    assert pygame.mixer.get_num_channels() == TOO_MUCH
+
+
+def test_the_oldest_sounds_make_room(dummy):
+    for number in range(3 * HIT_CHANNELS):
+        dummy.note([hit("cylinder[0]", ball=number, tick=100 * number)], TICKS, WIDTH)
+        time.sleep(0.03)  # two frames: what fades is gone
+    before = dummy.voices
+    dummy.menu("choose")
+    assert dummy.voices == before + 1 <= HIT_CHANNELS
+
+
+def test_muted_nothing_is_played_and_what_was_playing_ends(dummy):
+    dummy.menu("high_score")
+    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    assert dummy.voices > 1
+    dummy.change(Settings(muted=True))
+    dummy.note([hit()], TICKS, WIDTH)
+    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    deadline = time.monotonic() + 5.0
+    while dummy.voices and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert dummy.voices == 0
+
+
+def test_a_pause_ends_rolling_but_menus_are_heard(dummy):
+    ball = [(1, 0.0, 0.0, 10.0)]
+    dummy.rolling(ball, 0.1, WIDTH)
+    assert dummy.voices > 0
+    dummy.pause()
+    deadline = time.monotonic() + 5.0
+    while dummy.voices and time.monotonic() < deadline:
+        time.sleep(0.01)
+    dummy.rolling(ball, 0.1, WIDTH)
+    assert dummy.voices == 0
+    dummy.menu("move")
+    assert dummy.voices == 1
+    dummy.resume()
+    dummy.rolling(ball, 0.1, WIDTH)
+    assert dummy.voices > 1
+
+
+def test_volume_follows_the_settings():
+    volumes = [master_volume(Settings(volume=step)) for step in range(11)]
+    assert volumes[0] == 0.0
+    assert volumes[-1] == 1.0
+    assert all(one < other for one, other in itertools.pairwise(volumes))
+    assert master_volume(Settings(volume=10, muted=True)) == 0.0
+
+
+# --- a device that writes a file --------------------------------------------------------------------------
+
+
+@pytest.fixture
+def disk(tmp_path, monkeypatch):
+    """Open sounds on SDL's device that writes all it plays into a file."""
+    monkeypatch.setenv("SDL_AUDIODRIVER", "disk")
+    monkeypatch.setenv("SDL_DISKAUDIOFILE", str(tmp_path / "played.raw"))
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert sounds.trouble == ""
+    sounds.wait()
+    yield sounds, tmp_path / "played.raw"
+    sounds.close()
+
+
+def written(file: Path) -> int:
+    """Samples that the device has written so far."""
+    return file.stat().st_size // BYTES
+
+
+def played(file: Path) -> np.ndarray:
+    """Everything that was played, int [sample, 2]."""
+    return np.fromfile(file, "<i2").reshape(-1, 2).astype(int)
+
+
+def test_a_scripted_scene_is_heard_when_and_where_it_happens(disk):
+    sounds, file = disk
+    scene = [("board.left", -4.5), ("cylinder[0]", 0.0), ("triangular_prism[0]", 4.5), ("paddle.left", -2.0)]
+    times = []
+    for number, (part, z) in enumerate(scene):
+        time.sleep(0.2)
+        before = written(file)
+        sounds.note([hit(part, tick=number, z=z)], TICKS, WIDTH)
+        times.append((before, written(file)))
+        time.sleep(0.15)
+        sounds._mixer.fade_all()
+        time.sleep(0.15)
+    sounds.close()
+    wave = played(file)
+    loud = np.flatnonzero(np.abs(wave).max(axis=1) > 300)
+    onsets = loud[np.flatnonzero(np.diff(loud, prepend=-RATE) > RATE // 20)]
+    assert len(onsets) == len(scene)
+    for onset, (before, after), (_, z) in zip(onsets, times, scene, strict=True):
+        # The file is written in blocks of up to 4096 bytes, so what it holds may be two buffers old.
+        assert before - DRIVER_BUFFER <= onset <= after + 5 * DRIVER_BUFFER
+        left, right = (wave[onset : onset + RATE // 10] ** 2).sum(axis=0) ** 0.5
+        assert (right - left) * z >= 0.0
+        if abs(z) > 4.0:
+            assert max(left, right) > 3.0 * min(left, right)
+
+
+def test_a_note_has_its_strength_from_its_very_first_sample(disk):
+    sounds, file = disk
+    mixer: Mixer = sounds._mixer
+    wave = pygame.sndarray.array(mixer._sounds[Key("cylinder", 2, 0)]).astype(int)[: RATE // 5]
+    time.sleep(0.05)
+    mixer.play(Note(Key("cylinder", 2, 0), 0.2, 0.6), 1.0)
+    time.sleep(0.4)
+    sounds.close()
+    heard = played(file)
+    # The mixer's steps are 1/255, and it cuts fractions off.
+    begin = np.flatnonzero(np.abs(heard).max(axis=1) > 0)[0] - np.flatnonzero(np.abs(wave).max(axis=1) > 4)[0]
+    assert abs(begin) < RATE
+    best = min(
+        np.abs(heard[at : at + len(wave)] - wave * [51 / 255, 153 / 255]).max()
+        for at in range(max(begin - 40, 0), begin + 40)
+    )
+    assert best <= 3.0
+
+
+def test_rolling_has_no_clicks_in_the_real_mixer(disk):
+    sounds, file = disk
+
+    def a_frame(balls) -> None:
+        sounds.rolling(balls, 1 / 60, WIDTH)
+        before, deadline = written(file), time.monotonic() + 5.0
+        while (
+            written(file) == before and time.monotonic() < deadline
+        ):  # a frame is never shorter than a buffer
+            time.sleep(0.005)
+
+    for number in range(60):
+        a_frame([(1, 0.0, 0.0, (2.0, 14.0, 5.0)[number // 20])])
+    for _ in range(60):
+        a_frame([])
+    assert sounds.voices == 0
+    sounds.close()
+    wave = played(file)[:, 0]
+    assert np.abs(wave).max() > 500
+    inside = max(np.abs(np.diff(loop.astype(int))).max() for loop in make_bank().loops)
+    assert np.abs(np.diff(wave)).max() <= inside
+
+
+def test_volume_zero_writes_silence(disk):
+    sounds, file = disk
+    sounds.change(Settings(volume=0))
+    sounds.note([hit()], TICKS, WIDTH)
+    sounds.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    time.sleep(0.2)
+    sounds.close()
+    assert len(played(file)) > 0
+    assert not played(file).any()
+
+
+def test_a_program_that_ends_without_closing_ends_well():
+    script = """
+        from silverball.app.settings import Settings
+        from silverball.app.sound import Sounds
+        sounds = Sounds(Settings())
+        sounds.open()
+        print("open", sounds.trouble)
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", textwrap.dedent(script)],
+        env={**os.environ, "SDL_AUDIODRIVER": "dummy"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "open" in done.stdout
+
+
+def test_sounds_do_not_wait_for_the_physics():
+    script = "import sys, silverball.app.sound; print('numba' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout.strip() == "False"
+
+
+def test_a_device_that_goes_away_in_the_middle_ends_the_sounds_and_nothing_else(dummy):
+    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    pygame.mixer.quit()
+    dummy.note([hit()], TICKS, WIDTH)
+    assert dummy.trouble.startswith("no sound any more: the audio device is gone (")
+    use_all(dummy)
+
+
+def test_a_mixer_that_was_open_with_another_rate_is_opened_anew(monkeypatch):
+    monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
+    pygame.mixer.init(22050, -16, 1)
+    sounds = Sounds(LOUD)
+    sounds.open()
+    assert pygame.mixer.get_init() == (RATE, -16, 2)
+    sounds.close()
