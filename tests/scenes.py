@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from boards import full_table
+from boards import CLASSIC, RANDOM, full_table
 from silverball.errors import BoardFull, NoRoom
-from silverball.table import Table, generate_table, load_table
+from silverball.table import Table, generate_table
 from silverball.world import World, WorldBatch
 
 BEAT = 15
@@ -50,12 +50,12 @@ class Scene(NamedTuple):
 
 
 def classic() -> Table:
-    return load_table("classic")
+    return CLASSIC
 
 
 @cache
 def generated(seed: int) -> Table:
-    return generate_table(seed)
+    return generate_table(seed, RANDOM)
 
 
 def rolling(seed: int) -> Table:

@@ -54,13 +54,16 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
     if player == PlayerKind.REFLEX:
         left = colliders[board.collider_first + Part.LEFT_PADDLE]
         right = colliders[board.collider_first + Part.RIGHT_PADDLE]
-        return strikes(world, board, left), strikes(world, board, right)
+        return strikes(world, board, left, LOOK_AHEAD), strikes(world, board, right, LOOK_AHEAD)
     return False, False
 
 
 @kernel
-def strikes(world: Any, board: Any, c: Any) -> bool:
-    """Whether the reflex player lifts this paddle: a ball will be just above its outer half in a moment."""
+def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
+    """Whether the reflex player lifts this paddle: a ball will be just above its outer half.
+
+    `ahead` [s] is how far he looks ahead; what the ball meets until then he does not foresee.
+    """
     if c.kind != Kind.PADDLE:
         return False
     sine, cosine = sine_cosine(c.angle_rest)
@@ -68,8 +71,8 @@ def strikes(world: Any, board: Any, c: Any) -> bool:
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        dx = ball.x + ball.vx * LOOK_AHEAD - c.x
-        dz = (ball.z + ball.vz * LOOK_AHEAD - c.z) * c.side
+        dx = ball.x + (ball.vx + 0.5 * ball.pull_x * ahead) * ahead - c.x
+        dz = (ball.z + (ball.vz + 0.5 * ball.pull_z * ahead) * ahead - c.z) * c.side
         along = dx * sine + dz * cosine  # from the pivot to the tip
         above = dx * cosine - dz * sine - board.ball_radius
         if NEAR_SHARE * c.z1 < along < c.z1 + board.ball_radius and -0.5 < above < STRIKE_HEIGHT:

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from boards import RANDOM
 from silverball.errors import TableError
 from silverball.table import (
     Board,
@@ -19,7 +20,6 @@ from silverball.table import (
     check_table,
     dump_table,
     generate_table,
-    load_table,
     parse_table,
 )
 from silverball.table.check import HOP
@@ -27,7 +27,7 @@ from silverball.table.geometry import Shapes, core_distances, distances, outline
 from silverball.table.reach import space
 from silverball.table.traps import pockets
 
-EMPTY = load_table("random").model_copy(update={"random": None})  # guides, corners and paddles
+EMPTY = RANDOM.model_copy(update={"random": None})  # guides, corners and paddles
 
 
 def with_parts(base=EMPTY, **parts):
@@ -443,7 +443,7 @@ def test_the_vectorised_paddle_is_the_paddle():
 )
 def test_a_recipe_that_cannot_work_names_the_rule(changes, path):
     recipe = RandomRecipe().model_copy(update=changes)
-    table = load_table("random").model_copy(update={"random": recipe})
+    table = RANDOM.model_copy(update={"random": recipe})
     assert [problem.path for problem in check_table(table)] == [path]
     with pytest.raises(TableError, match=path.replace(".", r"\.")):
         parse_table(dump_table(table))

@@ -6,6 +6,7 @@ import sys
 
 import pytest
 
+from boards import CLASSIC
 from silverball.errors import TableError, UnknownTable
 from silverball.table import (
     Table,
@@ -128,9 +129,9 @@ def test_a_recipe_may_be_named_or_given():
 
 
 def test_a_recipe_may_be_a_file_and_keeps_its_standing_parts(tmp_path):
-    crowded = load_table("classic").model_copy(
+    crowded = CLASSIC.model_copy(
         update={
-            "cylinder": load_table("classic").cylinder[:1],
+            "cylinder": CLASSIC.cylinder[:1],
             "random": RULES.model_copy(update={"triangular_prisms": 1, "cylinders": 1, "wall_gap": 0.8}),
         }
     )
