@@ -31,13 +31,14 @@ def demo(
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
+    theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
 ) -> None:
     """Let the program play by itself and make a film of it; no display is needed.
 
     Example: `silverball demo --out demo.gif --seconds 20`
     """
-    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, force=force)
+    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, theme=theme, force=force)
 
 
 def make_demo(
@@ -47,17 +48,20 @@ def make_demo(
     seed: int = 7,
     size: int | None = None,
     *,
+    theme: str = "neon",
     force: bool = False,
 ) -> None:
     """Make a film, or a picture, of the program playing; say where it is."""
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
+    from silverball.cli.look import baking, theme_named
     from silverball.drawing import Renderer, best_size
     from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
     from silverball.errors import OutputError
     from silverball.table import generate_table, load_table
 
+    look = theme_named(theme)
     check_output(out, (".gif", ".mp4", ".png"), force=force)
     ending = out.suffix.lower()
     board = load_table(table)
@@ -78,7 +82,8 @@ def make_demo(
 
         warm_up(board)
         make_player("reflex").press(World(board))
-    renderer = Renderer(board, (width, height), board_seed=board_seed)
+    with baking() as progress:
+        renderer = Renderer(board, (width, height), theme=look, board_seed=board_seed, progress=progress)
     with Progress(console=errors, transient=True) as bar:
         task = bar.add_task(f"playing into {out.name}", total=seconds)
 
@@ -89,6 +94,7 @@ def make_demo(
             write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, advance))[-1])
         else:
             write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], advance))
+    renderer.close()
     typer.echo(f"wrote {out}")
 
 

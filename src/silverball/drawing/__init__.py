@@ -1,13 +1,11 @@
 """What a table looks like: a moment of play in, a picture out. There is no window in here.
 
     camera.py, build.py, themes.py   where everything lies, how tall it is, which colours it has
-    scene.py, stage.py, cells.py     the table as arrays, beside the shapes that the physics collides with
-    solids.py, march.py              how far is everything, what does a ray meet
-    art.py, surfaces.py, shade.py    what is it like there, how bright is it
-    bake.py, still.py, paddles.py    pictures of what stands still, and of paddles at every angle
-    workshop.py, studio.py           who bakes, and what is taken from the store instead (store.py, pictures.py)
+    scene.py                         the table as arrays, beside the shapes that the physics collides with
+    kernels/                         rays, surfaces and light, compiled
+    still.py, paddles.py             pictures of what stands still, and of paddles at every angle
+    workshop.py, studio.py           who bakes, and what comes from the store instead (store.py, pictures.py)
     sketch.py, background.py         a picture at once, and a better one soon (compiling.py)
-    patches.py, chrome.py            what moves is laid over it: paddles, lights, balls
     compose.py, effects.py           one moment, put together
     renderer.py                      the face of it all
 

@@ -1,6 +1,7 @@
-"""How does a picture get better while a game is played? A thread bakes it; another process compiles, if need be.
+"""How does a picture get better while a game is played? A thread bakes, another process compiles.
 
-    compiled code there? (else: a process of low priority makes it)  →  still table  →  paddles  →  the empty table
+    compiled code there? (else: a process of low priority makes it)
+    →  still table  →  paddles  →  the empty table
 
 Compiling holds Python's lock, so it never happens in the game's own process. If it fails, the sketch stays.
 """

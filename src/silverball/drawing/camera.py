@@ -2,7 +2,8 @@
 
 A pinhole camera stands above the player's end and looks up the table. Pixel coordinates (across, down) are
 real numbers; pixel (i, j) covers i … i + 1 and j … j + 1. A point of space is (x, y, z) [u] with y = 0 on the
-playfield. With d the way from the eye to a point, and the camera's unit vectors f (forward), r (right), u (up):
+playfield. With d the way from the eye to a point, and the camera's unit vectors f (forward), r (right), u
+(up):
 
     across = middle + focal·(d·r)/(d·f),   down = middle − focal·(d·u)/(d·f)
 
@@ -141,8 +142,7 @@ class _Content:
             for y in (low, build.rail_height)
         ]
         points += [
-            _project(build.half_length, build.top, z, *stand)
-            for z in (-build.half_width, build.half_width)
+            _project(build.half_length, build.top, z, *stand) for z in (-build.half_width, build.half_width)
         ]
         us, vs = [u for u, _ in points], [v for _, v in points]
         room = DEFAULT_ROOM * (max(us) - min(us))

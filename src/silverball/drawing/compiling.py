@@ -1,6 +1,7 @@
 """Is the drawing compiled, and how is it? `python -m silverball.drawing.compiling` fills the cache of code.
 
-One tiny picture is baked and one moment composed, so exactly those kernels are compiled that every picture calls.
+One tiny picture is baked and one moment composed, so exactly those kernels are compiled that every picture
+calls.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import os
 import tempfile
 from pathlib import Path
 
-LAST_KERNEL = "add_spots"  # that a moment calls: when it is compiled, all are
+LAST_KERNEL = "draw_ball"  # that a moment calls: when it is compiled, all are
 NICENESS = 10
 
 

@@ -2,31 +2,31 @@
 
     lights of hits → paddles → shadows of balls → trails → balls → sparks
 
-Each layer sees what lies below it, heights included, so a ball is hidden by a raised paddle and its shadow climbs
-onto an obstacle. Only the rectangles that the last frame changed are put back before the next one.
+Each layer sees what lies below it, heights included, so a ball is hidden by a raised paddle and its shadow
+climbs onto an obstacle. Only the rectangles that the last frame changed are put back before the next one.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pygame
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.chrome import cast_shadow, draw_ball
 from silverball.drawing.effects import Effects, Spot
+from silverball.drawing.kernels.chrome import cast_shadow, draw_ball
+from silverball.drawing.kernels.patches import add_light, add_spots, lay_paddle
 from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.pictures import PaddleSprite, Still
-from silverball.drawing.patches import add_light, add_spots, lay_paddle, restore
 from silverball.drawing.scene import make_scene
 from silverball.drawing.sketch import Pen, sketch_paddle
 from silverball.drawing.still import without_obstacles
 from silverball.drawing.themes import Color, Theme
-from silverball.table import Table
+from silverball.table import Paddle, Table
 
-MOST_SPOTS = 512
-TRAIL_LIGHT, SPARK_LIGHT = 0.34, 1.0
+MOST_SPOTS = 64  # of one trail or one hit
+TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom [pixel]; the last two excluded
 
@@ -54,12 +54,13 @@ class Composer:
         self._theme = theme
         self._still = still
         self._paddle = paddle
-        self._paddles = {part.side: part for part in table.paddle}
+        self._paddles: dict[str, Paddle] = {part.side: part for part in table.paddle}
         scene = make_scene(without_obstacles(table), camera, theme)
         self._stage, self._inks = scene.stage, scene.inks
         width, height = camera.size
         self._bytes = bytearray(still.pixels.tobytes())
         self._frame = np.frombuffer(self._bytes, np.uint8).reshape(height, width, 3)
+        self._rows = self._frame.reshape(height, 3 * width)
         self._height = still.height.copy()
         self._changed: list[Box] = []
         self._spots = np.zeros((MOST_SPOTS, 7))
@@ -68,8 +69,10 @@ class Composer:
 
     def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
-        for box in self._changed:
-            restore(self._frame, self._height, self._still.pixels, self._still.height, *box)
+        for left, top, right, bottom in self._changed:
+            box = (slice(max(top, 0), max(bottom, 0)), slice(max(left, 0), max(right, 0)))
+            self._frame[box] = self._still.pixels[box]
+            self._height[box] = self._still.height[box]
         self._changed.clear()
         for part, strength in effects.flashes(moment.time):
             self._light_up(part, strength)
@@ -79,17 +82,20 @@ class Composer:
         balls = [*moment.balls, *effects.dives(moment.time)]
         for ball in balls:
             self._shade(ball)
-        self._add_spots(effects.trails(moment), self._theme.trail, TRAIL_LIGHT)
+        for trail in effects.trails(moment):
+            self._add_spots(trail, self._theme.trail, TRAIL_LIGHT)
         for ball in sorted(balls, key=lambda ball: -ball.x):  # the far one first
             self._draw_ball(ball)
-        self._add_spots(effects.sparks(moment.time), self._theme.spark, SPARK_LIGHT)
+        for sparks in effects.sparks(moment.time):
+            self._add_spots(sparks, self._theme.spark, SPARK_LIGHT)
         return self.surface
 
     def _light_up(self, part: str, strength: float) -> None:
         flash = self._still.flashes.get(part)
         if flash is not None:
             rows, columns = flash.pixels.shape[:2]
-            add_light(self._frame, flash.left, flash.top, flash.pixels, round(256 * strength))
+            flat = flash.pixels.reshape(rows, 3 * columns)
+            add_light(self._rows, flash.left, flash.top, flat, round(256 * strength))
             self._changed.append((flash.left, flash.top, flash.left + columns, flash.top + rows))
 
     def _lay_paddle(self, side: str, angle: float) -> None:
@@ -121,26 +127,14 @@ class Composer:
         rows, columns = box[3] - box[1], box[2] - box[0]
         if rows > self._before.shape[0] or columns > self._before.shape[1]:
             self._before = np.zeros((rows + 4, columns + 4, 3), np.uint8)
-        draw_ball(
-            self._frame, self._height, self._before, self._stage, self._inks, ball.x, ball.z, r, *box
-        )
+        draw_ball(self._frame, self._height, self._before, self._stage, self._inks, ball.x, ball.z, r, *box)
         self._changed.append(box)
 
-    def _add_spots(self, spots: Iterable[Spot], color: Color, light: float) -> None:
-        rows = [
-            (spot.x, spot.y, spot.z, spot.radius, *(light * spot.strength * value for value in color))
-            for spot in spots
-        ][:MOST_SPOTS]
-        if not rows:
+    def _add_spots(self, spots: Sequence[Spot], color: Color, light: float) -> None:
+        if not spots:
             return
-        self._spots[: len(rows)] = rows
-        add_spots(self._frame, self._height, self._stage, self._spots, len(rows))
-        self._changed += [self._spot_box(row) for row in rows]
-
-    def _spot_box(self, spot: Sequence[float]) -> Box:
-        across, down = self._camera.to_pixel(spot[0], spot[2], spot[1])
-        size = spot[3] * self._camera.scale * 1.4 + 3.0
-        return (
-            int(across - size) - 1, int(down - size) - 1, int(across + size) + 2, int(down + size) + 2
-        )  # fmt: skip
-
+        count = min(len(spots), MOST_SPOTS)
+        for row, spot in zip(self._spots, spots, strict=False):
+            shine = light * spot.strength
+            row[:] = (*spot[:4], shine * color[0], shine * color[1], shine * color[2])
+        self._changed.append(add_spots(self._frame, self._height, self._stage, self._spots, count))

@@ -10,7 +10,7 @@ TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies 
 
 
 def corner_behind(board: Board, wall: SlantWall) -> tuple[tuple[float, float], ...] | None:
-    """The triangle (x, z) [u], counter-clockwise, behind a slant wall that runs from a side border to the top.
+    """The triangle (x, z) [u], counter-clockwise, behind a slant wall from a side border to the top.
 
     None for every other wall.
     """

@@ -1,4 +1,4 @@
-"""What is seen for a while? Hits light up a part and strike sparks, balls leave trails and roll under the apron.
+"""What is seen for a while? Hits light up a part and strike sparks, balls leave trails.
 
 All of it is a function of the world's own time, so that a film of the same game always looks the same and a
 paused game holds still.
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 
 FLASH_SECONDS = 0.45
 TRAIL_SECONDS = 0.13
-TRAIL_SPACING = 0.5  # between two spots of a trail, in radii of a ball
+TRAIL_SPACING = 0.7  # between two spots of a trail, in radii of a ball
 DIVE_SECONDS = 0.2
 LEAST_DIVE_SPEED = 2.0  # [u/s]
 SPARK_SPEED = 6.0  # [u/s] of an impact that strikes sparks
 SPARK_SECONDS = 0.38
-MOST_SPARKS = 14  # of one hit
+MOST_SPARKS = 12  # of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
 MOST_HITS = 24  # whose sparks are remembered
 GOLDEN = 0.6180339887498949  # its multiples, without the whole part, are spread evenly over 0 to 1
@@ -109,8 +109,8 @@ class Effects:
         for dive in self._dives:
             yield BallAt(0, dive.x - dive.speed * max(time - dive.time, 0.0), dive.z)
 
-    def trails(self, moment: Moment) -> Iterator[Spot]:
-        """Note where the balls are, and give the spots of their trails."""
+    def trails(self, moment: Moment) -> Iterator[list[Spot]]:
+        """Note where the balls are, and give the spots of each one's trail."""
         for id_ in self._paths.keys() - {ball.id for ball in moment.balls}:
             del self._paths[id_]
         for ball in moment.balls:
@@ -122,7 +122,7 @@ class Effects:
             while moment.time - path[0][0] > TRAIL_SECONDS:
                 path.popleft()
             if self.is_full:
-                yield from self._spots(path, moment.time)
+                yield list(self._spots(path, moment.time))
 
     def _spots(self, path: deque[tuple[float, float, float]], now: float) -> Iterator[Spot]:
         """Spots at even distances along a path, the older the smaller."""
@@ -138,28 +138,22 @@ class Effects:
                 along += spacing
             along -= length
 
-    def sparks(self, time: float) -> Iterator[Spot]:
-        """The sparks of hard hits: where each is now follows from when it was struck."""
-        if not self.is_full:
-            return
-        for hit in self._sparks:
-            age = time - hit.time
-            if not 0.0 <= age < SPARK_SECONDS:
+    def sparks(self, time: float) -> Iterator[list[Spot]]:
+        """The sparks of each hard hit: where they are now follows from when they were struck."""
+        if self.is_full:
+            for hit in self._sparks:
+                if 0.0 <= time - hit.time < SPARK_SECONDS:
+                    yield list(self._sparks_of(hit, time - hit.time))
+
+    def _sparks_of(self, hit: _Hit, age: float) -> Iterator[Spot]:
+        for index in range(min(4 + int(hit.speed), MOST_SPARKS)):
+            chance = (GOLDEN * (index + 1) + 0.317 * hit.number) % 1.0
+            other = (7.0 * chance + 0.113 * index) % 1.0
+            fresh = 1.0 - age / (SPARK_SECONDS * (0.5 + 0.5 * other))
+            if fresh <= 0.0:
                 continue
-            count = min(4 + int(hit.speed), MOST_SPARKS)
-            for index in range(count):
-                chance = (GOLDEN * (index + 1) + 0.317 * hit.number) % 1.0
-                other = (7.0 * chance + 0.113 * index) % 1.0
-                fresh = 1.0 - age / (SPARK_SECONDS * (0.5 + 0.5 * other))
-                if fresh <= 0.0:
-                    continue
-                direction = hit.normal + (chance - 0.5) * 2.6
-                way = (2.0 + 0.32 * hit.speed * (0.4 + other)) * age * (1.0 - 0.9 * age)
-                rise = self._radius + (1.0 + 3.0 * other) * age - 0.5 * SPARK_GRAVITY * age * age
-                yield Spot(
-                    hit.x + way * math.sin(direction),
-                    max(rise, 0.03),
-                    hit.z + way * math.cos(direction),
-                    self._radius * (0.12 + 0.22 * fresh),
-                    fresh,
-                )
+            direction = hit.normal + (chance - 0.5) * 2.6
+            way = (2.0 + 0.32 * hit.speed * (0.4 + other)) * age * (1.0 - 0.9 * age)
+            rise = self._radius + (1.0 + 3.0 * other) * age - 0.5 * SPARK_GRAVITY * age * age
+            x, z = hit.x + way * math.sin(direction), hit.z + way * math.cos(direction)
+            yield Spot(x, max(rise, 0.03), z, self._radius * (0.12 + 0.22 * fresh), fresh)

@@ -1,21 +1,22 @@
 """What does a paddle look like at every angle? Small pictures that are laid over the table, board by board.
 
-A sprite says for each pixel how much of what is there stays (its shadow takes some away, its body all), what is
-added, and how high the paddle is there:  new = old · stays / 255 + added.
+A sprite says for each pixel how much of what is there stays (its shadow takes some away, its body all), what
+is added, and how high the paddle is there: new = old · stays / 255 + added.
 """
 
 from __future__ import annotations
 
 import math
+
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.bake import new_canvas
 from silverball.drawing.camera import Camera
-from silverball.drawing.cells import list_cells
+from silverball.drawing.kernels.bake import new_canvas
+from silverball.drawing.kernels.cells import list_cells
+from silverball.drawing.kernels.stage import HALO, NEAR, Scene
 from silverball.drawing.pictures import PaddleSprite
 from silverball.drawing.scene import make_scene
-from silverball.drawing.stage import HALO, NEAR, Scene
 from silverball.drawing.still import to_bytes, without_obstacles
 from silverball.drawing.themes import Theme
 from silverball.drawing.workshop import Workshop
@@ -83,7 +84,7 @@ class PaddleBaker:
         self._camera = camera
         self._theme = theme
         self._workshop = workshop
-        self._paddles = {paddle.side: paddle for paddle in table.paddle}
+        self._paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
         self._bare = make_scene(without_obstacles(table), camera, theme)
         self._with = make_scene(without_obstacles(table), camera, theme, (0.0, 0.0))
         self._canvas = new_canvas(camera.size)
@@ -148,7 +149,7 @@ class PaddleBaker:
 def _sprite(
     left: int, top: int, bare: NDArray[np.float32], seen: NDArray[np.float32], height: NDArray[np.float32]
 ) -> PaddleSprite:
-    """What must stay and be added so that the bare table becomes the one with a paddle; cut to what differs."""
+    """What must stay and be added so that a bare table becomes one with a paddle, cut to what differs."""
     below, above = to_bytes(bare).astype(np.float32), to_bytes(seen).astype(np.float32)
     dimmed = np.clip((above.sum(axis=2) + 1.0) / (below.sum(axis=2) + 1.0), 0.0, 1.0)
     # At its edges a pixel is part paddle: half of what is below stays, and what is missing is added.
@@ -169,7 +170,8 @@ def _sprite(
             empty = np.zeros((0, 0), np.uint8)
             return PaddleSprite(left, top, empty, np.zeros((0, 0, 3), np.uint8), empty.astype(np.float32))
     box = (slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1))
-    stays[~changed], added[~changed] = 255.0, 0.0
+    stays = np.where(changed, np.minimum(stays, 254.0), 255.0)  # 255 says: nothing here
+    added[~changed] = 0.0
     return PaddleSprite(
         left + box[1].start,
         top + box[0].start,

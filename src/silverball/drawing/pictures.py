@@ -89,9 +89,7 @@ def empty_key(table: Table, camera: Camera, theme: Theme) -> str:
 
 def paddle_key(table: Table, camera: Camera, theme: Theme) -> str:
     """The name of the pictures of a table's paddles; obstacles play no part in them."""
-    return key_of(
-        "paddles", table.model_dump(include={"board", "slant_wall", "paddle"}), camera.size, theme
-    )
+    return key_of("paddles", table.model_dump(include={"board", "slant_wall", "paddle"}), camera.size, theme)
 
 
 def load_still(store: Store, key: str) -> Still | None:
@@ -100,7 +98,9 @@ def load_still(store: Store, key: str) -> Still | None:
     if arrays is None or not {"pixels", "height"} <= arrays.keys():
         return None
     flashes = {
-        name.removeprefix("flash "): Flash(*(int(n) for n in arrays["at " + name[6:]]), pixels)
+        name.removeprefix("flash "): Flash(
+            int(arrays["at " + name[6:]][0]), int(arrays["at " + name[6:]][1]), pixels
+        )
         for name, pixels in arrays.items()
         if name.startswith("flash ")
     }

@@ -1,8 +1,8 @@
 """How does a moment of play become a picture, at once and at its best? The face of the drawing.
 
-In the foreground (films, pictures for agents, tests) everything is baked before it is needed. In the background
-(a window) there is a picture at once: the one from the store, or a sketch; a thread brings the rest, and
-compiled code is made in another process, for a compiler in a thread would make the game stutter.
+In the foreground (films, pictures for agents, tests) everything is baked before it is needed. In the
+background (a window) there is a picture at once: the one from the store, or a sketch; a thread brings the
+rest, and compiled code is made in another process, for a compiler in a thread would make the game stutter.
 """
 
 from __future__ import annotations

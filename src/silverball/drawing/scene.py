@@ -1,8 +1,8 @@
 """What does the marcher see of a table? Its parts as arrays: the physics' own shapes, and how they look.
 
-A scene holds the very records that balls collide with (`COLLIDER` of physics/layout.py), in the same order and
-with the same numbers, beside each one its `LOOK`: what it is built as, how tall, which colour. Colours are
-linear light here, not the screen's values.
+A scene holds the very records that balls collide with (`COLLIDER` of physics/layout.py), in the same order
+and with the same numbers, beside each one its `LOOK`: what it is built as, how tall, which colour. Colours
+are linear light here, not the screen's values.
 """
 
 from __future__ import annotations
@@ -16,14 +16,15 @@ from numpy.typing import NDArray
 
 from silverball.drawing.build import Build
 from silverball.drawing.camera import Camera
-from silverball.drawing.cells import list_cells
 from silverball.drawing.corner import corner_behind
+from silverball.drawing.kernels.cells import list_cells
+from silverball.drawing.kernels.stage import CELL, HALO, LIGHT, LOOK, MOST_CELLS, NEAR, STAGE, Form, Scene
 from silverball.drawing.lettering import lettering
-from silverball.drawing.stage import CELL, HALO, LIGHT, LOOK, MOST_CELLS, NEAR, STAGE, Form, Scene
 from silverball.drawing.themes import Color, Theme, in_turn
 from silverball.physics.layout import COLLIDER, Kind, Part, records
 from silverball.table import Table
 from silverball.world.compile import compile_tables
+
 
 def make_scene(
     table: Table, camera: Camera, theme: Theme, angles: tuple[float | None, float | None] = (None, None)
@@ -51,17 +52,15 @@ def make_scene(
     )
 
 
-def _set_looks(
-    looks: NDArray[Any], shapes: NDArray[Any], table: Table, build: Build, theme: Theme
-) -> None:
+def _set_looks(looks: NDArray[Any], shapes: NDArray[Any], table: Table, build: Build, theme: Theme) -> None:
     forms = {Kind.SLANT_WALL: Form.WALL, Kind.TRIANGULAR_PRISM: Form.PRISM, Kind.CYLINDER: Form.CYLINDER}
     heights = {
         Form.WALL: build.wall_height, Form.PRISM: build.prism_height, Form.CYLINDER: build.body_height
     }  # fmt: skip
-    counts = {form: 0 for form in heights}
+    counts = dict.fromkeys(heights, 0)
     colors = {Form.WALL: (theme.wall,), Form.PRISM: theme.prisms, Form.CYLINDER: theme.cylinders}
     for look, shape in zip(looks, shapes, strict=True):
-        form = forms.get(int(shape["kind"]), Form.ABSENT)
+        form = forms.get(Kind(int(shape["kind"])), Form.ABSENT)
         look["form"], look["side"], look["cosine"] = form, 1.0, 1.0
         if form is Form.ABSENT:
             continue

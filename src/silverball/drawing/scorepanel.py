@@ -73,7 +73,9 @@ class ScorePanel:
         for index in range(self._max_balls):
             spot = (inset + radius + round(2.9 * radius * index), lower)
             rim = 0 if index < balls else max(radius // 4, 1)
-            pygame.draw.circle(plain, palette.TEXT if index < balls else palette.FAINT_TEXT, spot, radius, rim)
+            pygame.draw.circle(
+                plain, palette.TEXT if index < balls else palette.FAINT_TEXT, spot, radius, rim
+            )
         if self._board_seed is not None:
             label = line("BOARD", small, palette.LABEL)
             plain.blit(label, label.get_rect(midright=(box.width - inset, upper)))

@@ -1,13 +1,14 @@
 """What is shown before anything is baked? The same table in flat colours, within a tenth of a second.
 
-Everything lies where the baked picture will have it: the same camera, the same heights. Only pygame and NumPy are
-needed, no compiled code.
+Everything lies where the baked picture will have it: the same camera, the same heights. Only pygame and NumPy
+are needed, no compiled code.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 
 import numpy as np
 import pygame
@@ -15,7 +16,8 @@ from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
 from silverball.drawing.corner import corner_behind
-from silverball.drawing.themes import Art, Color, Theme, in_turn
+from silverball.drawing.kernels.stage import Art
+from silverball.drawing.themes import Color, Theme, in_turn
 from silverball.table import Paddle, SlantWall, Table
 
 Point = tuple[float, float]
@@ -65,7 +67,7 @@ class Pen:
         pygame.draw.polygon(self.surface, color, places)
 
     def block(self, corners: Sequence[Point], height: float, top: Color, low: float = 0.0) -> None:
-        """A footprint, counter-clockwise, raised from a height to another; sides that are turned away are left."""
+        """A footprint, counter-clockwise, raised to a height; sides that are turned away are left out."""
         for (x0, z0), (x1, z1) in zip(corners, (*corners[1:], corners[0]), strict=True):
             outward = z0 - z1  # x of the outward normal of a counter-clockwise outline
             if outward < 0.0:
@@ -154,31 +156,26 @@ def _apron(pen: Pen, theme: Theme) -> None:
     side = build.half_width - build.thickness
     plate = [(-build.half_length, -side), (-build.half_length, side), (build.apron_top, side)]
     pen.block([*plate, (build.apron_top, -side)], build.apron_height, theme.apron)
-    pen.face(
-        [(-build.half_length, -wide, high), (-build.half_length, wide, high), (-long, wide, high), (-long, -wide, high)],
-        theme.rail,
-    )  # fmt: skip
+    near = -build.half_length
+    pen.face([(near, -wide, high), (near, wide, high), (-long, wide, high), (-long, -wide, high)], theme.rail)
 
 
-def _parts(pen: Pen, table: Table, theme: Theme) -> Iterable[tuple[float, Callable[[], None]]]:
+def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callable[[], None]]]:
     """How far up each part is, and how it is drawn."""
     build = pen.camera.build
     for wall in table.slant_wall:
         corner = corner_behind(table.board, wall)
         if corner is not None:
-            yield 1e9, lambda corner=corner: pen.block(corner, 0.8 * build.wall_height, dim(theme.apron, 0.8))  # type: ignore[misc]
+            yield 1e9, partial(pen.block, corner, 0.8 * build.wall_height, dim(theme.apron, 0.8))
         middle = 0.5 * (wall.start[0] + wall.end[0])
-        yield middle, lambda wall=wall: pen.block(_bar(wall), build.wall_height, theme.wall)  # type: ignore[misc]
+        yield middle, partial(pen.block, _bar(wall), build.wall_height, theme.wall)
     for index, prism in enumerate(table.triangular_prism):
         corners, color = prism.corners(), in_turn(theme.prisms, index)
-        yield (
-            sum(x for x, _ in corners) / 3.0,
-            lambda corners=corners, color=color: pen.block(corners, build.prism_height, color),  # type: ignore[misc]
-        )
+        yield sum(x for x, _ in corners) / 3.0, partial(pen.block, corners, build.prism_height, color)
     for index, cylinder in enumerate(table.cylinder):
         x, z, radius = cylinder.circle()
         color = in_turn(theme.cylinders, index)
-        yield x, lambda x=x, z=z, radius=radius, color=color: _bumper(pen, x, z, radius, color, theme)  # type: ignore[misc]
+        yield x, partial(_bumper, pen, x, z, radius, color, theme)
 
 
 def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Theme) -> None:

@@ -1,7 +1,7 @@
 """What does the table look like when nothing moves? Its picture, its heights, and what hits add to it.
 
-A random board differs from an empty one only around its obstacles. If the empty board is at hand, nothing else is
-baked, and the result is the same to the last bit.
+A random board differs from an empty one only around its obstacles. If the empty board is at hand, nothing
+else is baked, and the result is the same to the last bit.
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing import bake
-from silverball.drawing.bake import Canvas, new_canvas
 from silverball.drawing.camera import Camera
+from silverball.drawing.kernels import bake
+from silverball.drawing.kernels.bake import Canvas, new_canvas
+from silverball.drawing.kernels.stage import HALO, Form, Scene
 from silverball.drawing.pictures import Flash, Still
 from silverball.drawing.scene import make_scene
-from silverball.drawing.stage import HALO, Form, Scene
 from silverball.drawing.themes import Theme
 from silverball.drawing.workshop import Workshop
 from silverball.physics.layout import Part
@@ -109,5 +109,15 @@ def _flashes(
         left, top, right, bottom = _box(camera, scene.shapes[index], reach)
         pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
         workshop.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
-        flashes[name] = Flash(left, top, pixels)
+        flashes[name] = Flash(left, top, _smoothed(pixels))
     return flashes
+
+
+def _smoothed(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The mean of each pixel and its eight neighbours: light has no hard edges, and one ray a pixel has."""
+    for axis in (0, 1):
+        wide = np.pad(pixels.astype(np.uint16), [(1, 1) if a == axis else (0, 0) for a in range(3)], "edge")
+        size = pixels.shape[axis]
+        before, here, after = (wide.take(range(shift, shift + size), axis) for shift in range(3))
+        pixels = ((before + here + after) // 3).astype(np.uint8)
+    return np.ascontiguousarray(pixels)

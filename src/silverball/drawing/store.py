@@ -84,13 +84,13 @@ def usual_folder() -> Path:
 
 
 def key_of(*parts: object) -> str:
-    """The name of a picture that depends on these values, whose text is all that they are, and on our sources."""
+    """The name of a picture that depends on these values, which `repr` tells in full, and on our sources."""
     return hashlib.sha256(repr((_sources(), parts)).encode()).hexdigest()[:32]
 
 
 @cache
 def _sources() -> str:
     digest = hashlib.sha256(np.__version__.encode())
-    for source in (*sorted((PACKAGE / "drawing").glob("*.py")), PACKAGE / "physics" / "shapes.py"):
+    for source in (*sorted((PACKAGE / "drawing").rglob("*.py")), PACKAGE / "physics" / "shapes.py"):
         digest.update(source.read_bytes())
     return digest.hexdigest()

@@ -1,7 +1,7 @@
 """Who sees to it that a picture is there? The store is asked first, else it is baked and stored.
 
-This is the first module of the drawing that needs compiled code, so it is imported only when something is baked
-or composed.
+This is the first module of the drawing that needs compiled code, so it is imported only when something is
+baked or composed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from silverball.drawing.camera import Camera
     from silverball.drawing.store import Store
     from silverball.drawing.themes import Theme
-    from silverball.table import Table
+    from silverball.table import Paddle, Table
 
 
 class Studio:
@@ -42,15 +42,13 @@ class Studio:
         workshop: Who bakes.
     """
 
-    def __init__(
-        self, table: Table, camera: Camera, theme: Theme, store: Store, workshop: Workshop
-    ) -> None:
+    def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, workshop: Workshop) -> None:
         self._table = table
         self._camera = camera
         self._theme = theme
         self._store = store
         self._workshop = workshop
-        self._paddles = {paddle.side: paddle for paddle in table.paddle}
+        self._paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
         self._is_mirrored = is_mirrored(table, camera)
         self._key = paddle_key(table, camera, theme)
         self._sprites = load_paddles(store, self._key)
@@ -87,7 +85,9 @@ class Studio:
 
     def bake_paddles(self, progress: Callable[[float], None] = lambda share: None) -> None:
         """Bake all that is missing of the paddles, the stops first, and store them."""
-        wanted = [(side, step) for side, paddle in self._paddles.items() for step in in_turns(step_count(paddle))]
+        wanted = [
+            (side, step) for side, paddle in self._paddles.items() for step in in_turns(step_count(paddle))
+        ]
         wanted.sort(key=lambda sprite: in_turns(step_count(self._paddles[sprite[0]])).index(sprite[1]))
         for number, (side, step) in enumerate(wanted):
             if (side, step) not in self._sprites:

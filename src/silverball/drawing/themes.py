@@ -7,25 +7,11 @@ colours, so that neighbours differ.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import TypeAlias
 
+from silverball.drawing.kernels.stage import Art, Frame
+
 Color: TypeAlias = tuple[int, int, int]
-
-
-class Art(IntEnum):
-    """What is painted onto the playfield."""
-
-    COSMOS = 0  # rays, clouds of stars, planets
-    WOOD = 1  # veneer with a compass rose
-    PLAIN = 2  # a calm ground with few lines
-
-
-class Frame(IntEnum):
-    """What rails and slant walls are made of."""
-
-    METAL = 0
-    WOOD = 1
 
 
 @dataclass(frozen=True)

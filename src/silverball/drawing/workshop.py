@@ -1,6 +1,7 @@
-"""Who bakes? A few threads, some rows at a time, so that work can be stopped at any moment and be seen growing.
+"""Who bakes? A few threads, some rows at a time, so that the work can be stopped at any moment.
 
-Kernels let go of Python's lock, so a game goes on beside them; on Linux the threads also stand back behind it.
+Kernels let go of Python's lock, so a game goes on beside them; on Linux the threads also stand back behind
+it.
 """
 
 from __future__ import annotations
@@ -15,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing import bake
-from silverball.drawing.bake import Canvas
-from silverball.drawing.stage import Scene
+from silverball.drawing.kernels import bake
+from silverball.drawing.kernels.bake import Canvas
+from silverball.drawing.kernels.stage import Scene
 
 ROWS = 4  # baked in one call: some 20 ms
 NICENESS = 10  # of threads that bake behind a game

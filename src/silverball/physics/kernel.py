@@ -37,7 +37,7 @@ from numba.core.registry import CPUDispatcher
 
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
-DRAWING = ("physics", "drawing")
+DRAWING = ("physics", "drawing/kernels")
 KERNEL_PACKAGES = (*PLAY, "drawing")  # a kernel elsewhere must be added here; a test sees to it
 KEEP_SECONDS = 30 * 24 * 3600.0
 
@@ -115,13 +115,14 @@ def forget_old_code() -> None:
     folder = cache_folder()
     if folder is None:
         return
+    keep = (folder, cache_folder(DRAWING))
     for other in folder.parent.iterdir():
-        if other not in (folder, cache_folder(DRAWING)) and time.time() - other.stat().st_mtime > KEEP_SECONDS:
+        if other not in keep and time.time() - other.stat().st_mtime > KEEP_SECONDS:
             shutil.rmtree(other, ignore_errors=True)
 
 
 def _compile(function: F, **more: bool) -> F:
-    in_drawing = function.__module__.startswith("silverball.drawing.")
+    in_drawing = function.__module__.startswith("silverball.drawing.kernels.")
     folder = cache_folder(DRAWING if in_drawing else PLAY)
     options: dict[str, Any] = {
         "cache": folder is not None,

@@ -1,7 +1,7 @@
 """What is painted onto the playfield? For a place of it: the paint, and the light that shines through it.
 
-Everything is worked out from (x, z) and the size of a pixel there, so that edges are smooth at any size. Paint
-knows the board and the theme, never the obstacles: random boards share one playfield.
+Everything is worked out from (x, z) and the size of a pixel there, so that edges are smooth at any size.
+Paint knows the board and the theme, never the obstacles: random boards share one playfield.
 """
 
 from __future__ import annotations
@@ -9,9 +9,19 @@ from __future__ import annotations
 from math import atan2, cos, exp, pi, sin, sqrt
 from typing import Any
 
-from silverball.drawing.stage import Ink
-from silverball.drawing.themes import Art
-from silverball.drawing.tones import RGB, chance, clamped, cover, ink, mixed, noise, plus, scaled, smooth
+from silverball.drawing.kernels.stage import Art, Ink
+from silverball.drawing.kernels.tones import (
+    RGB,
+    chance,
+    clamped,
+    cover,
+    ink,
+    mixed,
+    noise,
+    plus,
+    scaled,
+    smooth,
+)
 from silverball.physics.kernel import inlined, internal
 
 RAYS = 22
@@ -236,5 +246,7 @@ def _arrows(
             shape = cover(off, pixel)
             bright = 0.35 + 0.65 * number / count
             paint = mixed(paint, scaled(tone, 0.6), 0.9 * shape)
-            light = plus(light, tone, shine * bright * (0.32 * shape + 0.10 * exp(-max(off, 0.0) / (0.10 * size))))
+            light = plus(
+                light, tone, shine * bright * (0.34 * shape + 0.10 * exp(-max(off, 0.0) / (0.03 * size)))
+            )
     return paint, light

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.drawing.stage import Form
+from silverball.drawing.kernels.stage import Form
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.shapes import distance as shape_distance
 from silverball.physics.shapes import triangle_distance
@@ -106,6 +106,6 @@ def rail_distance(s: Any, x: float, y: float, z: float) -> float:
 @inlined
 def apron_distance(s: Any, x: float, y: float, z: float) -> float:
     """Distance from the plate below the gutter, between the rails; its edge is bevelled."""
-    a = max(x - s.apron_top, max(-s.half_length - x, abs(z) - s.half_width))
+    a = max(x - s.apron_top, -s.half_length - x, abs(z) - s.half_width)
     b = y - s.apron_height
-    return max(max(a, b), 0.7071 * (a + b + 0.16 * s.unit))
+    return max(a, b, 0.7071 * (a + b + 0.16 * s.unit))

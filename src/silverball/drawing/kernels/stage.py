@@ -58,6 +58,21 @@ class Ink(IntEnum):
     SKY_LOW = 19
 
 
+class Art(IntEnum):
+    """What is painted onto the playfield."""
+
+    COSMOS = 0  # rays, clouds of stars, planets
+    WOOD = 1  # veneer with a compass rose
+    PLAIN = 2  # a calm ground with few lines
+
+
+class Frame(IntEnum):
+    """What rails and slant walls are made of."""
+
+    METAL = 0
+    WOOD = 1
+
+
 LOOK = np.dtype(
     [
         ("form", "i8"),

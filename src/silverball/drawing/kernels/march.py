@@ -6,11 +6,9 @@ playfield is a plane and is met in closed form, so rays need not creep up to it.
 
 from __future__ import annotations
 
-from typing import Any
-
-from silverball.drawing.cells import cell_at
-from silverball.drawing.solids import apron_distance, part_distance, rail_distance
-from silverball.drawing.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
+from silverball.drawing.kernels.cells import cell_at
+from silverball.drawing.kernels.solids import apron_distance, part_distance, rail_distance
+from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 
 STEPS = 72  # of a ray, and
@@ -104,8 +102,7 @@ def openness(scene: Scene, x: float, y: float, z: float, nx: float, ny: float, n
         way = step * 0.25 * OCCLUSION_REACH * s.unit
         above = y + way * ny
         gap, _part = nearest(scene, x + way * nx, above, z + way * nz)
-        if above < gap:
-            gap = above
+        gap = min(gap, above)
         covered += weight * max(way - gap, 0.0) / (OCCLUSION_REACH * s.unit)
         weight *= 0.72
     return min(max(1.0 - 1.05 * covered, 0.0), 1.0)

@@ -1,11 +1,11 @@
-"""How is a ball drawn? A sphere of chrome that mirrors the frame as it is, and its shadow on whatever is there.
+"""How is a ball drawn? A sphere of chrome that mirrors the frame as it is, and its shadow below.
 
 The ray through a pixel meets the sphere of centre c and radius r where it is nearest to c within r:
 
-    b = d·(c − e),   q² = |c − e|² − b²,   the ball is met at b − √(r² − q²)   (e the eye, d the ray's direction)
+    b = d·(c − e),   q² = |c − e|² − b²,   the ball is met at b − √(r² − q²)   (e the eye, d the direction)
 
-What the mirrored ray meets on the playfield is taken from the frame, so a ball shows the table, the flashes and
-the other ball; what goes up meets a bright room.
+What the mirrored ray meets on the playfield is taken from the frame, so a ball shows the table, the flashes
+and the other ball; what goes up meets a bright room.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.drawing.patches import way_to
-from silverball.drawing.stage import Ink
-from silverball.drawing.tones import RGB, clamped, ink, mixed, plus, scaled, smooth
+from silverball.drawing.kernels.patches import way_to
+from silverball.drawing.kernels.stage import Ink
+from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth
 from silverball.physics.kernel import inlined, internal, kernel
 
 SHADOW = 0.72  # how much of the light a ball takes away at most
@@ -85,7 +85,9 @@ def draw_ball(
             nx, ny, nz = dx * way - ex, dy * way - ey, dz * way - ez
             inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz)
             nx, ny, nz = nx * inverse, ny * inverse, nz * inverse
-            light = _mirrored(frame, before, s, inks, x, z, r, dx, dy, dz, nx, ny, nz, left, top, right, bottom)
+            light = _mirrored(
+                frame, before, s, inks, x, z, r, dx, dy, dz, nx, ny, nz, left, top, right, bottom
+            )
             for channel in range(3):
                 shown = 255.0 * sqrt(clamped(light[channel]))
                 old = float(frame[row, column, channel])
@@ -111,7 +113,7 @@ def _mirrored(
         at_z = min(max(z + r * nz + way * rz, s.thickness - s.half_width), s.half_width - s.thickness)
         table = _taken(frame, before, s, at_x, at_z, left, top, right, bottom)
         # Close to the point it lies on, the ball mirrors its own shadow.
-        table = scaled(table, 0.25 + 0.85 * smooth(0.0, 1.1 * r, way))
+        table = plus(scaled(table, 0.30 + 1.10 * smooth(0.0, 1.1 * r, way)), ink(inks, Ink.SKY_LOW), 0.05)
         light = mixed(table, room, smooth(-0.12, 0.05, ry))
     glint = nx * s.light_x + ny * s.light_y  # the lamp itself
     spot = smooth(0.90, 0.99, rx * s.light_x + ry * s.light_y)
@@ -124,7 +126,7 @@ def _mirrored(
 def _room(inks: Any, rx: float, ry: float, rz: float) -> RGB:
     """The room above the table: bright overhead, two long lamps, a darker horizon."""
     high, low = ink(inks, Ink.SKY), ink(inks, Ink.SKY_LOW)
-    light = mixed(scaled(low, 0.30), scaled(high, 0.72), smooth(0.0, 0.75, ry))
+    light = mixed(scaled(low, 0.45), scaled(high, 0.86), smooth(0.0, 0.62, ry))
     along = rx / (ry + 0.15)
     lamp = smooth(0.34, 0.22, abs(along + 0.55)) * smooth(1.3, 1.0, abs(rz) / (ry + 0.15))
     return plus(light, high, 0.6 * lamp)
@@ -134,7 +136,7 @@ def _room(inks: Any, rx: float, ry: float, rz: float) -> RGB:
 def _taken(
     frame: Any, before: Any, s: Any, x: float, z: float, left: int, top: int, right: int, bottom: int
 ) -> RGB:
-    """The linear light of the pixel that shows the playfield's point (x, z), from before the ball was drawn."""
+    """The linear light of the pixel that shows the playfield at (x, z), from before the ball was drawn."""
     depth = (x - s.eye_x) * s.sine + s.eye_y * s.cosine
     column = int(s.across + s.focal * z / depth)
     row = int(s.down - s.focal * ((x - s.eye_x) * s.cosine - s.eye_y * s.sine) / depth)

@@ -10,17 +10,18 @@ from __future__ import annotations
 from math import exp, sqrt
 from typing import Any
 
-from silverball.drawing.cells import cell_at
-from silverball.drawing.march import lamp_light, openness, trace
-from silverball.drawing.solids import footprint, rail_footprint
-from silverball.drawing.stage import FLOOR, HALO, ROOM, Form, Ink, Scene
-from silverball.drawing.surfaces import Surface, surface_of
-from silverball.drawing.tones import RGB, clamped, ink, mixed, plus, scaled, smooth, times
+from silverball.drawing.kernels.cells import cell_at
+from silverball.drawing.kernels.march import lamp_light, openness, trace
+from silverball.drawing.kernels.solids import footprint, rail_footprint
+from silverball.drawing.kernels.stage import FLOOR, HALO, ROOM, Form, Ink, Scene
+from silverball.drawing.kernels.surfaces import Surface, surface_of
+from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth, times
 from silverball.physics.kernel import inlined, internal
 
 RING_AT = 0.27  # [u] from a cylinder to the ring of light around it
 RING_CORE = 0.032  # [u] half the width of its bright line
 MIRROR_REACH = 2.2  # [u] how far the lacquer sees
+MOST_GRAZING = 0.25  # share that a surface mirrors at a flat angle, beyond its gloss
 FRONT = 0.20  # light from the player's side, without shadow, by the lamp's strength
 
 
@@ -46,11 +47,12 @@ def radiance(
     light = (light[0] + f.light[0], light[1] + f.light[1], light[2] + f.light[2])
     # What it mirrors, more at a flat angle. Source: C. Schlick, "An inexpensive BRDF model", 1994.
     grazing = clamped(1.0 - toward)
-    share = f.gloss + (1.0 - f.gloss) * grazing**5
+    # Not all the way: at the far edges of things one pixel would flicker between sky and paint.
+    share = f.gloss + min(1.0 - f.gloss, MOST_GRAZING) * grazing**5
     rx, ry, rz = dx + 2.0 * toward * f.nx, dy + 2.0 * toward * f.ny, dz + 2.0 * toward * f.nz
     if part == FLOOR:
         seen = _mirrored(scene, px, py, pz, rx, ry, rz, pixel)
-        return plus(light, seen, min(3.4 * share, 1.0) * s.lacquer)
+        return plus(light, seen, min(3.6 * share, 1.0) * s.lacquer)
     sky = sky_light(scene.inks, rx, ry, rz)
     sky = mixed(sky, times(sky, f.paint), f.metal)
     return plus(light, sky, share * (0.35 + 0.65 * open_))
@@ -127,7 +129,7 @@ def _mirrored(
     s = scene.stage[0]
     reach = MIRROR_REACH * s.unit
     way, part = trace(scene, x, y, z, dx, dy, dz, reach)
-    if part == ROOM or part == FLOOR:  # noqa: PLR1714 - no tuple in a kernel
+    if part in (ROOM, FLOOR):
         return scaled(ink(scene.inks, Ink.SKY_LOW), 0.05)
     at_x, at_y, at_z = x + way * dx, y + way * dy, z + way * dz
     f = surface_of(scene, part, at_x, at_y, at_z, pixel)

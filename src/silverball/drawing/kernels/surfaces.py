@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import atan2, cos, exp, pi, sin, sqrt
 from typing import Any, NamedTuple
 
-from silverball.drawing.art import painted
-from silverball.drawing.solids import (
+from silverball.drawing.kernels.art import painted
+from silverball.drawing.kernels.solids import (
     CAP_SHARE,
     apron_distance,
     footprint,
@@ -14,10 +14,9 @@ from silverball.drawing.solids import (
     rail_distance,
     rail_footprint,
 )
-from silverball.drawing.stage import APRON, FLOOR, RAIL, Form, Ink, Scene
-from silverball.drawing.themes import Frame
-from silverball.drawing.tones import RGB, clamped, cover, ink, mixed, noise, plus, scaled, smooth
-from silverball.physics.kernel import inlined, internal
+from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, Form, Frame, Ink, Scene
+from silverball.drawing.kernels.tones import RGB, clamped, cover, ink, mixed, noise, plus, scaled, smooth
+from silverball.physics.kernel import internal
 
 STEP = 0.004  # [u] between the places whose distances give a normal
 SPOKES = 8  # of a cap's star

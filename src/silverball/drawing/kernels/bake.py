@@ -1,7 +1,8 @@
 """How does a scene become pixels? Row by row: first one ray a pixel, then more where neighbours differ.
 
-A canvas is a handful of arrays of the picture's size, filled by these kernels. They write only the pixels that
-the mask asks for, in the rows they are given, so that threads share a picture and a patch costs what it covers.
+A canvas is a handful of arrays of the picture's size, filled by these kernels. They write only the pixels
+that the mask asks for, in the rows they are given, so that threads share a picture and a patch costs what it
+covers.
 """
 
 from __future__ import annotations
@@ -12,12 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.cells import cell_at
-from silverball.drawing.march import trace
-from silverball.drawing.shade import part_glow, radiance
-from silverball.drawing.stage import Form, Scene
-from silverball.drawing.surfaces import surface_of
-from silverball.drawing.tones import RGB, film, plus
+from silverball.drawing.kernels.cells import cell_at
+from silverball.drawing.kernels.march import trace
+from silverball.drawing.kernels.shade import part_glow, radiance
+from silverball.drawing.kernels.stage import Form, Scene
+from silverball.drawing.kernels.surfaces import surface_of
+from silverball.drawing.kernels.tones import RGB, film, plus
 from silverball.physics.kernel import internal, kernel
 
 CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel is looked at more closely

@@ -18,6 +18,8 @@ def lay_paddle(frame: Any, height: Any, left: int, top: int, stays: Any, added: 
     for i in range(max(0, -top), min(stays.shape[0], frame.shape[0] - top)):
         for j in range(max(0, -left), min(stays.shape[1], frame.shape[1] - left)):
             stay = stays[i, j]
+            if stay == 255:
+                continue
             for channel in range(3):
                 value = frame[top + i, left + j, channel] * stay // 255 + added[i, j, channel]
                 frame[top + i, left + j, channel] = min(value, 255)
@@ -26,30 +28,25 @@ def lay_paddle(frame: Any, height: Any, left: int, top: int, stays: Any, added: 
 
 
 @kernel
-def add_light(frame: Any, left: int, top: int, patch: Any, strength: int) -> None:
-    """Add so many 256ths of a picture of light."""
-    for i in range(max(0, -top), min(patch.shape[0], frame.shape[0] - top)):
-        for j in range(max(0, -left), min(patch.shape[1], frame.shape[1] - left)):
-            for channel in range(3):
-                more = patch[i, j, channel] * strength // 256
-                frame[top + i, left + j, channel] = min(frame[top + i, left + j, channel] + more, 255)
+def add_light(rows: Any, left: int, top: int, patch: Any, strength: int) -> None:
+    """Add so many 256ths of a picture of light.
+
+    Args:
+        rows: The frame, its colours in one row each, uint8 [row, 3 · column].
+        left: First column of the picture.
+        top: Its first row.
+        patch: The picture of light, uint8 [row, 3 · column]; it lies within the frame.
+        strength: 0 to 256.
+    """
+    for i in range(patch.shape[0]):
+        line, more = rows[top + i], patch[i]
+        for j in range(patch.shape[1]):
+            line[3 * left + j] = min(line[3 * left + j] + (more[j] * strength >> 8), 255)
 
 
 @kernel
-def restore(
-    frame: Any, height: Any, pixels: Any, tall: Any, left: int, top: int, right: int, bottom: int
-) -> None:
-    """Put the still table back into a rectangle."""
-    for row in range(max(top, 0), min(bottom, frame.shape[0])):
-        for column in range(max(left, 0), min(right, frame.shape[1])):
-            for channel in range(3):
-                frame[row, column, channel] = pixels[row, column, channel]
-            height[row, column] = tall[row, column]
-
-
-@kernel
-def add_spots(frame: Any, height: Any, stage: Any, spots: Any, count: int) -> None:
-    """Add round spots of light: trails and sparks.
+def add_spots(frame: Any, height: Any, stage: Any, spots: Any, count: int) -> tuple[int, int, int, int]:
+    """Add round spots of light, of trails and sparks, and give the rectangle that holds them all.
 
     Args:
         frame: RGB.
@@ -58,19 +55,25 @@ def add_spots(frame: Any, height: Any, stage: Any, spots: Any, count: int) -> No
         spots: Place x, y, z, radius [u], red, green, blue [0 to 255], float64 [spot, 7].
         count: How many of them.
     """
+    left, top, right, bottom = frame.shape[1], frame.shape[0], 0, 0
     for index in range(count):
-        _add_spot(frame, height, stage[0], spots, index)
+        first_column, first_row, end_column, end_row = _add_spot(frame, height, stage[0], spots, index)
+        left, top = min(left, first_column), min(top, first_row)
+        right, bottom = max(right, end_column), max(bottom, end_row)
+    return left, top, right, bottom
 
 
 @inlined
-def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> None:
+def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[int, int, int, int]:
     x, y, z, radius = spots[index, 0], spots[index, 1], spots[index, 2], spots[index, 3]
     depth = (x - s.eye_x) * s.sine - (y - s.eye_y) * s.cosine
     across = s.across + s.focal * z / depth
     down = s.down - s.focal * ((x - s.eye_x) * s.cosine + (y - s.eye_y) * s.sine) / depth
     size = max(radius * s.focal / depth, 0.8)
-    for row in range(max(int(down - size), 0), min(int(down + size) + 1, frame.shape[0])):
-        for column in range(max(int(across - size), 0), min(int(across + size) + 1, frame.shape[1])):
+    left, right = max(int(across - size), 0), min(int(across + size) + 1, frame.shape[1])
+    top, bottom = max(int(down - size), 0), min(int(down + size) + 1, frame.shape[0])
+    for row in range(top, bottom):
+        for column in range(left, right):
             u, v = (column + 0.5 - across) / size, (row + 0.5 - down) / size
             fade = 1.0 - u * u - v * v
             # A thing that is higher than the spot stands in front of it: the camera looks down.
@@ -79,6 +82,7 @@ def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> None:
                 for channel in range(3):
                     value = frame[row, column, channel] + int(fade * spots[index, 4 + channel])
                     frame[row, column, channel] = min(value, 255)
+    return left, top, right, bottom
 
 
 @inlined

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.solids import footprint
-from silverball.drawing.stage import Form
+from silverball.drawing.kernels.solids import footprint
+from silverball.drawing.kernels.stage import Form
 from silverball.physics.kernel import inlined, kernel
 
 
