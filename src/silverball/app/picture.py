@@ -1,28 +1,21 @@
 """The table in a window of any size: always whole, in the middle, and never a frozen picture.
 
-Painting the still table takes a tenth of a second in a small window and a second on a very large one. A large
-one is therefore shown at once from a smaller painting, while a thread paints the sharp one.
+A new size is shown at once, as a sketch or as it was stored the last time, and gets sharp by itself.
 """
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
 import pygame
-from numpy.typing import NDArray
 
-from silverball.drawing import Camera, Moment, Renderer, best_size
+from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.palette import ROOM
-from silverball.drawing.still import paint_still
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.world import Event
-
-AT_ONCE = 260_000  # pixels that are painted without a thread, in about 0.1 s
 
 
 class Picture:
@@ -32,14 +25,25 @@ class Picture:
         table: A finished table.
         window_size: Width and height of the window [pixel].
         board_seed: What the board was made from, if it is not always the same.
+        theme: A name of the drawing's themes.
+        effects: "full" or "less".
     """
 
-    def __init__(self, table: Table, window_size: tuple[int, int], board_seed: int | None = None) -> None:
+    def __init__(
+        self,
+        table: Table,
+        window_size: tuple[int, int],
+        board_seed: int | None = None,
+        *,
+        theme: str = "neon",
+        effects: Literal["full", "less"] = "full",
+    ) -> None:
         self.table = table
         self._board_seed = board_seed
+        self._theme = theme
+        self._effects = effects
         self._window_size = window_size
         self.area = fitted(table, window_size)
-        self._painting: _Painting | None = None
         self.renderer = self._new_renderer()
 
     @property
@@ -54,8 +58,8 @@ class Picture:
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table on screen is painted at its full size."""
-        return self._painting is None
+        """Whether the table on screen is drawn at its best."""
+        return self.renderer.is_sharp
 
     def fit(self, window_size: tuple[int, int]) -> None:
         """Follow the window's size."""
@@ -65,6 +69,7 @@ class Picture:
         before, self.area = self.area, fitted(self.table, window_size)
         if self.area.size != before.size:
             effects = self.renderer.effects
+            self.renderer.close()
             self.renderer = self._new_renderer()
             self.renderer.effects = effects
 
@@ -72,38 +77,28 @@ class Picture:
         """Tell what happened since the last picture."""
         self.renderer.note(events, tick_rate)
 
-    def draw(self, moment: Moment, window: pygame.Surface) -> pygame.Surface:
+    def draw(self, moment: Moment, window: pygame.Surface, dots: Any = None) -> pygame.Surface:
         """Draw a moment into a window of any size; returns the part of it that the table fills."""
         self.fit(window.get_size())
-        self._sharpen()
         if window.get_size() != self.area.size:
             window.fill(ROOM)
         target = window.subsurface(self.area)
-        self.renderer.draw(moment, target)
+        self.renderer.draw(moment, target, dots)
         return target
 
-    def _new_renderer(self) -> Renderer:
-        size = self.area.size
-        pixels = size[0] * size[1]
-        if pixels <= AT_ONCE:
-            self._painting = None
-            return Renderer(self.table, size, board_seed=self._board_seed)
-        shrink = (AT_ONCE / pixels) ** 0.5
-        small = (max(1, round(size[0] * shrink)), max(1, round(size[1] * shrink)))
-        rough = paint_still(self.table, Camera(self.table.board, small))
-        if self._painting is None or self._painting.is_done:
-            self._painting = _Painting(self.table, size)
-        return Renderer(self.table, size, rough, board_seed=self._board_seed)
+    def close(self) -> None:
+        """End what is still done in the background."""
+        self.renderer.close()
 
-    def _sharpen(self) -> None:
-        painting = self._painting
-        if painting is None or not painting.is_done:
-            return
-        if painting.size == self.area.size and painting.table is self.table:
-            self.renderer.set_still(painting.pixels)
-            self._painting = None
-        else:  # the window has changed since
-            self._painting = _Painting(self.table, self.area.size)
+    def _new_renderer(self) -> Renderer:
+        return Renderer(
+            self.table,
+            self.area.size,
+            theme=self._theme,
+            effects=self._effects,
+            board_seed=self._board_seed,
+            background=True,
+        )
 
 
 def fitted(table: Table, window_size: tuple[int, int]) -> pygame.Rect:
@@ -114,21 +109,3 @@ def fitted(table: Table, window_size: tuple[int, int]) -> pygame.Rect:
         high = max(2, height * width // wide)
         wide = min(best_size(table.board, high)[0], width)
     return pygame.Rect((width - wide) // 2, (height - high) // 2, wide, high)
-
-
-class _Painting:
-    """A still table being painted in a thread."""
-
-    def __init__(self, table: Table, size: tuple[int, int]) -> None:
-        self.table = table
-        self.size = size
-        self.pixels: NDArray[np.uint8] = np.empty((0, 0, 3), np.uint8)
-        self._thread = threading.Thread(target=self._paint, name="silverball painting", daemon=True)
-        self._thread.start()
-
-    @property
-    def is_done(self) -> bool:
-        return not self._thread.is_alive()
-
-    def _paint(self) -> None:
-        self.pixels = paint_still(self.table, Camera(self.table.board, self.size))

@@ -10,7 +10,7 @@ import sys
 
 import pygame
 
-from silverball.drawing.sprites import ball_image
+from silverball.drawing.icon import ball_icon
 from silverball.errors import NoDisplay
 
 DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take
@@ -59,7 +59,7 @@ class Screen:
         """Show the window at a size."""
         self._window = pygame.Window(self._title, size, resizable=True, allow_high_dpi=True)
         self._window.minimum_size = LEAST_SIZE
-        self._window.set_icon(ball_image(0.46 * ICON_SIDE, (0.5 * ICON_SIDE, 0.5 * ICON_SIDE), ICON_SIDE))
+        self._window.set_icon(ball_icon(ICON_SIDE))
 
     def flip(self) -> None:
         """Show what has been drawn."""

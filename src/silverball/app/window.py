@@ -122,6 +122,7 @@ class Window:
         """Keep the log of the last game and close the window."""
         self._keep_last_game()
         self.session = None
+        self._picture.close()
         self._screen.close()
 
     # --- playing ----------------------------------------------------------------------------------
@@ -297,6 +298,7 @@ class Window:
         table = self._finished()
         if table != self.table:
             self.table = table
+            self._picture.close()
             self._picture = self._new_picture()
         self._picture.renderer.effects.forget()
         self.is_paused = self.shows_help = False

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from silverball.benchmarks.marks import Figure
 
 MOST_ACTIONS = 300_000_000  # three bytes each
 ENDINGS = (".png", ".md")
@@ -24,6 +28,9 @@ def bench(
     marks: bool = typer.Option(
         False, "--marks", help="Measure every place where the step could be slow; takes a minute or two."
     ),
+    drawing: bool = typer.Option(
+        False, "--drawing", help="Measure how fast pictures are made and drawn; takes a minute."
+    ),
     quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
     out: list[str] = typer.Option(
         [], metavar="FILE.png|.md", help="With --peers: also write a plot or a Markdown table; repeatable."
@@ -32,8 +39,9 @@ def bench(
 ) -> None:
     """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
 
-    Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`, or
-    beside other engines with `silverball bench --peers --out peers.png --out peers.md`
+    Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`,
+    the drawing with `silverball bench --drawing`, or beside other engines with
+    `silverball bench --peers --out peers.png --out peers.md`
     """
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
@@ -52,6 +60,9 @@ def bench(
         return
     if marks:
         show_marks(rounds, as_json)
+        return
+    if drawing:
+        show_drawing(rounds, as_json)
         return
     if quick or out:
         raise SilverballError("--quick and --out belong to the comparison; add --peers or leave them out")
@@ -81,16 +92,32 @@ def bench(
 
 def show_marks(rounds: int, as_json: bool) -> None:
     """Measure and show the marks of the step."""
-    from rich.progress import Progress
-
-    from silverball.cli.console import compiling, errors
+    from silverball.cli.console import compiling
 
     with compiling():
         from silverball.benchmarks.marks import measure_marks
-        from silverball.benchmarks.speed import machine
+    show_figures(measure_marks, rounds, as_json)
+
+
+def show_drawing(rounds: int, as_json: bool) -> None:
+    """Measure and show the marks of the drawing."""
+    from silverball.cli.console import compiling
+
+    with compiling():
+        from silverball.benchmarks.drawing import measure_drawing
+    show_figures(measure_drawing, rounds, as_json)
+
+
+def show_figures(measure: Callable[..., list[Figure]], rounds: int, as_json: bool) -> None:
+    """Measure with a bar that says what is measured, and show what came of it."""
+    from rich.progress import Progress
+
+    from silverball.benchmarks.speed import machine
+    from silverball.cli.console import errors
+
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         task = bar.add_task("", total=None)
-        figures = measure_marks(rounds, lambda doing: bar.update(task, description=doing))
+        figures = measure(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
         typer.echo(json.dumps([figure._asdict() for figure in figures], indent=2))
         return

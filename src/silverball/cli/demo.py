@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 TICK_RATE = 240
 SECOND_BALL_AFTER = 3.0  # [s]
+HEIGHTS = {".gif": 720, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
+GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in memory, a byte or two for each
 
 
 def demo(
@@ -29,13 +31,14 @@ def demo(
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
+    theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
 ) -> None:
     """Let the program play by itself and make a film of it; no display is needed.
 
     Example: `silverball demo --out demo.gif --seconds 20`
     """
-    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, force=force)
+    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, theme=theme, force=force)
 
 
 def make_demo(
@@ -45,21 +48,33 @@ def make_demo(
     seed: int = 7,
     size: int | None = None,
     *,
+    theme: str = "neon",
     force: bool = False,
 ) -> None:
     """Make a film, or a picture, of the program playing; say where it is."""
-    from silverball.cli.console import compiling
-    from silverball.cli.filming import ENDINGS, film_size, shoot
-    from silverball.drawing import Renderer
-    from silverball.drawing.film import check_output
+    from rich.progress import Progress
+
+    from silverball.cli.console import compiling, errors
+    from silverball.cli.look import baking, theme_named
+    from silverball.drawing import Renderer, best_size
+    from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
+    from silverball.errors import OutputError
     from silverball.table import generate_table, load_table
 
-    check_output(out, ENDINGS, force=force)
+    look = theme_named(theme)
+    check_output(out, (".gif", ".mp4", ".png"), force=force)
+    ending = out.suffix.lower()
     board = load_table(table)
     board_seed = None if board.random is None else seed
     if board.random is not None:
         board = generate_table(seed, board)
-    picture_size = film_size(out, board, seconds, size)
+    height = size or HEIGHTS[ending]
+    width, height = best_size(board.board, height)
+    if ending == ".gif" and width * height * seconds * FILM_RATES[ending] > GIF_LIMIT:
+        raise OutputError(
+            f"{out}: a GIF of {seconds:g} s at {width} × {height} pixels is too large to make; "
+            "ask for fewer --seconds, a smaller --size, or an .mp4"
+        )
     with compiling():
         from silverball.app.startup import warm_up
         from silverball.players import make_player
@@ -67,8 +82,20 @@ def make_demo(
 
         warm_up(board)
         make_player("reflex").press(World(board))
-    renderer = Renderer(board, picture_size, board_seed=board_seed)
-    shoot(out, seconds, lambda rate, advance: film(renderer, seed, seconds, rate, advance))
+    with baking() as progress:
+        renderer = Renderer(board, (width, height), theme=look, board_seed=board_seed, progress=progress)
+    with Progress(console=errors, transient=True) as bar:
+        task = bar.add_task(f"playing into {out.name}", total=seconds)
+
+        def advance(done: float) -> None:
+            bar.update(task, completed=done)
+
+        if ending == ".png":
+            write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, advance))[-1])
+        else:
+            write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], advance))
+    renderer.close()
+    typer.echo(f"wrote {out}")
 
 
 def film(

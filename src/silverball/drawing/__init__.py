@@ -1,8 +1,13 @@
 """What a table looks like: a moment of play in, a picture out. There is no window in here.
 
-    still.py    everything that does not move, painted once per table and size from the distances in fields.py
-    sprites.py  what moves or lights up, as small images
-    renderer.py puts the sprites of one moment on top of the still table
+    camera.py, build.py, themes.py   where everything lies, how tall it is, which colours it has
+    scene.py                         the table as arrays, beside the shapes that the physics collides with
+    kernels/                         rays, surfaces and light, compiled
+    still.py, paddles.py             pictures of what stands still, and of paddles at every angle
+    workshop.py, studio.py           who bakes, and what comes from the store instead (store.py, pictures.py)
+    sketch.py, background.py         a picture at once, and a better one soon (compiling.py)
+    compose.py, effects.py           one moment, put together
+    renderer.py                      the face of it all
 
 Works without any display: `Renderer(table, size).array(moment)` is an RGB array.
 """
@@ -16,5 +21,6 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # pygame greets on the
 from silverball.drawing.camera import Camera, best_size
 from silverball.drawing.moment import Moment
 from silverball.drawing.renderer import Renderer
+from silverball.drawing.themes import THEMES, Theme
 
-__all__ = ["Camera", "Moment", "Renderer", "best_size"]
+__all__ = ["THEMES", "Camera", "Moment", "Renderer", "Theme", "best_size"]

@@ -1,8 +1,13 @@
 """Where does a point of the board lie in the picture, and the other way round?
 
-The board is seen straight from above, x upwards and z to the right, with a rail around it and the score above
-it; the whole of it is always visible. Pixel coordinates (across, down) are real numbers; pixel (i, j) covers
-i … i + 1 and j … j + 1.
+A pinhole camera stands above the player's end and looks up the table. Pixel coordinates (across, down) are
+real numbers; pixel (i, j) covers i … i + 1 and j … j + 1. A point of space is (x, y, z) [u] with y = 0 on the
+playfield. With d the way from the eye to a point, and the camera's unit vectors f (forward), r (right), u
+(up):
+
+    across = middle + focal·(d·r)/(d·f),   down = middle − focal·(d·u)/(d·f)
+
+The middle is chosen freely (a shifted lens), so that the board fills its place whatever the picture's size.
 """
 
 from __future__ import annotations
@@ -10,40 +15,39 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
+import pygame
 
+from silverball.drawing.build import Build
 from silverball.table import Board
 
-RAIL = 0.38  # [u] width of the rail around the board
-MARGIN = 0.06  # [u] of room around the rail
-SCORE_HEIGHT = 1.35  # [u] of the strip above the board
+TILT = math.radians(36.5)  # of the view from straight down
+DISTANCE = 2.8  # of the eye from the board's centre, by the longer side of the board
+PANEL_SHAPE = 5.0  # width by height of the score panel: 160 × 32 dots
+PANEL_LEAST, PANEL_MOST = 0.42, 1.25  # width of the panel, in heights of the board's picture
+MARGIN = 0.012  # of the content's width, left and right of the panel and between panel and board
+DEFAULT_ROOM = 0.004  # around the board, of the content's width
 
 
-class Patch(NamedTuple):
-    """A rectangle of whole pixels, and where their centres lie on the board.
+class Frustum(NamedTuple):
+    """The camera as plain numbers, as kernels take it.
 
     Attributes:
-        left: First column.
-        top: First row.
-        x: Board x [u] of each row, shape [row, 1], float32.
-        z: Board z [u] of each column, shape [1, column], float32.
-        pixel: Side of a pixel [u].
+        eye_x: Where the eye is [u]; its z is 0.
+        eye_y: And how high.
+        sine: Of the tilt: forward is (sine, −cosine, 0), up in the picture is (cosine, sine, 0).
+        cosine: Of the tilt.
+        focal: Pixels per unit of (d·r)/(d·f).
+        across: Middle of the lens [pixel].
+        down: Middle of the lens [pixel].
     """
 
-    left: int
-    top: int
-    x: NDArray[np.float32]
-    z: NDArray[np.float32]
-    pixel: float
-
-    @property
-    def rows_columns(self) -> tuple[slice, slice]:
-        """The index of this patch into a picture."""
-        return (
-            slice(self.top, self.top + self.x.shape[0]),
-            slice(self.left, self.left + self.z.shape[1]),
-        )
+    eye_x: float
+    eye_y: float
+    sine: float
+    cosine: float
+    focal: float
+    across: float
+    down: float
 
 
 class Camera:
@@ -51,65 +55,118 @@ class Camera:
 
     Attributes:
         size: Width and height of the picture [pixel].
-        scale: Pixels per table unit.
-        middle: Where the centre of the board lies (across, down) [pixel].
+        board: The board.
+        build: Its heights.
+        panel: Where the score panel is [pixel].
+        frustum: The camera's numbers.
     """
 
     def __init__(self, board: Board, size: tuple[int, int]) -> None:
         self.size = size
         self.board = board
-        width, height = _view(board)
-        self.scale = min(size[0] / width, size[1] / height)
-        self.middle = (
-            0.5 * size[0],
-            0.5 * (size[1] - height * self.scale)
-            + (SCORE_HEIGHT + MARGIN + RAIL + 0.5 * board.length) * self.scale,
+        self.build = Build.of(board)
+        content = _Content(board)
+        scale = min(size[0] / content.width, size[1] / content.height)
+        left = 0.5 * (size[0] - content.width * scale)
+        top = 0.5 * (size[1] - content.height * scale)
+        panel_width = content.panel_width * scale
+        self.panel = pygame.Rect(
+            round(0.5 * (size[0] - panel_width)),
+            round(top + content.gap * scale),
+            max(round(panel_width), 1),
+            max(round(panel_width / PANEL_SHAPE), 1),
         )
+        board_top = top + (content.panel_height + 2.0 * content.gap) * scale
+        low_u, high_v = content.view[0], content.view[3]
+        across = left + 0.5 * (content.width - content.board_width) * scale - low_u * scale
+        eye_x, eye_y, sine, cosine = _stand(board)
+        self.frustum = Frustum(eye_x, eye_y, sine, cosine, scale, across, board_top + high_v * scale)
 
     @property
-    def pixel(self) -> float:
-        """Side of a pixel [u]."""
-        return 1.0 / self.scale
+    def scale(self) -> float:
+        """Pixels per unit [u] in the middle of the board, across."""
+        f = self.frustum
+        return f.focal / (f.eye_y * f.cosine - f.eye_x * f.sine)
 
-    def to_pixel(self, x: float, z: float) -> tuple[float, float]:
-        """The picture's point (across, down) of the board's point (x, z)."""
-        return self.middle[0] + z * self.scale, self.middle[1] - x * self.scale
+    def to_pixel(self, x: float, z: float, y: float = 0.0) -> tuple[float, float]:
+        """The picture's point (across, down) of a point of space, y above the playfield."""
+        f = self.frustum
+        u, v = _project(x, y, z, f.eye_x, f.eye_y, f.sine, f.cosine)
+        return f.across + f.focal * u, f.down - f.focal * v
 
-    def to_board(self, across: float, down: float) -> tuple[float, float]:
-        """The board's point (x, z) of the picture's point (across, down)."""
-        return (self.middle[1] - down) / self.scale, (across - self.middle[0]) / self.scale
+    def ray(self, across: float, down: float) -> tuple[float, float, float]:
+        """The direction (x, y, z) from the eye through a point of the picture, 1 long along `forward`."""
+        f = self.frustum
+        u, v = (across - f.across) / f.focal, (f.down - down) / f.focal
+        return f.sine + v * f.cosine, v * f.sine - f.cosine, u
 
-    def patch(self, low_x: float, low_z: float, high_x: float, high_z: float) -> Patch:
-        """The pixels that hold a rectangle of the board, cut off at the picture's edges."""
-        left, bottom = self.to_pixel(low_x, low_z)
-        right, top = self.to_pixel(high_x, high_z)
-        first_column, end_column = _span(left, right, self.size[0])
-        first_row, end_row = _span(top, bottom, self.size[1])
-        columns = np.arange(first_column, end_column, dtype=np.float32) + np.float32(0.5)
-        rows = np.arange(first_row, end_row, dtype=np.float32) + np.float32(0.5)
-        x = (np.float32(self.middle[1]) - rows) / np.float32(self.scale)
-        z = (columns - np.float32(self.middle[0])) / np.float32(self.scale)
-        return Patch(first_column, first_row, x[:, None], z[None, :], self.pixel)
+    def to_board(self, across: float, down: float, y: float = 0.0) -> tuple[float, float]:
+        """The point (x, z) of the plane at height y that is seen at a point of the picture."""
+        f = self.frustum
+        dx, dy, dz = self.ray(across, down)
+        way = (y - f.eye_y) / dy
+        return f.eye_x + way * dx, way * dz
 
-    def whole(self) -> Patch:
-        """All pixels of the picture."""
-        high_x, low_z = self.to_board(0.0, 0.0)
-        low_x, high_z = self.to_board(*self.size)
-        return self.patch(low_x, low_z, high_x, high_z)
+    def box(
+        self, low_x: float, high_x: float, low_z: float, high_z: float, low_y: float, high_y: float
+    ) -> tuple[int, int, int, int]:
+        """The pixels (left, top, right, bottom; the last two excluded) that a box of space can cover."""
+        corners = [
+            self.to_pixel(x, z, y) for x in (low_x, high_x) for z in (low_z, high_z) for y in (low_y, high_y)
+        ]
+        width, height = self.size
+        left = min(max(math.floor(min(a for a, _ in corners)) - 1, 0), width)
+        right = min(max(math.ceil(max(a for a, _ in corners)) + 1, left), width)
+        top = min(max(math.floor(min(d for _, d in corners)) - 1, 0), height)
+        bottom = min(max(math.ceil(max(d for _, d in corners)) + 1, top), height)
+        return left, top, right, bottom
 
 
 def best_size(board: Board, height: int) -> tuple[int, int]:
     """Width and height [pixel], both even, of a picture of that height which the table just fills."""
-    view_width, view_height = _view(board)
-    return max(2, 2 * round(0.5 * height * view_width / view_height)), height - height % 2
+    content = _Content(board)
+    return max(2, 2 * round(0.5 * height * content.width / content.height)), height - height % 2
 
 
-def _view(board: Board) -> tuple[float, float]:
-    """Width and height [u] of all that must be visible."""
-    frame = 2.0 * (RAIL + MARGIN)
-    return board.width + frame, board.length + frame + SCORE_HEIGHT
+class _Content:
+    """What must be visible, in units of (d·r)/(d·f): the board, and the panel above it."""
+
+    def __init__(self, board: Board) -> None:
+        build = Build.of(board)
+        stand = _stand(board)
+        long, wide = build.half_length + build.rail, build.half_width + build.rail
+        points = [
+            _project(x, y, z, *stand)
+            for x, low in ((-long, -build.skirt), (long, 0.0))
+            for z in (-wide, wide)
+            for y in (low, build.rail_height)
+        ]
+        points += [
+            _project(build.half_length, build.top, z, *stand) for z in (-build.half_width, build.half_width)
+        ]
+        us, vs = [u for u, _ in points], [v for _, v in points]
+        room = DEFAULT_ROOM * (max(us) - min(us))
+        self.view = (min(us) - room, max(us) + room, min(vs) - room, max(vs) + room)
+        self.board_width = self.view[1] - self.view[0]
+        board_height = self.view[3] - self.view[2]
+        self.panel_width = min(max(self.board_width, PANEL_LEAST * board_height), PANEL_MOST * board_height)
+        self.width = max(self.board_width, self.panel_width)
+        self.gap = MARGIN * self.panel_width
+        self.panel_width -= 2.0 * self.gap
+        self.panel_height = self.panel_width / PANEL_SHAPE
+        self.height = board_height + self.panel_height + 2.0 * self.gap
 
 
-def _span(low: float, high: float, limit: int) -> tuple[int, int]:
-    first = min(max(math.floor(low + 1e-6), 0), limit)
-    return first, min(max(math.ceil(high - 1e-6), first), limit)
+def _stand(board: Board) -> tuple[float, float, float, float]:
+    """Where the camera stands: x and y of the eye, sine and cosine of its tilt."""
+    extent = max(board.length, board.width)
+    sine, cosine = math.sin(TILT), math.cos(TILT)
+    return -DISTANCE * extent * sine, DISTANCE * extent * cosine, sine, cosine
+
+
+def _project(
+    x: float, y: float, z: float, eye_x: float, eye_y: float, sine: float, cosine: float
+) -> tuple[float, float]:
+    dx, dy = x - eye_x, y - eye_y
+    depth = dx * sine - dy * cosine
+    return z / depth, (dx * cosine + dy * sine) / depth

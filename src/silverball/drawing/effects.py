@@ -1,4 +1,4 @@
-"""What is seen for a while? Hits light up a part, balls leave trails and dive under the apron.
+"""What is seen for a while? Hits light up a part and strike sparks, balls leave trails.
 
 All of it is a function of the world's own time, so that a film of the same game always looks the same and a
 paused game holds still.
@@ -6,6 +6,7 @@ paused game holds still.
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
@@ -15,19 +16,27 @@ from silverball.drawing.moment import BallAt, Moment
 if TYPE_CHECKING:
     from silverball.world import Event
 
-FLASH_SECONDS = 0.4
-TRAIL_SECONDS = 0.11
-TRAIL_SPACING = 0.16  # [u] between two spots of a trail
+FLASH_SECONDS = 0.45
+TRAIL_SECONDS = 0.13
+TRAIL_SPACING = 0.7  # between two spots of a trail, in radii of a ball
 DIVE_SECONDS = 0.2
 LEAST_DIVE_SPEED = 2.0  # [u/s]
+SPARK_SPEED = 6.0  # [u/s] of an impact that strikes sparks
+SPARK_SECONDS = 0.38
+MOST_SPARKS = 12  # of one hit
+SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
+MOST_HITS = 24  # whose sparks are remembered
+GOLDEN = 0.6180339887498949  # its multiples, without the whole part, are spread evenly over 0 to 1
 
 
 class Spot(NamedTuple):
-    """A spot of a trail: place (x, z) [u] and age from 0 (now) to 1 (gone)."""
+    """A spot of light: place [u], size [u] and strength from 1 (now) to 0 (gone)."""
 
     x: float
+    y: float
     z: float
-    age: float
+    radius: float
+    strength: float
 
 
 class _Dive(NamedTuple):
@@ -37,17 +46,35 @@ class _Dive(NamedTuple):
     speed: float
 
 
-class Effects:
-    """Remembers the last moments of a game for as long as they are seen."""
+class _Hit(NamedTuple):
+    time: float
+    number: int
+    x: float
+    z: float
+    normal: float  # its direction [rad], from +z to +x
+    speed: float
 
-    def __init__(self) -> None:
+
+class Effects:
+    """Remembers the last moments of a game for as long as they are seen.
+
+    Args:
+        radius: Of a ball [u].
+        is_full: Whether there are trails and sparks too; else only flashes, and weaker ones.
+    """
+
+    def __init__(self, radius: float = 0.25, *, is_full: bool = True) -> None:
+        self.is_full = is_full
+        self._radius = radius
         self._hits: dict[str, float] = {}
+        self._sparks: deque[_Hit] = deque(maxlen=MOST_HITS)
         self._dives: list[_Dive] = []
         self._paths: dict[int, deque[tuple[float, float, float]]] = {}
 
     def forget(self) -> None:
         """Forget everything: another game begins."""
         self._hits.clear()
+        self._sparks.clear()
         self._dives.clear()
         self._paths.clear()
 
@@ -60,6 +87,11 @@ class Effects:
             elif event.kind == "gutter":
                 speed = max(event.speed, LEAST_DIVE_SPEED)
                 self._dives.append(_Dive(time, event.position[0], event.position[2], speed))
+            if event.kind in ("hit", "ball_hit") and event.speed > SPARK_SPEED:
+                nx, _, nz = event.normal
+                x, z = event.position[0] - nx * self._radius, event.position[2] - nz * self._radius
+                number = event.tick + 7 * event.ball
+                self._sparks.append(_Hit(time, number, x, z, math.atan2(nx, nz), event.speed))
 
     def flashes(self, time: float) -> Iterator[tuple[str, float]]:
         """The parts that light up at a time, and how strongly, 1 to 0."""
@@ -68,7 +100,8 @@ class Effects:
             if left <= 0.0:
                 del self._hits[part]
             else:
-                yield part, min(left, 1.0) ** 2
+                strength = min(left, 1.0) ** 2
+                yield part, strength if self.is_full else 0.4 * strength
 
     def dives(self, time: float) -> Iterator[BallAt]:
         """Balls on their way under the apron; the world no longer knows them."""
@@ -76,27 +109,51 @@ class Effects:
         for dive in self._dives:
             yield BallAt(0, dive.x - dive.speed * max(time - dive.time, 0.0), dive.z)
 
-    def trails(self, moment: Moment) -> Iterator[Spot]:
-        """Note where the balls are, and give the spots of their trails."""
+    def trails(self, moment: Moment) -> Iterator[list[Spot]]:
+        """Note where the balls are, and give the spots of each one's trail."""
         for id_ in self._paths.keys() - {ball.id for ball in moment.balls}:
             del self._paths[id_]
         for ball in moment.balls:
             path = self._paths.setdefault(ball.id, deque())
+            if path and path[-1][0] > moment.time:
+                path.clear()  # time was turned back
             if not path or path[-1][0] < moment.time:
                 path.append((moment.time, ball.x, ball.z))
             while moment.time - path[0][0] > TRAIL_SECONDS:
                 path.popleft()
-            yield from _spots(path, moment.time)
+            if self.is_full:
+                yield list(self._spots(path, moment.time))
 
+    def _spots(self, path: deque[tuple[float, float, float]], now: float) -> Iterator[Spot]:
+        """Spots at even distances along a path, the older the smaller."""
+        along, spacing = 0.0, TRAIL_SPACING * self._radius
+        for (time0, x0, z0), (time1, x1, z1) in zip(path, list(path)[1:], strict=False):
+            length = math.hypot(x1 - x0, z1 - z0)
+            while along < length:
+                part = along / length
+                fresh = 1.0 - (now - (time0 + part * (time1 - time0))) / TRAIL_SECONDS
+                fresh = min(max(fresh, 0.0), 1.0)
+                radius = self._radius * (0.35 + 0.65 * fresh)
+                yield Spot(x0 + part * (x1 - x0), self._radius, z0 + part * (z1 - z0), radius, fresh * fresh)
+                along += spacing
+            along -= length
 
-def _spots(path: deque[tuple[float, float, float]], now: float) -> Iterator[Spot]:
-    """Spots at even distances along a path."""
-    along = 0.0
-    for (time0, x0, z0), (time1, x1, z1) in zip(path, list(path)[1:], strict=False):
-        length = ((x1 - x0) ** 2 + (z1 - z0) ** 2) ** 0.5
-        while along < length:
-            part = along / length
-            age = (now - (time0 + part * (time1 - time0))) / TRAIL_SECONDS
-            yield Spot(x0 + part * (x1 - x0), z0 + part * (z1 - z0), min(max(age, 0.0), 1.0))
-            along += TRAIL_SPACING
-        along -= length
+    def sparks(self, time: float) -> Iterator[list[Spot]]:
+        """The sparks of each hard hit: where they are now follows from when they were struck."""
+        if self.is_full:
+            for hit in self._sparks:
+                if 0.0 <= time - hit.time < SPARK_SECONDS:
+                    yield list(self._sparks_of(hit, time - hit.time))
+
+    def _sparks_of(self, hit: _Hit, age: float) -> Iterator[Spot]:
+        for index in range(min(4 + int(hit.speed), MOST_SPARKS)):
+            chance = (GOLDEN * (index + 1) + 0.317 * hit.number) % 1.0
+            other = (7.0 * chance + 0.113 * index) % 1.0
+            fresh = 1.0 - age / (SPARK_SECONDS * (0.5 + 0.5 * other))
+            if fresh <= 0.0:
+                continue
+            direction = hit.normal + (chance - 0.5) * 2.6
+            way = (2.0 + 0.32 * hit.speed * (0.4 + other)) * age * (1.0 - 0.9 * age)
+            rise = self._radius + (1.0 + 3.0 * other) * age - 0.5 * SPARK_GRAVITY * age * age
+            x, z = hit.x + way * math.sin(direction), hit.z + way * math.cos(direction)
+            yield Spot(x, max(rise, 0.03), z, self._radius * (0.12 + 0.22 * fresh), fresh)

@@ -1,29 +1,40 @@
-"""How does a moment of play become a picture? The still table, and on it everything that moves.
+"""How does a moment of play become a picture, at once and at its best? The face of the drawing.
 
-lights of hits → shadows of balls → trails → balls → apron → paddles → score
+In the foreground (films, pictures for agents, tests) everything is baked before it is needed. In the
+background (a window) there is a picture at once: the one from the store, or a sketch; a thread brings the
+rest, and compiled code is made in another process, for a compiler in a thread would make the game stutter.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from silverball.drawing.camera import RAIL, Camera
+from silverball.drawing.camera import Camera
 from silverball.drawing.effects import Effects
 from silverball.drawing.moment import Moment
-from silverball.drawing.obstacles import cylinder_flash, prism_flash
-from silverball.drawing.palette import CYLINDERS, PRISMS, in_turn
-from silverball.drawing.scoreline import ScoreLine, paint_name
-from silverball.drawing.sprites import BallSprites, Flash, PaddleSprites, Sprite
-from silverball.drawing.still import paint_still
-from silverball.drawing.walls import apron_top
+from silverball.drawing.pictures import load_still, still_key
+from silverball.drawing.scorepanel import ScorePanel
+from silverball.drawing.sketch import Pen, sketch, sketch_ball, sketch_paddle
+from silverball.drawing.store import Store
+from silverball.drawing.themes import THEMES, Theme
 from silverball.table import Table
 
-ADD = pygame.BLEND_RGB_ADD
+if TYPE_CHECKING:
+    from silverball.drawing.background import Background
+    from silverball.drawing.studio import Studio
+    from silverball.world import Event
+
+
+class Painter(Protocol):
+    """What puts a moment onto a surface of its own."""
+
+    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
+        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
 
 
 class Renderer:
@@ -32,105 +43,152 @@ class Renderer:
     Args:
         table: A finished table.
         size: Width and height of the picture [pixel]; the table is fitted into it.
-        still: The still table if it is painted already, RGB [row, column, 3]; another size is stretched.
+        theme: A name of `THEMES`, or a theme.
+        effects: "full", or "less" for no sparks and trails and weaker flashes.
         board_seed: Written beside the score if the board was made from it.
+        background: Whether a picture is wanted at once, and the best one as soon as it is baked. Then call
+            `close` when it is wanted no more.
+        progress: Told how much of the baking is done, 0 to 1, in the foreground.
+        store: Where baked pictures are kept; the user's cache directory if not given.
 
     Attributes:
         apron: The plate below the gutter [pixel], under which no play is seen.
-        score_panel: The strip above the board [pixel].
+        score_panel: The panel above the board [pixel], 5 by 1.
 
     Example:
         >>> import silverball as sb
         >>> from silverball.drawing import Moment, Renderer
         >>> table = sb.load_table("classic")
-        >>> Renderer(table, (330, 680)).array(Moment.before(table)).shape
-        (680, 330, 3)
+        >>> Renderer(table, (66, 106)).array(Moment.before(table)).shape
+        (106, 66, 3)
     """
 
     def __init__(
         self,
         table: Table,
         size: tuple[int, int],
-        still: NDArray[np.uint8] | None = None,
         *,
+        theme: str | Theme = "neon",
+        effects: Literal["full", "less"] = "full",
         board_seed: int | None = None,
+        background: bool = False,
+        progress: Callable[[float], None] = lambda share: None,
+        store: Store | None = None,
     ) -> None:
         self.table = table
+        self.theme = theme if isinstance(theme, Theme) else THEMES[theme]
         self.camera = Camera(table.board, size)
-        self.effects = Effects()
-        self._score_line = ScoreLine(table, self.camera, board_seed)
-        self.score_panel = self._score_line.panel
-        self.set_still(paint_still(table, self.camera) if still is None else still)
-        self._balls = BallSprites(self.camera)
-        self._paddles = {paddle.side: PaddleSprites(self.camera, paddle) for paddle in table.paddle}
-        self._flashes: dict[str, Flash] = {}
-        for index, prism in enumerate(table.triangular_prism):
-            flash = prism_flash(self.camera, prism, in_turn(PRISMS, index))
-            self._flashes[f"triangular_prism[{index}]"] = Flash(*flash)
-        for index, cylinder in enumerate(table.cylinder):
-            flash = cylinder_flash(self.camera, cylinder, in_turn(CYLINDERS, index))
-            self._flashes[f"cylinder[{index}]"] = Flash(*flash)
-        self.apron = self._apron_area()
+        self.effects = Effects(table.board.ball_radius, is_full=effects == "full")
+        self.score_panel = self.camera.panel
+        self.apron = _apron_area(self.camera)
+        self._panel = ScorePanel(self.score_panel, self.theme, table, board_seed)
+        self._store = store or Store()
+        self._studio: Studio | None = None
+        self._background: Background | None = None
+        self._painter: Painter
+        if background:
+            from silverball.drawing.background import Background
 
-    def set_still(self, pixels: NDArray[np.uint8]) -> None:
-        """Use another painting of the still table, RGB [row, column, 3]."""
-        still = pygame.image.frombuffer(pixels.tobytes(), (pixels.shape[1], pixels.shape[0]), "RGB")
-        if still.get_size() != self.camera.size:
-            still = pygame.transform.smoothscale(still, self.camera.size)
-        self._score_line.paint_panel(still)
-        paint_name(still, self.table, self.camera)
-        self._still = still
+            key = still_key(table, self.camera, self.theme)
+            known = load_still(self._store, key)
+            self._painter = Sketcher(table, self.camera, self.theme, None if known is None else known.pixels)
+            self._background = Background(table, self.camera, self.theme, self._store, board_seed is not None)
+        else:
+            self._painter = self._baked(progress)
+
+    @property
+    def is_sharp(self) -> bool:
+        """Whether the table is drawn at its best."""
+        self._take_over()
+        return not isinstance(self._painter, Sketcher)
 
     def note(self, events: Iterable[Event], tick_rate: int) -> None:
         """Tell what happened since the last picture, so that it can be seen in the next ones."""
         self.effects.note(events, tick_rate)
 
-    def draw(self, moment: Moment, target: pygame.Surface) -> None:
-        """Draw a moment onto a surface of the renderer's size."""
-        if self._still.get_masks() != target.get_masks() or self._still.get_bitsize() != target.get_bitsize():
-            self._still = self._still.convert(target)
-        target.blit(self._still, (0, 0))
-        lights = filter(None, (flash.at(strength) for flash, strength in self._lit(moment.time)))
-        trails = [self._balls.trail_at(*spot) for spot in self.effects.trails(moment)]
-        balls = [*moment.balls, *self.effects.dives(moment.time)]
-        for sprite in lights:
-            target.blit(*sprite, None, ADD)
-        target.blits([self._balls.shadow_at(ball.x, ball.z) for ball in balls], False)
-        for sprite in trails:
-            target.blit(*sprite, None, ADD)
-        target.blits([self._balls.at(ball.x, ball.z) for ball in balls], False)
-        target.blit(self._still, self.apron, self.apron)
-        target.blits(self._paddle_sprites(moment), False)
-        self._score_line.draw(target, moment)
+    def draw(self, moment: Moment, target: pygame.Surface, dots: Any = None) -> None:
+        """Draw a moment onto a surface of the renderer's size.
 
-    def surface(self, moment: Moment) -> pygame.Surface:
+        Args:
+            moment: What there is to see.
+            target: Any surface; one of 24 bits whose bytes are RGB is fastest.
+            dots: What the score panel shows, a `Dots`; the moment's score if not given.
+        """
+        target.blit(self._compose(moment, dots), (0, 0))
+
+    def surface(self, moment: Moment, dots: Any = None) -> pygame.Surface:
         """A moment as a new surface of 24 bits, whose bytes are RGB."""
         target = rgb_surface(self.camera.size)
-        self.draw(moment, target)
+        self.draw(moment, target, dots)
         return target
 
-    def array(self, moment: Moment) -> NDArray[np.uint8]:
+    def array(self, moment: Moment, dots: Any = None) -> NDArray[np.uint8]:
         """A moment as RGB, uint8, shape [row, column, 3]."""
         width, height = self.camera.size
-        pixels = np.frombuffer(pygame.image.tobytes(self.surface(moment), "RGB"), np.uint8)
+        pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
 
-    def _lit(self, time: float) -> list[tuple[Flash, float]]:
-        return [
-            (self._flashes[part], strength)
-            for part, strength in self.effects.flashes(time)
-            if part in self._flashes
-        ]
+    def close(self) -> None:
+        """End the work in the background; keep what was baked."""
+        if self._background is not None:
+            self._background.close()
+        if self._studio is not None:
+            self._studio.save_paddles()
 
-    def _paddle_sprites(self, moment: Moment) -> list[Sprite]:
+    def _compose(self, moment: Moment, dots: Any) -> pygame.Surface:
+        self._take_over()
+        surface = self._painter.compose(moment, self.effects)
+        self._panel.draw(surface, moment, dots)
+        return surface
+
+    def _take_over(self) -> None:
+        """Use what the background has made ready."""
+        if self._background is not None and self._background.painter is not None:
+            self._painter = self._background.painter
+
+    def _baked(self, progress: Callable[[float], None]) -> Painter:
+        from silverball.drawing.compose import Composer
+        from silverball.drawing.studio import Studio
+        from silverball.drawing.workshop import Workshop
+
+        studio = Studio(self.table, self.camera, self.theme, self._store, Workshop(progress=progress))
+        self._studio = studio
+        return Composer(self.table, self.camera, self.theme, studio.still(), studio.baked_paddle)
+
+
+class Sketcher:
+    """Draws moments without compiled code.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its look.
+        pixels: The still table if it is at hand, RGB [row, column, 3]; else it is sketched.
+    """
+
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
+    ) -> None:
+        self._paddles = table.paddle
+        self._theme = theme
+        if pixels is None:
+            pixels = sketch(table, camera, theme)
+        self._still = pygame.image.frombuffer(pixels.tobytes(), camera.size, "RGB")
+        self._surface = rgb_surface(camera.size)
+        self._pen = Pen(self._surface, camera)
+
+    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
+        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
+        self._surface.blit(self._still, (0, 0))
+        for _ in effects.trails(moment):
+            pass  # so that they are there when the better picture comes
+        balls = [*moment.balls, *effects.dives(moment.time)]
         angles = dict(zip(("left", "right"), moment.angles, strict=True))
-        return [sprites.at(angles[side]) for side, sprites in self._paddles.items()]
-
-    def _apron_area(self) -> pygame.Rect:
-        board = self.table.board
-        left, top = self.camera.to_pixel(apron_top(board), -0.5 * board.width)
-        right, bottom = self.camera.to_pixel(-0.5 * board.length - RAIL, 0.5 * board.width)
-        return pygame.Rect(round(left), round(top), round(right - left), round(bottom - top))
+        for ball in balls:
+            sketch_ball(self._pen, ball.x, ball.z)
+        for paddle in self._paddles:
+            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
+        return self._surface
 
 
 def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
@@ -138,5 +196,10 @@ def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
     return pygame.image.frombuffer(bytearray(3 * size[0] * size[1]), size, "RGB")
 
 
-if TYPE_CHECKING:
-    from silverball.world import Event
+def _apron_area(camera: Camera) -> pygame.Rect:
+    build = camera.build
+    side = build.half_width - build.thickness
+    left, top = camera.to_pixel(build.apron_top, -side, build.apron_height)
+    right = camera.to_pixel(build.apron_top, side, build.apron_height)[0]
+    bottom = camera.to_pixel(-build.half_length - build.rail, side, build.rail_height)[1]
+    return pygame.Rect(round(left), round(top), round(right - left), max(round(bottom - top), 1))

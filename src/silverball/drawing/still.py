@@ -1,6 +1,7 @@
-"""The still table: in which order is everything painted that does not move?
+"""What does the table look like when nothing moves? Its picture, its heights, and what hits add to it.
 
-From the floor upwards: floor, shadows, corners, obstacles, slant walls, apron, rails.
+A random board differs from an empty one only around its obstacles. If the empty board is at hand, nothing
+else is baked, and the result is the same to the last bit.
 """
 
 from __future__ import annotations
@@ -9,44 +10,114 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.canvas import to_bytes, tone
-from silverball.drawing.floor import paint_floor
-from silverball.drawing.obstacles import paint_cylinder, paint_prism, shadow_cylinder, shadow_prism
-from silverball.drawing.palette import CYLINDERS, PRISMS, ROOM, in_turn
-from silverball.drawing.walls import (
-    paint_apron,
-    paint_corner,
-    paint_rails,
-    paint_slant_wall,
-    shadow_slant_wall,
-)
+from silverball.drawing.kernels import bake
+from silverball.drawing.kernels.bake import Canvas, new_canvas
+from silverball.drawing.kernels.stage import HALO, Form, Scene
+from silverball.drawing.pictures import Flash, Still
+from silverball.drawing.scene import make_scene
+from silverball.drawing.themes import Theme
+from silverball.drawing.workshop import Workshop
+from silverball.physics.layout import Part
 from silverball.table import Table
 
+FLASH_REACH = 1.9  # [u] around a part that its flash is baked for
 
-def paint_still(table: Table, camera: Camera) -> NDArray[np.uint8]:
-    """The table without paddles, balls and score.
 
-    Returns:
-        RGB, shape [row, column, 3].
+def bake_still(
+    table: Table, camera: Camera, theme: Theme, workshop: Workshop, empty: Still | None = None
+) -> Still:
+    """Bake a table without paddles and balls.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its look.
+        workshop: Who does it.
+        empty: The same table without prisms and cylinders, if it is at hand.
     """
-    width, height = camera.size
-    canvas = np.empty((height, width, 3), np.float32)
-    canvas[:] = tone(ROOM)
-    paint_floor(canvas, camera)
-    for wall in table.slant_wall:
-        shadow_slant_wall(canvas, camera, wall)
-    for prism in table.triangular_prism:
-        shadow_prism(canvas, camera, prism)
-    for cylinder in table.cylinder:
-        shadow_cylinder(canvas, camera, cylinder)
-    for wall in table.slant_wall:
-        paint_corner(canvas, camera, wall)
-    for index, prism in enumerate(table.triangular_prism):
-        paint_prism(canvas, camera, prism, in_turn(PRISMS, index))
-    for index, cylinder in enumerate(table.cylinder):
-        paint_cylinder(canvas, camera, cylinder, in_turn(CYLINDERS, index))
-    for wall in table.slant_wall:
-        paint_slant_wall(canvas, camera, wall)
-    paint_apron(canvas, camera)
-    paint_rails(canvas, camera)
-    return to_bytes(canvas)
+    scene = make_scene(table, camera, theme)
+    canvas = new_canvas(camera.size)
+    inner = None
+    if empty is not None:
+        inner = _around_obstacles(scene, camera)
+        canvas.mask[:] = _one_wider(inner)
+    workshop.plan(2 * int(canvas.mask.any(axis=1).sum()))
+    workshop.bake(scene, canvas, inner)
+    pixels, height = to_bytes(canvas.shown), _rounded(canvas.height)
+    if empty is not None and inner is not None:
+        pixels = np.where(inner[:, :, None], pixels, empty.pixels)
+        height = np.where(inner, height, empty.height)
+    return Still(pixels, height, _flashes(table, scene, camera, canvas, workshop))
+
+
+def without_obstacles(table: Table) -> Table:
+    """The table that all random boards of a recipe share."""
+    return table.model_copy(update={"triangular_prism": (), "cylinder": (), "random": None})
+
+
+def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """Colours as RGB bytes, with a fixed fine pattern against bands in slow gradients."""
+    rows, columns = shown.shape[:2]
+    # One step of ordered dither; the constants are powers of the plastic number, which spread points evenly
+    # over a plane. Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+    row, column = np.arange(rows)[:, None], np.arange(columns)[None, :]
+    pattern = ((0.7548776662 * column + 0.5698402910 * row) % 1.0).astype(np.float32)
+    levels: NDArray[np.uint8] = np.clip(shown * 255.0 + pattern[..., None], 0.0, 255.0).astype(np.uint8)
+    return levels
+
+
+def _rounded(height: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Heights as the store keeps them, in half precision, so that a picture from there has the same bits."""
+    return height.astype(np.float16).astype(np.float32)
+
+
+def _around_obstacles(scene: Scene, camera: Camera) -> NDArray[np.bool_]:
+    """The pixels that prisms and cylinders can change: all within the reach of their light."""
+    mask = np.zeros((camera.size[1], camera.size[0]), np.bool_)
+    reach = HALO * scene.stage[0]["unit"]
+    for look, shape in zip(scene.looks, scene.shapes, strict=True):
+        if look["form"] in (Form.PRISM, Form.CYLINDER):
+            left, top, right, bottom = _box(camera, shape, reach)
+            mask[top:bottom, left:right] = True
+    return mask
+
+
+def _box(camera: Camera, shape: np.void, reach: float) -> tuple[int, int, int, int]:
+    """The pixels (left, top, right, bottom) of a part and what is within a reach of it."""
+    x, z, size = shape["x"], shape["z"], shape["reach"] + reach
+    return camera.box(x - size, x + size, z - size, z + size, 0.0, camera.build.top)
+
+
+def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    wider = mask.copy()
+    wider[1:] |= mask[:-1]
+    wider[:-1] |= mask[1:]
+    wider[:, 1:] |= mask[:, :-1]
+    wider[:, :-1] |= mask[:, 1:]
+    return wider
+
+
+def _flashes(
+    table: Table, scene: Scene, camera: Camera, canvas: Canvas, workshop: Workshop
+) -> dict[str, Flash]:
+    names = [f"triangular_prism[{index}]" for index in range(len(table.triangular_prism))]
+    names += [f"cylinder[{index}]" for index in range(len(table.cylinder))]
+    first = Part.FIRST_SHAPE + len(table.slant_wall)
+    flashes = {}
+    for index, name in enumerate(names, first):
+        reach = FLASH_REACH * float(scene.stage[0]["unit"])
+        left, top, right, bottom = _box(camera, scene.shapes[index], reach)
+        pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
+        workshop.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
+        flashes[name] = Flash(left, top, _smoothed(pixels))
+    return flashes
+
+
+def _smoothed(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The mean of each pixel and its eight neighbours: light has no hard edges, and one ray a pixel has."""
+    for axis in (0, 1):
+        wide = np.pad(pixels.astype(np.uint16), [(1, 1) if a == axis else (0, 0) for a in range(3)], "edge")
+        size = pixels.shape[axis]
+        before, here, after = (wide.take(range(shift, shift + size), axis) for shift in range(3))
+        pixels = ((before + here + after) // 3).astype(np.uint8)
+    return np.ascontiguousarray(pixels)

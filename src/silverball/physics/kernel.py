@@ -14,7 +14,8 @@ Options, and why:
 * the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
   code after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
   cache directory that is named after a hash of the sources of all packages that hold kernels, and of what
-  else machine code depends on.
+  else machine code depends on. The drawing has a folder of its own: nothing that plays calls it, so a change
+  of a colour need not compile the physics anew.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ import numba.core.config
 from numba.core.registry import CPUDispatcher
 
 SETTINGS: Any = numba.core.config
-KERNEL_PACKAGES = ("physics", "world", "players")  # a kernel elsewhere must be added here; a test sees to it
+PLAY = ("physics", "world", "players")
+DRAWING = ("physics", "drawing/kernels")
+KERNEL_PACKAGES = (*PLAY, "drawing")  # a kernel elsewhere must be added here; a test sees to it
 KEEP_SECONDS = 30 * 24 * 3600.0
 
 
@@ -70,13 +73,17 @@ def inlined(function: F) -> F:
 
 
 @cache
-def cache_folder() -> Path | None:
-    """The folder for compiled code of exactly these sources; None where no folder can be written."""
+def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
+    """The folder for compiled code of exactly these sources; None where no folder can be written.
+
+    Args:
+        packages: Whose sources the code is made of: `PLAY` or `DRAWING`.
+    """
     import platformdirs
 
-    digest = hashlib.sha256(repr(_machine()).encode())
+    digest = hashlib.sha256(repr((packages, *_machine())).encode())
     package = Path(__file__).resolve().parent.parent
-    for source in sorted(path for name in KERNEL_PACKAGES for path in (package / name).rglob("*.py")):
+    for source in sorted(path for name in packages for path in (package / name).rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode())
         digest.update(source.read_bytes())
     base = os.environ.get("SILVERBALL_CACHE") or platformdirs.user_cache_dir("silverball")
@@ -89,9 +96,9 @@ def cache_folder() -> Path | None:
     return folder if os.access(folder, os.W_OK) else None
 
 
-def is_compiled(name: str = "run_worlds") -> bool:
+def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> bool:
     """Whether the compiled code of a kernel is on disk; a first start compiles it and all it calls."""
-    folder = cache_folder()
+    folder = cache_folder(packages)
     return folder is not None and any(folder.rglob(f"*.{name}-*.nbc"))
 
 
@@ -108,13 +115,15 @@ def forget_old_code() -> None:
     folder = cache_folder()
     if folder is None:
         return
+    keep = (folder, cache_folder(DRAWING))
     for other in folder.parent.iterdir():
-        if other != folder and time.time() - other.stat().st_mtime > KEEP_SECONDS:
+        if other not in keep and time.time() - other.stat().st_mtime > KEEP_SECONDS:
             shutil.rmtree(other, ignore_errors=True)
 
 
 def _compile(function: F, **more: bool) -> F:
-    folder = cache_folder()
+    in_drawing = function.__module__.startswith("silverball.drawing.kernels.")
+    folder = cache_folder(DRAWING if in_drawing else PLAY)
     options: dict[str, Any] = {
         "cache": folder is not None,
         "error_model": "numpy",

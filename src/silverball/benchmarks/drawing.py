@@ -1,0 +1,117 @@
+"""How soon is there a picture, how soon the best one, and how many frames a second are drawn?
+
+Everything is baked into a folder that is thrown away afterwards, so nothing is known at the beginning.
+Compiled code is there: compiling it is a matter of the first start on a machine alone.
+"""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pygame
+
+from silverball.benchmarks.marks import Figure
+from silverball.drawing import Moment, Renderer, best_size
+from silverball.drawing.renderer import rgb_surface
+from silverball.drawing.store import Store
+from silverball.table import Table, generate_table, load_table
+from silverball.world import World
+
+HEIGHT = 1152  # [pixel] of the picture
+FRAMES = 240  # of a game, drawn again and again
+FRAME_RATE = 60
+TICK_RATE = 240
+SEEDS = (11, 12)
+
+
+def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
+    """Measure all of it; `advance` is told what comes next. Bakings are timed once."""
+    from silverball.drawing.compiling import compile_all
+
+    advance("loading compiled code")
+    compile_all()
+    recipe = load_table("random")
+    first, second = (generate_table(seed, recipe) for seed in SEEDS)
+    size = best_size(first.board, HEIGHT)
+    with tempfile.TemporaryDirectory() as folder:
+        store = Store(Path(folder))
+        advance("a sketch")
+        figures = [Figure("first picture of an unknown board", _first_picture(first, size, rounds), "s")]
+        advance("baking a board")
+        figures.append(
+            Figure("best picture of an unknown board", _seconds(lambda: _bake(first, size, store)), "s")
+        )
+        advance("baking an empty board and paddles")
+        renderer = _bake(first, size, store)
+        assert renderer._studio is not None
+        studio = renderer._studio
+        figures.append(Figure("all angles of the paddles, once", _seconds(studio.bake_paddles), "s"))
+        figures.append(Figure("the empty board, once", _seconds(studio.bake_empty), "s"))
+        advance("baking another board")
+        figures.append(
+            Figure("best picture of another board", _seconds(lambda: _bake(second, size, store)), "s")
+        )
+        advance("a board that was seen before")
+        known = statistics.median(_seconds(lambda: _bake(second, size, store)) for _ in range(rounds))
+        figures.append(Figure("picture of a board seen before", known, "s"))
+        advance("drawing frames")
+        figures += _frames(_bake(first, size, store), rounds)
+    return figures
+
+
+def _bake(table: Table, size: tuple[int, int], store: Store) -> Renderer:
+    return Renderer(table, size, board_seed=SEEDS[0], store=store)
+
+
+def _seconds(work: Callable[[], Any]) -> float:
+    before = time.perf_counter()
+    work()
+    return time.perf_counter() - before
+
+
+def _first_picture(table: Table, size: tuple[int, int], rounds: int) -> float:
+    """Seconds to a renderer that works in the background, and its first picture."""
+    times = []
+    for _ in range(rounds):
+        with tempfile.TemporaryDirectory() as folder:
+            before = time.perf_counter()
+            renderer = Renderer(table, size, board_seed=0, background=True, store=Store(Path(folder)))
+            renderer.surface(Moment.before(table))
+            times.append(time.perf_counter() - before)
+            renderer.close()
+    return statistics.median(times)
+
+
+def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
+    """Frames of a game with two balls under random paddles, in processor time of one core."""
+    play = list(_play(renderer.table))
+    target = rgb_surface(renderer.camera.size)
+    times = []
+    for _ in range(max(rounds, 3)):
+        renderer.effects.forget()
+        before = time.process_time()
+        for moment, events in play:
+            renderer.note(events, TICK_RATE)
+            renderer.draw(moment, target)
+        times.append((time.process_time() - before) / len(play))
+    window = pygame.Surface(renderer.camera.size, 0, 32)
+    blit = statistics.median(_seconds(lambda: window.blit(target, (0, 0))) for _ in range(60))
+    return [
+        Figure("frames drawn, two balls", 1.0 / statistics.median(times), "frames/s"),
+        Figure("a frame", 1000.0 * statistics.median(times), "ms"),
+        Figure("from there onto a window of 32 bits", 1000.0 * blit, "ms"),
+    ]
+
+
+def _play(table: Table) -> Iterator[tuple[Moment, Any]]:
+    world = World(table, 5, TICK_RATE)
+    for frame in range(FRAMES):
+        while len(world.balls) < table.board.max_balls:
+            world.create_ball()
+        world.step(left=frame // 7 % 2 == 0, right=frame // 9 % 2 == 0, ticks=TICK_RATE // FRAME_RATE)
+        yield Moment.of(world), world.events

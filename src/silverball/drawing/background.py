@@ -1,0 +1,131 @@
+"""How does a picture get better while a game is played? A thread bakes, another process compiles.
+
+    compiled code there? (else: a process of low priority makes it)
+    →  still table  →  paddles  →  the empty table
+
+Compiling holds Python's lock, so it never happens in the game's own process. If it fails, the sketch stays.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+import weakref
+from typing import TYPE_CHECKING
+
+from silverball.drawing.camera import Camera
+from silverball.drawing.store import Store
+from silverball.drawing.themes import Theme
+from silverball.table import Table
+
+if TYPE_CHECKING:
+    from silverball.drawing.compose import Composer
+
+POLL_SECONDS = 0.1
+COMPILE_SECONDS = 300.0  # after which compiling is given up
+
+
+class Background:
+    """Makes a painter in the background.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its look.
+        store: Where pictures are kept.
+        is_random: Whether other boards of the same recipe will follow, which share the empty table.
+
+    Attributes:
+        painter: Draws the table at its best; None until it is ready.
+    """
+
+    def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, is_random: bool) -> None:
+        self.painter: Composer | None = None
+        self._table = table
+        self._camera = camera
+        self._theme = theme
+        self._store = store
+        self._is_random = is_random
+        self._stop = threading.Event()
+        self._compiler: subprocess.Popen[bytes] | None = None
+        self._thread = threading.Thread(target=self._work, name="silverball drawing", daemon=True)
+        _running.add(self)
+        self._thread.start()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether everything is baked, or given up."""
+        return not self._thread.is_alive()
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait until everything is baked."""
+        self._thread.join(seconds)
+
+    def close(self) -> None:
+        """Stop; what is not finished is dropped."""
+        self._stop.set()
+        if self._compiler is not None:
+            with contextlib.suppress(OSError):
+                self._compiler.kill()
+
+    def _work(self) -> None:
+        from silverball.drawing.workshop import StoppedError, Workshop, stand_back
+
+        stand_back()
+        if not self._compile():
+            return
+        from silverball.drawing.compose import Composer
+        from silverball.drawing.studio import Studio
+
+        workshop = Workshop(stop=self._stop, is_behind=True)
+        studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
+        try:
+            painter = Composer(self._table, self._camera, self._theme, studio.still(), studio.paddle)
+            if self._stop.is_set():
+                return
+            self.painter = painter
+            studio.bake_paddles()
+            if self._is_random:
+                studio.bake_empty()
+        except StoppedError:
+            studio.save_paddles()
+
+    def _compile(self) -> bool:
+        """Whether compiled code is there, after it has been made if need be."""
+        from silverball.drawing.compiling import is_compiled
+
+        if is_compiled():
+            return True
+        low: dict[str, object] = {}
+        if os.name == "nt":
+            low["creationflags"] = subprocess.BELOW_NORMAL_PRIORITY_CLASS  # type: ignore[attr-defined,unused-ignore]
+        try:
+            self._compiler = subprocess.Popen(
+                [sys.executable, "-m", "silverball.drawing.compiling"],
+                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                **low,  # type: ignore[call-overload]
+            )  # fmt: skip
+        except OSError:
+            return False
+        waited = 0.0
+        while self._compiler.poll() is None:
+            if self._stop.wait(POLL_SECONDS) or waited > COMPILE_SECONDS:
+                self._compiler.kill()
+                self._compiler.wait()
+                return False
+            waited += POLL_SECONDS
+        return self._compiler.returncode == 0 and not self._stop.is_set() and is_compiled()
+
+
+_running: weakref.WeakSet[Background] = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all() -> None:
+    """No compiler outlives the program."""
+    for background in list(_running):
+        background.close()

@@ -1,0 +1,74 @@
+"""How tall is everything? The physics knows footprints alone; heights and the cabinet are chosen here.
+
+All in units [u] of the board. Heights go with the ball, so that one of another size still fits what it hits:
+obstacles are as tall as a ball, rails and bumper caps a little taller.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from silverball.table import Board
+
+USUAL_BALL_RADIUS = 0.25  # [u] for which the numbers below were chosen
+RAIL_SHARE = 0.044  # width of the rail, of the board's smaller side
+GREATEST_RAIL = 1.0  # [u]
+
+
+class Build(NamedTuple):
+    """The heights [u] above the playfield and the widths [u] of what a board is built of.
+
+    Attributes:
+        half_length: Half of the board along x.
+        half_width: Half of the board along z.
+        thickness: Of the borders: their surface lies so far inside the board's edge.
+        rail: How far the rail stands out around the board.
+        rail_height: Top of the rail.
+        wall_height: Top of slant walls and of the corners behind them.
+        prism_height: Top of a prism.
+        body_height: Top of a cylinder's body, on which its cap sits.
+        paddle_height: Top of a paddle.
+        apron_height: Top of the plate under which lost balls roll.
+        apron_top: The x of its upper edge.
+        skirt: How far the cabinet goes down in front.
+        top: Nothing reaches above this height.
+        ball: Radius of a ball.
+    """
+
+    half_length: float
+    half_width: float
+    thickness: float
+    rail: float
+    rail_height: float
+    wall_height: float
+    prism_height: float
+    body_height: float
+    paddle_height: float
+    apron_height: float
+    apron_top: float
+    skirt: float
+    top: float
+    ball: float
+
+    @classmethod
+    def of(cls, board: Board) -> Build:
+        """The build of a board."""
+        shorter = min(board.length, board.width)
+        unit = min(board.ball_radius / USUAL_BALL_RADIUS, 0.25 * shorter)
+        rail = min(RAIL_SHARE * shorter, GREATEST_RAIL)
+        return cls(
+            half_length=0.5 * board.length,
+            half_width=0.5 * board.width,
+            thickness=board.wall_thickness,
+            rail=rail,
+            rail_height=0.62 * unit,
+            wall_height=0.5 * unit,
+            prism_height=0.55 * unit,
+            body_height=0.42 * unit,
+            paddle_height=0.46 * unit,
+            apron_height=0.54 * unit,
+            apron_top=max(board.gutter - board.ball_radius, -0.5 * board.length),
+            skirt=0.5 * rail,
+            top=1.05 * unit,
+            ball=board.ball_radius,
+        )

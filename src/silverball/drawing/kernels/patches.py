@@ -1,0 +1,94 @@
+"""How is something laid onto a frame? The kernels that change a rectangle of pixels.
+
+A frame is RGB, uint8 [row, column, 3]; beside it lies the height [u] of what each pixel shows, float32
+[row, column]. Rectangles are given by their first column and row and may hang over the frame's edge.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+from silverball.physics.kernel import inlined, kernel
+
+
+@kernel
+def lay_paddle(frame: Any, height: Any, left: int, top: int, stays: Any, added: Any, tall: Any) -> None:
+    """Lay a paddle over a frame:  new = old · stays / 255 + added;  its heights replace those below."""
+    for i in range(max(0, -top), min(stays.shape[0], frame.shape[0] - top)):
+        for j in range(max(0, -left), min(stays.shape[1], frame.shape[1] - left)):
+            stay = stays[i, j]
+            if stay == 255:
+                continue
+            for channel in range(3):
+                value = frame[top + i, left + j, channel] * stay // 255 + added[i, j, channel]
+                frame[top + i, left + j, channel] = min(value, 255)
+            if tall[i, j] >= 0.0:
+                height[top + i, left + j] = tall[i, j]
+
+
+@kernel
+def add_light(rows: Any, left: int, top: int, patch: Any, strength: int) -> None:
+    """Add so many 256ths of a picture of light.
+
+    Args:
+        rows: The frame, its colours in one row each, uint8 [row, 3 · column].
+        left: First column of the picture.
+        top: Its first row.
+        patch: The picture of light, uint8 [row, 3 · column]; it lies within the frame.
+        strength: 0 to 256.
+    """
+    for i in range(patch.shape[0]):
+        line, more = rows[top + i], patch[i]
+        for j in range(patch.shape[1]):
+            line[3 * left + j] = min(line[3 * left + j] + (more[j] * strength >> 8), 255)
+
+
+@kernel
+def add_spots(frame: Any, height: Any, stage: Any, spots: Any, count: int) -> tuple[int, int, int, int]:
+    """Add round spots of light, of trails and sparks, and give the rectangle that holds them all.
+
+    Args:
+        frame: RGB.
+        height: What is there.
+        stage: The camera, a STAGE record.
+        spots: Place x, y, z, radius [u], red, green, blue [0 to 255], float64 [spot, 7].
+        count: How many of them.
+    """
+    left, top, right, bottom = frame.shape[1], frame.shape[0], 0, 0
+    for index in range(count):
+        first_column, first_row, end_column, end_row = _add_spot(frame, height, stage[0], spots, index)
+        left, top = min(left, first_column), min(top, first_row)
+        right, bottom = max(right, end_column), max(bottom, end_row)
+    return left, top, right, bottom
+
+
+@inlined
+def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[int, int, int, int]:
+    x, y, z, radius = spots[index, 0], spots[index, 1], spots[index, 2], spots[index, 3]
+    depth = (x - s.eye_x) * s.sine - (y - s.eye_y) * s.cosine
+    across = s.across + s.focal * z / depth
+    down = s.down - s.focal * ((x - s.eye_x) * s.cosine + (y - s.eye_y) * s.sine) / depth
+    size = max(radius * s.focal / depth, 0.8)
+    left, right = max(int(across - size), 0), min(int(across + size) + 1, frame.shape[1])
+    top, bottom = max(int(down - size), 0), min(int(down + size) + 1, frame.shape[0])
+    for row in range(top, bottom):
+        for column in range(left, right):
+            u, v = (column + 0.5 - across) / size, (row + 0.5 - down) / size
+            fade = 1.0 - u * u - v * v
+            # A thing that is higher than the spot stands in front of it: the camera looks down.
+            if fade > 0.0 and height[row, column] <= y + 0.3:
+                fade *= fade
+                for channel in range(3):
+                    value = frame[row, column, channel] + int(fade * spots[index, 4 + channel])
+                    frame[row, column, channel] = min(value, 255)
+    return left, top, right, bottom
+
+
+@inlined
+def way_to(s: Any, column: int, row: int) -> tuple[float, float, float, float]:
+    """The unit vector from the eye through the middle of a pixel, and how long it was before."""
+    u, v = (column + 0.5 - s.across) / s.focal, (s.down - row - 0.5) / s.focal
+    dx, dy, dz = s.sine + v * s.cosine, v * s.sine - s.cosine, u
+    length = sqrt(dx * dx + dy * dy + dz * dz)
+    return dx / length, dy / length, dz / length, length

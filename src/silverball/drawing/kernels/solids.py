@@ -1,0 +1,111 @@
+"""How far is a point of space from a part? The footprint of the physics, raised to a height.
+
+A footprint gives the distance a in the plane, the height the distance b = y − height above it. A body with an
+edge rounded by r is
+
+    d = |max(a + r, b + r, 0)| + min(max(a + r, b + r), 0) − r        (|…| of the two clipped components)
+
+which is never more than the true distance, so a ray that advances by it passes through nothing. Bodies have
+no underside: they go down through the playfield.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+from silverball.drawing.kernels.stage import Form
+from silverball.physics.kernel import inlined, internal
+from silverball.physics.shapes import distance as shape_distance
+from silverball.physics.shapes import triangle_distance
+
+CAP_SHARE = 0.9  # radius of a cylinder's cap by that of the cylinder
+CAP_RISE = 0.42  # height of the cap by its radius
+RING = 0.075  # [u] radius of the steel ring at the top of a cylinder's body, for a ball of the usual size
+
+
+@inlined
+def raised(a: float, y: float, height: float, bevel: float) -> float:
+    """Distance from a footprint at distance a, raised to a height with a rounded edge."""
+    across = a + bevel
+    up = y - height + bevel
+    if across > 0.0 and up > 0.0:
+        return sqrt(across * across + up * up) - bevel
+    return max(across, up) - bevel
+
+
+@internal
+def footprint(look: Any, c: Any, x: float, z: float) -> float:
+    """Distance in the plane from a part: what a ball's surface would have to go to touch it."""
+    if look.form == Form.PADDLE:  # in its own frame (see physics/paddle.py)
+        rx = x - c.x
+        rz = look.side * (z - c.z)
+        gap, _, _ = triangle_distance(c, rx * look.cosine - rz * look.sine, rx * look.sine + rz * look.cosine)
+        return gap
+    gap, _, _ = shape_distance(c, x, z)
+    return gap
+
+
+@internal
+def part_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
+    """Distance of a point of space from a part."""
+    a = footprint(look, c, x, z)
+    d = raised(a, y, look.height, look.bevel)
+    if look.form == Form.CYLINDER:
+        d = min(d, _crown_distance(look, c, a, y))
+    elif look.form == Form.PADDLE:  # the bolt it turns on
+        d = min(d, _bolt_distance(look, c, x, y, z))
+    return d
+
+
+@inlined
+def _crown_distance(look: Any, c: Any, a: float, y: float) -> float:
+    """A cylinder's cap, a slice of a sphere, and the steel ring that it lies in."""
+    unit = look.height / 0.42
+    rho = a + c.radius
+    ring_across = rho - (c.radius - RING * unit)
+    ring_up = y - look.height
+    ring = sqrt(ring_across * ring_across + ring_up * ring_up) - RING * unit
+    wide = CAP_SHARE * c.radius
+    rise = min(CAP_RISE * wide, 0.45 * unit)
+    sphere = (wide * wide + rise * rise) / (2.0 * rise)
+    up = y - (look.height + rise - sphere)
+    cap = max(sqrt(rho * rho + up * up) - sphere, look.height - y)
+    return min(ring, cap)
+
+
+@inlined
+def _bolt_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
+    """A flat dome over the pivot of a paddle."""
+    size = min(0.36 * (c.x2 - c.x0), 0.3 * look.height / 0.46)
+    rx = x - c.x - 0.42 * size * look.sine
+    rz = z - c.z - 0.42 * size * look.cosine * look.side
+    up = 2.0 * (y - look.height)
+    return 0.5 * (sqrt(rx * rx + rz * rz + up * up) - size)
+
+
+@inlined
+def rail_footprint(s: Any, x: float, z: float) -> float:
+    """Distance in the plane from the frame around the board: negative inside its wood."""
+    inner_x = max(x - (s.half_length - s.thickness), -s.half_length - x)
+    inner_z = abs(z) - (s.half_width - s.thickness)
+    if inner_x > 0.0 and inner_z > 0.0:
+        inner = sqrt(inner_x * inner_x + inner_z * inner_z)
+    else:
+        inner = max(inner_x, inner_z)
+    outer = max(abs(x) - (s.half_length + s.rail), abs(z) - (s.half_width + s.rail))
+    return max(-inner, outer)
+
+
+@inlined
+def rail_distance(s: Any, x: float, y: float, z: float) -> float:
+    """Distance from the frame around the board."""
+    return raised(rail_footprint(s, x, z), y, s.rail_height, 0.18 * s.rail)
+
+
+@inlined
+def apron_distance(s: Any, x: float, y: float, z: float) -> float:
+    """Distance from the plate below the gutter, between the rails; its edge is bevelled."""
+    a = max(x - s.apron_top, -s.half_length - x, abs(z) - s.half_width)
+    b = y - s.apron_height
+    return max(a, b, 0.7071 * (a + b + 0.16 * s.unit))

@@ -1,0 +1,253 @@
+"""What is the surface like at a place: which way does it face, what is its paint, does it shine by itself?"""
+
+from __future__ import annotations
+
+from math import atan2, cos, exp, pi, sin, sqrt
+from typing import Any, NamedTuple
+
+from silverball.drawing.kernels.art import painted
+from silverball.drawing.kernels.solids import (
+    CAP_SHARE,
+    apron_distance,
+    footprint,
+    part_distance,
+    rail_distance,
+    rail_footprint,
+)
+from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, Form, Frame, Ink, Scene
+from silverball.drawing.kernels.tones import RGB, clamped, cover, ink, mixed, noise, plus, scaled, smooth
+from silverball.physics.kernel import internal
+
+STEP = 0.004  # [u] between the places whose distances give a normal
+SPOKES = 8  # of a cap's star
+BOLT_SPACING = 2.4  # [u] between the bolts of the rails
+
+
+class Surface(NamedTuple):
+    """A place of a surface.
+
+    Attributes:
+        nx: The normal, a unit vector.
+        ny: Its part out of the board.
+        nz: Its part to the right.
+        paint: How much of each colour it throws back.
+        light: What shines out of it by itself.
+        gloss: How much it mirrors when seen from straight above it.
+        metal: 1 where it mirrors in its own colour and has no paint, else 0.
+    """
+
+    nx: float
+    ny: float
+    nz: float
+    paint: RGB
+    light: RGB
+    gloss: float
+    metal: float
+
+
+@internal
+def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: float) -> Surface:
+    """The surface of what has been met at (x, y, z), seen with pixels of a size [u]."""
+    s = scene.stage[0]
+    if part == FLOOR:
+        paint, light = painted(s, scene.inks, x, z, pixel)
+        return Surface(0.0, 1.0, 0.0, paint, light, 0.04, 0.0)
+    nx, ny, nz = _normal(scene, part, x, y, z)
+    if part == RAIL:
+        return _rail(scene, x, y, z, nx, ny, nz, pixel)
+    if part == APRON:
+        return _apron(scene, x, y, z, nx, ny, nz, pixel)
+    look, shape = scene.looks[part], scene.shapes[part]
+    tone = (look.red, look.green, look.blue)
+    if look.form == Form.CYLINDER:
+        return _cylinder(scene, look, shape, x, y, z, nx, ny, nz, tone, pixel)
+    inside = -footprint(look, shape, x, z)
+    if look.form == Form.PRISM:
+        return _prism(look, y, nx, ny, nz, inside, tone, pixel)
+    if look.form == Form.PADDLE:
+        return _paddle(scene, look, shape, x, y, z, nx, ny, nz, inside, tone, pixel)
+    if look.form == Form.WALL:
+        return _wall(scene, look, x, y, z, nx, ny, nz, tone)
+    return Surface(nx, ny, nz, tone, (0.0, 0.0, 0.0), 0.05, 0.0)  # a filled corner
+
+
+@internal
+def _distance(scene: Scene, part: int, x: float, y: float, z: float) -> float:
+    if part == RAIL:
+        return rail_distance(scene.stage[0], x, y, z)
+    if part == APRON:
+        return apron_distance(scene.stage[0], x, y, z)
+    return part_distance(scene.looks[part], scene.shapes[part], x, y, z)
+
+
+@internal
+def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
+    """The direction in which the distance grows fastest, from four places around."""
+    nx, ny, nz = 0.0, 0.0, 0.0
+    h = STEP * scene.stage[0].unit
+    for corner in range(4):  # of a tetrahedron: (+,−,−), (−,−,+), (−,+,−), (+,+,+)
+        ex = h if corner == 0 or corner == 3 else -h  # noqa: PLR1714 - no tuple in a kernel
+        ey = h if corner >= 2 else -h
+        ez = h if corner == 1 or corner == 3 else -h  # noqa: PLR1714
+        d = _distance(scene, part, x + ex, y + ey, z + ez)
+        nx += ex * d
+        ny += ey * d
+        nz += ez * d
+    length = max(sqrt(nx * nx + ny * ny + nz * nz), 1e-12)
+    return nx / length, ny / length, nz / length
+
+
+@internal
+def _rail(
+    scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float, pixel: float
+) -> Surface:
+    """The frame: metal with a bright trim, or wood with brass; bolts on top, a tube of light at its foot."""
+    s = scene.stage[0]
+    in_top = x - s.half_length > abs(z) - s.half_width or -x - s.half_length > abs(z) - s.half_width
+    along = z if in_top else x
+    width = s.rail + s.thickness
+    deep = rail_footprint(s, x, z) + 0.5 * width  # 0 on the surfaces' middle line, grows to either side
+    tone = ink(scene.inks, Ink.RAIL)
+    light = (0.0, 0.0, 0.0)
+    steel = ink(scene.inks, Ink.STEEL)
+    metal, gloss = 0.0, 0.10
+    if s.frame == Frame.WOOD:
+        across = x if in_top else z
+        grain = noise(1.1 * along, 14.0 * across) + 0.5 * noise(2.7 * along, 41.0 * across + 3.0 * y)
+        tone = scaled(tone, 0.62 + 0.5 * grain)
+    else:
+        brushed = noise(3.0 * along, 60.0 * (x if in_top else z))
+        tone = scaled(tone, 0.85 + 0.3 * brushed)
+        gloss = 0.22
+    if ny > 0.5:
+        trim = cover(abs(abs(deep) - 0.02 * width) - 0.035 * width, pixel)
+        if trim > 0.5:
+            tone, metal, gloss = mixed(tone, steel, 0.8), 0.8, 0.5
+        spacing = BOLT_SPACING * s.unit
+        place = along / spacing + 0.5
+        off = (place - place // 1.0 - 0.5) * spacing
+        radius = 0.16 * width
+        rho = sqrt(off * off + deep * deep)
+        if rho < radius:
+            tone, metal, gloss = steel, 1.0, 0.85
+            # A round head: its normal leans outwards.
+            lean = 0.7 * rho / radius / max(rho, 1e-9)
+            lean_x, lean_z = (deep * 0.0 + off, 0.0) if not in_top else (0.0, off)
+            nx, nz = nx + lean * lean_x, nz + lean * lean_z
+            length = sqrt(nx * nx + ny * ny + nz * nz)
+            nx, ny, nz = nx / length, ny / length, nz / length
+        tone = scaled(tone, 1.0 - 0.5 * cover(abs(rho - radius) - 0.02 * width, pixel))
+    elif abs(x) < s.half_length - 0.5 * s.thickness and abs(z) < s.half_width:
+        strip = exp(-(((y - 0.09 * s.unit) / (0.045 * s.unit)) ** 2))
+        light = scaled(ink(scene.inks, Ink.STRIP), 1.6 * strip * s.halo)
+    return Surface(nx, ny, nz, tone, light, gloss, metal)
+
+
+@internal
+def _apron(
+    scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float, pixel: float
+) -> Surface:
+    """The plate at the player's end, with the table's name."""
+    s = scene.stage[0]
+    tone = ink(scene.inks, Ink.APRON)
+    light = (0.0, 0.0, 0.0)
+    depth = s.apron_top + s.half_length
+    half = s.half_width - s.thickness
+    down = (s.apron_top - x) / max(depth, 1e-9)
+    if ny > 0.9:
+        tone = scaled(tone, 0.8 + 0.5 * clamped(1.0 - down))
+        row = int(down * scene.label.shape[0])
+        column = int((z + half) / (2.0 * half) * scene.label.shape[1])
+        if 0 <= row < scene.label.shape[0] and 0 <= column < scene.label.shape[1]:
+            letter = scene.label[row, column]
+            name = ink(scene.inks, Ink.LABEL)
+            tone = mixed(tone, name, 0.85 * letter)
+            light = scaled(name, 0.25 * letter * s.halo)
+    else:
+        edge = exp(-(((y - s.apron_height + 0.08 * s.unit) / (0.05 * s.unit)) ** 2))
+        light = scaled(ink(scene.inks, Ink.STRIP), (0.15 + 0.9 * edge) * s.halo)
+    return Surface(nx, ny, nz, tone, light, 0.06, 0.0)
+
+
+@internal
+def _cylinder(
+    scene: Scene, look: Any, c: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float,
+    tone: RGB, pixel: float,
+) -> Surface:  # fmt: skip
+    """A bumper: a lit ribbed body, a steel ring, a domed cap with a star."""
+    s = scene.stage[0]
+    rx, rz = x - c.x, z - c.z
+    rho, angle = sqrt(rx * rx + rz * rz), atan2(rz, rx)
+    unit = s.unit
+    wide = CAP_SHARE * c.radius
+    if rho > wide - 0.01 * unit and y > look.height - 0.078 * unit:
+        return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.85, 1.0)
+    if y < look.height:
+        rib = 0.5 + 0.5 * cos(20.0 * angle)
+        shine = (0.22 + 0.5 * y / look.height) * (0.45 + 0.55 * rib) * s.halo
+        return Surface(nx, ny, nz, scaled(tone, 0.8), scaled(tone, shine), 0.08, 0.0)
+    share = rho / wide
+    white = mixed(tone, ink(scene.inks, Ink.CAP), s.cap_ground)
+    step = 2.0 * pi / SPOKES
+    place = angle / step + 1000.5
+    turned = (place - place // 1.0 - 0.5) * step
+    # A spoke widens from the middle to the rim and ends round.
+    off = rho * abs(sin(turned)) - 0.30 * rho * sin(0.5 * step) - 0.045 * wide
+    spoke = cover(max(off, abs(rho - 0.60 * wide) - 0.25 * wide), pixel)
+    heart = cover(rho - 0.22 * wide, pixel)
+    collar = cover(abs(rho - 0.22 * wide) - 0.035 * wide, pixel)
+    rim = cover(0.93 * wide - rho, pixel)
+    paint = mixed(scaled(tone, 0.85 - 0.25 * share), white, 0.95 * max(spoke, heart))
+    paint = mixed(paint, scaled(tone, 0.35), max(collar, rim))
+    shine = (0.22 + 0.34 * (1.0 - share) * (1.0 - share)) * (0.4 + 0.6 * s.halo)
+    light = plus(scaled(paint, shine), white, 0.25 * max(heart, 0.4 * spoke) * s.halo)
+    return Surface(nx, ny, nz, paint, light, 0.07, 0.0)
+
+
+@internal
+def _prism(
+    look: Any, y: float, nx: float, ny: float, nz: float, inside: float, tone: RGB, pixel: float
+) -> Surface:
+    """Lit acrylic: light gathers at the edges, and a second, fainter line runs inside the top."""
+    unit = look.height / 0.55
+    if ny > 0.85:
+        edge = exp(-max(inside - look.bevel, 0.0) / (0.07 * unit))
+        line = cover(abs(inside - 0.24 * unit) - 0.018 * unit, pixel)
+        inner = smooth(0.24 * unit, 0.3 * unit, inside)
+        paint = scaled(tone, 0.75 - 0.22 * inner)
+        light = scaled(mixed(tone, (1.0, 1.0, 1.0), 0.12 * edge), 0.26 + 0.62 * edge - 0.10 * inner)
+        return Surface(nx, ny, nz, paint, plus(light, tone, 0.5 * line), 0.07, 0.0)
+    if ny > 0.25:  # the bevelled edge, where the light comes out
+        white = mixed(tone, (1.0, 1.0, 1.0), 0.42)
+        return Surface(nx, ny, nz, tone, scaled(white, 1.05), 0.10, 0.0)
+    up = clamped(y / look.height)
+    return Surface(nx, ny, nz, scaled(tone, 0.8), scaled(tone, 0.16 + 0.42 * up * up), 0.10, 0.0)
+
+
+@internal
+def _paddle(
+    scene: Scene, look: Any, c: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float,
+    inside: float, tone: RGB, pixel: float,
+) -> Surface:  # fmt: skip
+    """A bright plate with a rubber around it and a bolt over its pivot."""
+    if y > look.height + 0.004:
+        return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.8, 1.0)
+    edge = ink(scene.inks, Ink.PADDLE_EDGE)
+    rim = cover(inside - 0.055 * look.height / 0.46, pixel)
+    light = scaled(mixed(tone, edge, rim), 0.16)
+    if ny < 0.5:
+        return Surface(nx, ny, nz, scaled(mixed(tone, edge, 0.45), 0.85), scaled(tone, 0.10), 0.06, 0.0)
+    return Surface(nx, ny, nz, mixed(tone, edge, rim), light, 0.08, 0.0)
+
+
+@internal
+def _wall(
+    scene: Scene, look: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float, tone: RGB
+) -> Surface:
+    """A slant wall: a steel bar, or a wooden one; a tube of light along its foot."""
+    s = scene.stage[0]
+    strip = exp(-(((y - 0.09 * s.unit) / (0.045 * s.unit)) ** 2)) if ny < 0.3 else 0.0
+    light = scaled(ink(scene.inks, Ink.STRIP_2), 1.6 * strip * s.halo)
+    if s.frame == Frame.WOOD:
+        return Surface(nx, ny, nz, tone, light, 0.25, 0.5)
+    return Surface(nx, ny, nz, tone, light, 0.4, 0.55)

@@ -1,0 +1,204 @@
+"""What is shown before anything is baked? The same table in flat colours, within a tenth of a second.
+
+Everything lies where the baked picture will have it: the same camera, the same heights. Only pygame and NumPy
+are needed, no compiled code.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from silverball.drawing.camera import Camera
+from silverball.drawing.corner import corner_behind
+from silverball.drawing.kernels.stage import Art
+from silverball.drawing.themes import Color, Theme, in_turn
+from silverball.table import Paddle, SlantWall, Table
+
+Point = tuple[float, float]
+ENLARGED = 2  # the picture is drawn so much larger and shrunk, which smooths its edges,
+MOST_PIXELS = 2_000_000  # unless it is larger than this
+CIRCLE = 28  # corners of a circle
+RAYS, EMBLEM_AT, RING_AT = 22, -0.05, 0.27  # as in art.py and shade.py
+
+
+def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
+    """The table without paddles and balls: RGB, uint8 [row, column, 3]."""
+    width, height = camera.size
+    enlarged = ENLARGED if width * height <= MOST_PIXELS else 1
+    surface = pygame.Surface((max(width * enlarged, 1), max(height * enlarged, 1)), 0, 24)
+    surface.fill(theme.room)
+    pen = Pen(surface, camera, enlarged)
+    _floor(pen, table, theme)
+    _rails(pen, theme)
+    for _, draw in sorted(_parts(pen, table, theme), key=lambda part: -part[0]):  # the far ones first
+        draw()
+    _apron(pen, theme)
+    small = pygame.transform.smoothscale(surface, camera.size) if enlarged > 1 else surface
+    pixels = np.frombuffer(pygame.image.tobytes(small, "RGB"), np.uint8)
+    return pixels.reshape(height, width, 3)
+
+
+class Pen:
+    """Draws raised shapes onto a surface.
+
+    Args:
+        surface: Where to.
+        camera: Through which they are seen.
+        enlarged: How much larger the surface is than the camera's picture.
+    """
+
+    def __init__(self, surface: pygame.Surface, camera: Camera, enlarged: int = 1) -> None:
+        self.surface = surface
+        self.camera = camera
+        self.enlarged = enlarged
+
+    def face(self, points: Iterable[tuple[float, float, float]], color: Color) -> None:
+        """A flat face with corners (x, z, y)."""
+        places = []
+        for x, z, y in points:
+            across, down = self.camera.to_pixel(x, z, y)
+            places.append((across * self.enlarged, down * self.enlarged))
+        pygame.draw.polygon(self.surface, color, places)
+
+    def block(self, corners: Sequence[Point], height: float, top: Color, low: float = 0.0) -> None:
+        """A footprint, counter-clockwise, raised to a height; sides that are turned away are left out."""
+        for (x0, z0), (x1, z1) in zip(corners, (*corners[1:], corners[0]), strict=True):
+            outward = z0 - z1  # x of the outward normal of a counter-clockwise outline
+            if outward < 0.0:
+                length = max(math.hypot(x1 - x0, z1 - z0), 1e-9)
+                face = [(x0, z0, low), (x1, z1, low), (x1, z1, height), (x0, z0, height)]
+                self.face(face, dim(top, 0.35 + 0.2 * (-outward / length)))
+        self.face([(x, z, height) for x, z in corners], top)
+
+
+def sketch_paddle(pen: Pen, paddle: Paddle, angle: float, theme: Theme) -> None:
+    """A paddle at an angle [deg]."""
+    pen.block(paddle.corners(angle), pen.camera.build.paddle_height, theme.paddle)
+
+
+def sketch_ball(pen: Pen, x: float, z: float) -> None:
+    """A ball with its shadow."""
+    radius = pen.camera.build.ball
+    pen.face(circle(x - 0.5 * radius, z, radius, 0.0), (8, 8, 14))
+    across, down = pen.camera.to_pixel(x, z, radius)
+    size = max(radius * pen.camera.scale * pen.enlarged, 1.0)
+    place = (across * pen.enlarged, down * pen.enlarged)
+    for share, color in ((1.0, (120, 128, 150)), (0.86, (196, 202, 220)), (0.5, (250, 250, 255))):
+        shift = 0.25 * size * (1.0 - share)
+        pygame.draw.circle(pen.surface, color, (place[0], place[1] - shift), share * size)
+
+
+def dim(color: Color, share: float) -> Color:
+    """A darker (or, above 1, lighter) colour."""
+    red, green, blue = (min(round(share * value), 255) for value in color)
+    return red, green, blue
+
+
+def circle(x: float, z: float, radius: float, y: float) -> list[tuple[float, float, float]]:
+    """The corners (x, z, y) of a circle, counter-clockwise."""
+    turns = [2.0 * math.pi * number / CIRCLE for number in range(CIRCLE)]
+    return [(x + radius * math.sin(turn), z + radius * math.cos(turn), y) for turn in turns]
+
+
+def _floor(pen: Pen, table: Table, theme: Theme) -> None:
+    """Ground and rays, worked out for every second pixel of the picture."""
+    camera, build = pen.camera, pen.camera.build
+    width, height = max(camera.size[0] // 2, 1), max(camera.size[1] // 2, 1)
+    f = camera.frustum
+    u = ((np.arange(width, dtype=np.float32) + 0.5) * camera.size[0] / width - f.across) / f.focal
+    v = (f.down - (np.arange(height, dtype=np.float32) + 0.5) * camera.size[1] / height) / f.focal
+    way = -f.eye_y / np.minimum(v * f.sine - f.cosine, -1e-3)
+    x = (f.eye_x + way * (f.sine + v * f.cosine))[:, None]
+    z = way[:, None] * u[None, :]
+    stops = np.array([-build.half_length, 0.0, build.half_length], np.float32)
+    paint = np.stack(
+        [np.interp(x[:, 0], stops, [color[channel] for color in theme.floor]) for channel in range(3)], axis=1
+    )[:, None, :]
+    from_x = x - np.float32(EMBLEM_AT * table.board.length)
+    rho = np.hypot(from_x, z) / np.float32(1.1 * build.half_length)
+    ray = np.clip(0.5 + 4.0 * np.cos(RAYS * np.arctan2(z, from_x)), 0.0, 1.0)
+    strength = 0.8 * ray if theme.art is Art.WOOD else (0.5 * np.exp(-1.6 * rho * rho) + 0.1) * ray
+    picture = paint + (np.array(theme.ray, np.float32) - paint) * strength[:, :, None]
+    inside = (np.abs(x) < build.half_length) & (np.abs(z) < build.half_width)
+    picture = np.where(inside[:, :, None], picture, np.array(theme.room, np.float32))
+    small = pygame.image.frombuffer(picture.clip(0, 255).astype(np.uint8).tobytes(), (width, height), "RGB")
+    pen.surface.blit(pygame.transform.smoothscale(small, pen.surface.get_size()), (0, 0))
+
+
+def _rails(pen: Pen, theme: Theme) -> None:
+    """The frame, from the far end to the near one."""
+    build = pen.camera.build
+    long, wide, high = build.half_length + build.rail, build.half_width + build.rail, build.rail_height
+    top, side = build.half_length - build.thickness, build.half_width - build.thickness
+    bottom, foot = -build.half_length, -build.skirt
+    inner, outer = dim(theme.rail, 0.35), dim(theme.rail, 0.5)
+    pen.face([(top, -side, 0.0), (top, side, 0.0), (top, side, high), (top, -side, high)], inner)
+    for hand in (-1.0, 1.0):
+        z = hand * side
+        pen.face([(top, z, 0.0), (bottom, z, 0.0), (bottom, z, high), (top, z, high)], dim(inner, 0.8))
+        pen.face(
+            [(long, hand * wide, high), (-long, hand * wide, high), (-long, z, high), (long, z, high)],
+            theme.rail,
+        )
+    pen.face([(long, -wide, high), (long, wide, high), (top, wide, high), (top, -wide, high)], theme.rail)
+    pen.face([(-long, -wide, foot), (-long, wide, foot), (-long, wide, high), (-long, -wide, high)], outer)
+
+
+def _apron(pen: Pen, theme: Theme) -> None:
+    build = pen.camera.build
+    long, wide, high = build.half_length + build.rail, build.half_width + build.rail, build.rail_height
+    side = build.half_width - build.thickness
+    plate = [(-build.half_length, -side), (-build.half_length, side), (build.apron_top, side)]
+    pen.block([*plate, (build.apron_top, -side)], build.apron_height, theme.apron)
+    near = -build.half_length
+    pen.face([(near, -wide, high), (near, wide, high), (-long, wide, high), (-long, -wide, high)], theme.rail)
+
+
+def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callable[[], None]]]:
+    """How far up each part is, and how it is drawn."""
+    build = pen.camera.build
+    for wall in table.slant_wall:
+        corner = corner_behind(table.board, wall)
+        if corner is not None:
+            yield 1e9, partial(pen.block, corner, 0.8 * build.wall_height, dim(theme.apron, 0.8))
+        middle = 0.5 * (wall.start[0] + wall.end[0])
+        yield middle, partial(pen.block, _bar(wall), build.wall_height, theme.wall)
+    for index, prism in enumerate(table.triangular_prism):
+        corners, color = prism.corners(), in_turn(theme.prisms, index)
+        yield sum(x for x, _ in corners) / 3.0, partial(pen.block, corners, build.prism_height, color)
+    for index, cylinder in enumerate(table.cylinder):
+        x, z, radius = cylinder.circle()
+        color = in_turn(theme.cylinders, index)
+        yield x, partial(_bumper, pen, x, z, radius, color, theme)
+
+
+def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Theme) -> None:
+    build = pen.camera.build
+    unit = build.prism_height / 0.55
+    pen.face(circle(x, z, radius + (RING_AT + 0.03) * unit, 0.0), color)
+    pen.face(circle(x, z, radius + (RING_AT - 0.03) * unit, 0.0), dim(color, 0.3))
+    corners = [(px, pz) for px, pz, _ in circle(x, z, radius, 0.0)]
+    pen.block(corners, build.body_height, dim(theme.steel, 0.85))
+    cap = 0.9 * radius
+    for share, tone in ((1.0, dim(color, 0.8)), (0.85, color), (0.22, theme.cap)):
+        rise = min(0.42 * cap, 0.45 * unit) * (1.0 - share * share)
+        pen.face(circle(x, z, share * cap, build.body_height + rise), tone)
+
+
+def _bar(wall: SlantWall) -> list[Point]:
+    """The outline of a slant wall with its round ends, counter-clockwise."""
+    (x0, z0), (x1, z1) = wall.start, wall.end
+    direction = math.atan2(x1 - x0, z1 - z0)
+    thick = max(wall.thickness, 0.02)
+    outline = []
+    for (x, z), first in (((x1, z1), direction - 0.5 * math.pi), ((x0, z0), direction + 0.5 * math.pi)):
+        for step in range(7):
+            turn = first + step * math.pi / 6.0
+            outline.append((x + thick * math.sin(turn), z + thick * math.cos(turn)))
+    return outline

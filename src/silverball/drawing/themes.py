@@ -1,0 +1,190 @@
+"""Which looks are there to choose from? All colours of a table, and the few numbers of its materials.
+
+A colour is (red, green, blue), 0 to 255 each, as on the screen. Parts of a kind take turns through a tuple of
+colours, so that neighbours differ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from silverball.drawing.kernels.stage import Art, Frame
+
+Color: TypeAlias = tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Theme:
+    """A look.
+
+    Attributes:
+        title: What people call it.
+        art: What is painted onto the playfield.
+        frame: What rails and slant walls are made of.
+        floor: Colour of the playfield near the player, in the middle, and at the top.
+        ray: The rays of the playfield.
+        glow: Where the rays meet.
+        ornament: Two colours of lines and inserts of the playfield.
+        heart: The emblem's star.
+        strips: Tubes of light along the rails and along the slant walls.
+        cap: The light pattern on the caps of cylinders.
+        cap_ground: How much of a cap's colour is mixed into white, 0 to 1.
+        ball: What a ball mirrors from straight above.
+        ball_low: What a ball mirrors from low above the table.
+        exposure: All light is multiplied by it.
+        key: Strength of the lamp that casts shadows.
+        fill: Strength of the light from everywhere.
+        lacquer: How much the playfield mirrors.
+        halo: How strongly parts light up what is around them.
+    """
+
+    title: str
+    art: Art
+    frame: Frame
+    room: Color
+    floor: tuple[Color, Color, Color]
+    ray: Color
+    glow: Color
+    ornament: tuple[Color, Color]
+    heart: Color
+    rail: Color
+    wall: Color
+    apron: Color
+    label: Color
+    strips: tuple[Color, Color]
+    paddle: Color
+    paddle_edge: Color
+    prisms: tuple[Color, ...]
+    cylinders: tuple[Color, ...]
+    cap: Color
+    cap_ground: float
+    steel: Color
+    ball: Color
+    ball_low: Color
+    trail: Color
+    spark: Color
+    panel: Color
+    panel_edges: tuple[Color, Color]
+    dots: Color
+    exposure: float
+    key: float
+    fill: float
+    lacquer: float
+    halo: float
+
+
+NEON = Theme(
+    title="Neon",
+    art=Art.COSMOS,
+    frame=Frame.METAL,
+    room=(9, 8, 17),
+    floor=((26, 14, 66), (18, 18, 72), (10, 32, 84)),
+    ray=(66, 46, 176),
+    glow=(150, 70, 255),
+    ornament=((40, 220, 255), (255, 70, 200)),
+    heart=(255, 206, 60),
+    rail=(58, 62, 132),
+    wall=(96, 100, 200),
+    apron=(40, 38, 92),
+    label=(150, 214, 255),
+    strips=((255, 40, 190), (60, 120, 255)),
+    paddle=(255, 214, 64),
+    paddle_edge=(255, 250, 226),
+    prisms=((255, 96, 30), (255, 96, 30), (0, 208, 255), (0, 208, 255)),
+    cylinders=((255, 214, 40), (255, 50, 150), (40, 236, 130)),
+    cap=(255, 255, 255),
+    cap_ground=0.8,
+    steel=(214, 220, 240),
+    ball=(255, 255, 255),
+    ball_low=(148, 168, 226),
+    trail=(150, 205, 255),
+    spark=(255, 226, 160),
+    panel=(10, 8, 20),
+    panel_edges=((255, 66, 158), (70, 196, 255)),
+    dots=(255, 150, 40),
+    exposure=1.0,
+    key=1.0,
+    fill=0.36,
+    lacquer=0.5,
+    halo=1.25,
+)  # fmt: skip
+
+PARLOUR = Theme(
+    title="Parlour",
+    art=Art.WOOD,
+    frame=Frame.WOOD,
+    room=(20, 13, 9),
+    floor=((150, 84, 40), (178, 106, 52), (166, 96, 46)),
+    ray=(112, 56, 24),
+    glow=(255, 190, 96),
+    ornament=((255, 214, 130), (44, 96, 74)),
+    heart=(196, 44, 36),
+    rail=(116, 48, 26),
+    wall=(206, 164, 92),
+    apron=(84, 34, 22),
+    label=(255, 220, 150),
+    strips=((255, 176, 80), (255, 150, 60)),
+    paddle=(238, 226, 200),
+    paddle_edge=(200, 34, 30),
+    prisms=((206, 40, 34), (206, 40, 34), (20, 120, 96), (20, 120, 96)),
+    cylinders=((250, 196, 60), (226, 60, 44), (36, 140, 190)),
+    cap=(255, 248, 226),
+    cap_ground=0.9,
+    steel=(236, 206, 140),
+    ball=(255, 255, 255),
+    ball_low=(176, 160, 150),
+    trail=(255, 240, 200),
+    spark=(255, 236, 180),
+    panel=(18, 10, 6),
+    panel_edges=((226, 172, 84), (140, 70, 36)),
+    dots=(255, 176, 60),
+    exposure=1.0,
+    key=1.7,
+    fill=0.75,
+    lacquer=0.35,
+    halo=0.45,
+)
+
+CLEAR = Theme(
+    title="Clear",
+    art=Art.PLAIN,
+    frame=Frame.METAL,
+    room=(6, 7, 9),
+    floor=((20, 24, 34), (24, 28, 40), (28, 34, 48)),
+    ray=(34, 40, 58),
+    glow=(70, 84, 120),
+    ornament=((86, 100, 136), (70, 80, 110)),
+    heart=(70, 82, 116),
+    rail=(104, 112, 128),
+    wall=(176, 182, 194),
+    apron=(40, 44, 54),
+    label=(220, 226, 240),
+    strips=((60, 80, 140), (60, 80, 140)),
+    paddle=(255, 236, 40),
+    paddle_edge=(255, 252, 210),
+    prisms=((0, 92, 214),),
+    cylinders=((244, 120, 0),),
+    cap=(255, 255, 255),
+    cap_ground=0.9,
+    steel=(200, 206, 220),
+    ball=(255, 255, 255),
+    ball_low=(216, 220, 230),
+    trail=(255, 255, 255),
+    spark=(255, 255, 255),
+    panel=(6, 7, 9),
+    panel_edges=((230, 234, 244), (110, 118, 136)),
+    dots=(255, 214, 90),
+    exposure=1.0,
+    key=1.5,
+    fill=0.7,
+    lacquer=0.2,
+    halo=0.5,
+)
+
+THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}
+
+
+def in_turn(colors: tuple[Color, ...], index: int) -> Color:
+    """The colour of the part with that number."""
+    return colors[index % len(colors)]

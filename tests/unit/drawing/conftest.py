@@ -1,0 +1,13 @@
+"""Baked pictures of tests go to a folder of their own, and no machine's cache is looked at."""
+
+from __future__ import annotations
+
+import pytest
+
+from silverball.drawing.store import Store
+
+
+@pytest.fixture(scope="session")
+def store(tmp_path_factory):
+    """A store that all tests share, so that a table is baked once."""
+    return Store(tmp_path_factory.mktemp("pictures"))
