@@ -279,6 +279,25 @@ def test_a_note_has_its_strength_from_its_very_first_sample(disk):
     assert best <= 3.0
 
 
+def test_strengths_are_set_before_a_sound_starts(dummy):
+    calls = []
+
+    class Channel:
+        def get_busy(self):
+            return True
+
+        def set_volume(self, left, right):
+            calls.append((left, right))
+
+        def play(self, sound):
+            calls.append(sound)
+
+    dummy._mixer._free = [Channel()] * HIT_CHANNELS
+    dummy._mixer.play(Note(Key("coil"), 0.5, 0.25), 0.5)
+    assert calls == [(0.25, 0.125), dummy._mixer._sounds[Key("coil")]]
+    dummy._mixer._busy.clear()
+
+
 def test_rolling_has_no_clicks_in_the_real_mixer(disk):
     sounds, file = disk
 

@@ -339,6 +339,7 @@ def test_between_two_loops_the_power_stays_even():
     low, high = ROLL_SPEEDS[5], ROLL_SPEEDS[6]
     middle = rolled(math.sqrt(low * high))
     assert {loop for _, loop in middle} == {5, 6}
+    assert sum(middle[0, 5]) == pytest.approx(sum(middle[0, 6]), rel=1e-6)
     assert power(rolled(low)) < power(middle) < power(rolled(high))
 
 

@@ -2,6 +2,7 @@
 
 Strengths are set on a channel while it is idle, before its sound starts: a mixer thread that comes in between
 would otherwise play the first few milliseconds at full strength.
+Should somebody have closed pygame's mixer meanwhile, that first call says so; `play` alone would crash.
 """
 
 from __future__ import annotations

@@ -142,7 +142,7 @@ class Sounds:
             for note in notes:
                 mixer.play(note, self._volume)
 
-        if notes and self._volume > 0.0:
+        if notes:
             self._try(play)
 
     def _try(self, action: Callable[[Mixer], None]) -> None:
