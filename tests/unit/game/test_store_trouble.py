@@ -353,6 +353,23 @@ def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_n
     assert set_aside(tmp_path).name == "silverball-set-aside-by-the-other.sqlite3"
 
 
+def test_a_file_that_is_busy_when_it_is_opened_is_asked_again(tmp_path, monkeypatch):
+    """As when four programs begin a new file at once: SQLite does not wait by itself then."""
+    prepare, calls = database._prepare, []
+
+    def busy_at_first(*arguments: object) -> None:
+        calls.append(arguments)
+        if len(calls) < 3:
+            error = sqlite3.OperationalError("database is locked")
+            error.sqlite_errorcode = sqlite3.SQLITE_BUSY
+            raise error
+        prepare(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(database, "_prepare", busy_at_first)
+    with Store(tmp_path) as store:
+        assert (store.trouble, store.keeps, len(calls)) == ("", True, 3)
+
+
 def test_a_program_that_reads_the_file_in_the_old_way_is_waited_for(tmp_path):
     path = with_scores(tmp_path, 10)
     with closing(sqlite3.connect(path, isolation_level=None, check_same_thread=False)) as other:
