@@ -10,7 +10,9 @@ share the list of the recipe, since hardly anybody plays the same random board t
 is none; the seed beside each score says which board it was and brings it back. A table that was changed is
 another table (its digest tells), so its list begins anew; the old one stays.
 
-Size: a score takes about 200 bytes and is never dropped. Replays are kept for the `REPLAYS` best of a list.
+Size: a score takes about 50 bytes and is never dropped; replays are kept for the `REPLAYS` best of a list.
+Ten thousand scores on three tables with replays of 6 kB take 1.6 MB. A write waits for the disk, a few
+milliseconds: write when a game is over or a menu is open, not while a ball rolls.
 """
 
 from __future__ import annotations

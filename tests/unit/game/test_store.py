@@ -79,8 +79,12 @@ def test_modes_and_tables_have_lists_of_their_own(store):
     assert ids(mode="free") == [b]
     assert ids(table_digest="e" * 64) == [c]
     assert ids(table_name="mine") == [d, c]
+    e = add(store, 20, table_name="mine", table_digest="e" * 64)
+    store.remove(e)
+    f, g = add(store, 30), add(store, 30, mode="free")
+    assert ids(limit=4) == [d, c, f, g]  # type: ignore[arg-type]
     lists = [(one.mode, one.table_digest[0], one.length) for one in store.lists()]
-    assert sorted(lists) == [("arcade", "d", 1), ("arcade", "e", 1), ("arcade", "f", 1), ("free", "d", 1)]
+    assert sorted(lists) == [("arcade", "d", 2), ("arcade", "e", 1), ("arcade", "f", 1), ("free", "d", 2)]
 
 
 def test_all_boards_of_a_recipe_share_a_list_that_shows_their_seeds(store):
@@ -155,6 +159,20 @@ def test_replays_are_kept_of_the_best_of_every_list_and_scores_of_all(store):
     with pytest.raises(SilverballError, match=f"score {ids[1]}: its replay was not kept"):
         store.replay(ids[1])
     assert store.score(other).has_replay
+
+
+def test_of_equal_scores_the_earlier_keep_their_replays(store):
+    ids = [add(store, 10) for _ in range(REPLAYS + 5)]
+    assert [store.score(id).has_replay for id in ids] == [True] * REPLAYS + [False] * 5
+    better = add(store, 11)
+    assert [store.score(id).has_replay for id in ids] == [True] * (REPLAYS - 1) + [False] * 6
+    assert store.score(better).has_replay
+
+
+def test_a_list_goes_by_the_last_name_of_its_table(store):
+    add(store, 10, table_name="before")
+    add(store, 5, table_name="after")
+    assert [one.table_name for one in store.lists()] == ["after"]
 
 
 def test_the_last_game_is_kept_and_only_the_last(tmp_path):

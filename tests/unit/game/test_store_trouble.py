@@ -6,8 +6,9 @@ import os
 import shutil
 import sqlite3
 import subprocess
-import sys
 import tempfile
+import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -242,8 +243,14 @@ def lose_a_table(path: Path) -> None:
 
 
 def belong_to_another_program(path: Path) -> None:
+    path.unlink()
     with closing(sqlite3.connect(path)) as connection, connection:
-        connection.execute("PRAGMA application_id = 1")
+        connection.execute("CREATE TABLE score (id INTEGER PRIMARY KEY)")
+
+
+def forget_its_version(path: Path) -> None:
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("PRAGMA user_version = 0")
 
 
 DAMAGES: dict[str, Callable[[Path], object]] = {
@@ -252,6 +259,7 @@ DAMAGES: dict[str, Callable[[Path], object]] = {
     "the middle overwritten": overwrite_the_middle,
     "the head overwritten": lambda path: path.write_bytes(os.urandom(100) + path.read_bytes()[100:]),
     "a table is missing": lose_a_table,
+    "without a version": forget_its_version,
     "of another program": belong_to_another_program,
 }
 
@@ -270,6 +278,15 @@ def test_a_file_that_cannot_be_used_is_set_aside_and_a_new_one_begun(tmp_path, d
     with Store(tmp_path) as store:
         assert store.trouble == ""
         assert listed(store) == [123_456]
+
+
+def test_letters_that_are_damaged_hide_nothing_else(tmp_path):
+    path = with_scores(tmp_path, 10, 20)
+    with closing(sqlite3.connect(path)) as connection, connection:
+        connection.execute("UPDATE score SET initials = CAST(x'41ff42' AS TEXT) WHERE score = 20")
+    with Store(tmp_path) as store:
+        assert [score.initials for score in store.scores()] == ["A\ufffdB", "AAA"]
+        assert store.trouble == ""
 
 
 def test_an_empty_file_is_a_new_one(tmp_path):
@@ -315,30 +332,56 @@ def test_a_file_that_is_removed_while_the_program_runs(tmp_path):
 
 
 def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_nothing(tmp_path):
-    path = with_scores(tmp_path, 10)
-    program = f"""
-import sys
-from pathlib import Path
-from silverball.game.store import Store
-sys.stdin.readline()
-with Store(Path({str(tmp_path)!r})) as store:
-    store.add_score("AAA", int(sys.argv[1]), "arcade", "random", "d", 0, "")
-"""
-    for _ in range(5):
-        path.write_bytes(b"hello " * 1000)
-        for old in tmp_path.glob("silverball-set-aside-*"):
-            old.unlink()
-        children = [
-            subprocess.Popen([sys.executable, "-c", program, str(score)], stdin=subprocess.PIPE)
-            for score in (1, 2, 3)
-        ]
-        for child in children:
-            child.stdin.write(b"go\n")  # type: ignore[union-attr]
-            child.stdin.close()  # type: ignore[union-attr]
-        assert [child.wait(60) for child in children] == [0, 0, 0]
-        assert set_aside(tmp_path).read_bytes() == b"hello " * 1000
+    (tmp_path / FILE).write_bytes(b"hello " * 1000)
+    found: list[object] = []
+
+    def open_it() -> None:
         with Store(tmp_path) as store:
-            assert listed(store) == [3, 2, 1]
+            found.append((store.trouble, listed(store)))
+
+    with closing(sqlite3.connect(tmp_path / "silverball.mending", isolation_level=None)) as lock:
+        lock.execute("BEGIN EXCLUSIVE")  # as the other program does
+        thread = threading.Thread(target=open_it)
+        thread.start()
+        time.sleep(0.2)
+        assert not found
+        (tmp_path / FILE).rename(tmp_path / "silverball-set-aside-by-the-other.sqlite3")
+        with_scores(tmp_path, 10)
+        lock.execute("ROLLBACK")
+        thread.join()
+    assert found == [("", [10])]
+    assert set_aside(tmp_path).name == "silverball-set-aside-by-the-other.sqlite3"
+
+
+def test_a_file_that_is_busy_when_it_is_opened_is_asked_again(tmp_path, monkeypatch):
+    """As when four programs begin a new file at once: SQLite does not wait by itself then."""
+    prepare, calls = database._prepare, []
+
+    def busy_at_first(*arguments: object) -> None:
+        calls.append(arguments)
+        if len(calls) < 3:
+            error = sqlite3.OperationalError("database is locked")
+            error.sqlite_errorcode = sqlite3.SQLITE_BUSY
+            raise error
+        prepare(*arguments)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(database, "_prepare", busy_at_first)
+    with Store(tmp_path) as store:
+        assert (store.trouble, store.keeps, len(calls)) == ("", True, 3)
+
+
+def test_a_program_that_reads_the_file_in_the_old_way_is_waited_for(tmp_path):
+    path = with_scores(tmp_path, 10)
+    with closing(sqlite3.connect(path, isolation_level=None, check_same_thread=False)) as other:
+        other.execute("PRAGMA journal_mode = DELETE")
+        other.execute("BEGIN")
+        other.execute("SELECT * FROM score").fetchall()
+        later = threading.Timer(0.3, lambda: other.execute("COMMIT"))
+        later.start()
+        with Store(tmp_path) as store:
+            assert (store.trouble, store.keeps) == ("", True)
+            assert listed(store) == [10]
+        later.join()
 
 
 def test_a_file_of_a_newer_program_is_left_as_it_is(tmp_path):
