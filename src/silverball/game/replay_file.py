@@ -103,7 +103,7 @@ class Replay:
         from silverball import __version__
 
         return cls(
-            __version__, mode, world.table, world.seed, world.tick_rate,
+            __version__, mode, _without_meshes(world.table), world.seed, world.tick_rate,
             lines, tail, world.tick, score, ended, digest,
         )  # fmt: skip
 
@@ -325,7 +325,7 @@ class _Reader:
             self.refuse(part.first, f"the table is not valid TOML: {str(error)[:200]}")
         if table.random is not None:
             self.refuse(part.first, "the table is a recipe; a replay has the finished board")
-        if any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder):
+        if _has_mesh(table):
             self.refuse(part.first, "the table names a mesh; a replay has its footprint instead")
         got = table_digest(table)
         if got != digest:
@@ -334,6 +334,19 @@ class _Reader:
                 f"this is not the table that was played: expected digest {digest}, got {got}; {AGAIN}",
             )
         return table
+
+
+def _without_meshes(table: Table) -> Table:
+    """The table with the footprints of its meshes, so that it needs no other file."""
+    if not _has_mesh(table):
+        return table
+    prisms = tuple(part.resolved() for part in table.triangular_prism)
+    cylinders = tuple(part.resolved() for part in table.cylinder)
+    return table.model_copy(update={"triangular_prism": prisms, "cylinder": cylinders})
+
+
+def _has_mesh(table: Table) -> bool:
+    return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
 
 
 def _checksum(body: str) -> str:

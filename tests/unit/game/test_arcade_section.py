@@ -72,5 +72,5 @@ def test_a_mistake_in_the_rules_comes_with_its_path_and_a_hint(line: str, path: 
 
 
 def test_a_rule_in_the_wrong_section_is_sent_to_its_own():
-    with pytest.raises(TableError, match=r"`ball_save` belongs in \[arcade\]"):
-        parse_table("format = 1\n[board]\nball_save = 3\n")
+    with pytest.raises(TableError, match=r"`combo_limit` belongs in \[arcade\]"):
+        parse_table("format = 1\n[board]\ncombo_limit = 3\n")

@@ -8,18 +8,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from games import POCKET, bare, bumper, frantic_game, reflex_game
+from games import IN_POCKET, POCKET, bare, bumper, frantic_game, put, reflex_game
 from hypothesis import given
 from hypothesis import strategies as st
 
 from silverball.errors import StateError
-from silverball.game import replay_lines
+from silverball.game import replay_lines, replay_record
 from silverball.game.game import Game
 from silverball.game.news import Mode, NewsKind
 from silverball.game.replay import InputRefusedError, Replay, ReplayPlayer, Verdict, compare, verify
 from silverball.game.replay_digest import GROUPS
 from silverball.game.replay_file import _checksum
-from silverball.table import generate_table
+from silverball.table import Cylinder, generate_table
 
 GAME = reflex_game("classic", 2, seconds=50.3)
 REPLAY = GAME.replay
@@ -175,6 +175,28 @@ def test_a_shorter_replay_of_the_same_game_differs_where_it_ends():
     shorter = replace(REPLAY, lines=REPLAY.lines[:count], tail="", ticks=count * 240)
     verdict = compare(REPLAY, shorter)
     assert (verdict.field, verdict.tick) == ("ticks", count * 240 - 1)
+
+
+def test_a_game_ends_when_its_recording_is_full(monkeypatch):
+    monkeypatch.setattr(replay_record, "SECONDS_LIMIT", 3)
+    game = Game(bare(*POCKET))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.advance(ticks=5000)
+    assert (game.tick, game.ended) == (3 * 240, "stopped")
+
+
+def test_a_replay_of_a_table_with_a_mesh_needs_no_other_file(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    post = trimesh.creation.cylinder(radius=0.6, height=1.0)
+    post.apply_transform([[1, 0, 0, 2.0], [0, 0, 1, 0], [0, 1, 0, 1.0], [0, 0, 0, 1]])
+    post.export(tmp_path / "post.stl")
+    game = Game(bare(Cylinder(mesh=str(tmp_path / "post.stl"))))
+    game.create_ball()
+    game.advance(ticks=300)
+    text = game.replay.to_text()
+    (tmp_path / "post.stl").unlink()
+    assert verify(Replay.from_text(text)).ok
 
 
 # --- watching
