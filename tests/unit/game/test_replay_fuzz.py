@@ -202,6 +202,13 @@ def mutated(number: int) -> tuple[str, bytes]:
     return mutate.__name__, text.encode("utf-8", "surrogateescape")
 
 
+def around_table(text: str) -> list[str]:
+    """The lines that say how the game was played; a table and a program may be written in many ways."""
+    before, _, rest = text.replace("\r\n", "\n").removeprefix("\ufeff").partition("--- table\n")
+    lines = (before + rest[rest.index("--- play\n") :]).split("\n")
+    return [line for line in lines if not line.startswith(("program = ", "checksum = "))]
+
+
 def outcome_of(data: bytes, path) -> str:
     """What came of a file: "equal", "named" (a difference), or "refused"."""
     path.write_bytes(data)
@@ -214,6 +221,7 @@ def outcome_of(data: bytes, path) -> str:
             assert "\n" not in said, said
             assert len(said) < 600 + len(str(path)), said
             return "refused"
+        assert around_table(data.decode()) == around_table(replay.to_text())
         verdict = verify(replay)
         assert verdict.ok == (verdict.field == ""), verdict
         if verdict.ok:
@@ -243,7 +251,7 @@ def test_hundreds_of_damaged_replays_are_refused_or_named(tmp_path):
     outcomes = run(range(400), tmp_path)
     seen = {outcome for _, outcome in outcomes}
     assert seen == {"refused", "named", "equal"}
-    assert outcomes["change_input", "named"] > 10
+    assert outcomes["change_input", "named"] > 5
 
 
 @pytest.mark.slow

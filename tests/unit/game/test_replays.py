@@ -19,6 +19,8 @@ from silverball.game.news import Mode, NewsKind
 from silverball.game.replay import InputRefusedError, Replay, ReplayPlayer, Verdict, compare, verify
 from silverball.game.replay_digest import GROUPS
 from silverball.game.replay_file import _checksum
+from silverball.game.rules import RULES_VERSION
+from silverball.physics import PHYSICS_VERSION
 from silverball.table import Cylinder, generate_table
 
 GAME = reflex_game("classic", 2, seconds=50.3)
@@ -306,6 +308,9 @@ REFUSED = {
     "newer physics": (changed(2, "physics = 999"), "line 3: .*physics 999.*newer Silverball"),
     "older physics": (changed(2, "physics = 0"), r"line 3: .*physics 0.*play it with Silverball \d"),
     "newer rules": (changed(3, "rules = 99"), "line 4: .*rules 99.*newer Silverball"),
+    "physics no number": (changed(2, "physics = nan"), f"line 3: expected {PHYSICS_VERSION}, got 'nan'"),
+    "rules no number": (changed(3, f"rules = {'9' * 400}"), f"line 4: expected {RULES_VERSION}, got '9999"),
+    "leading zero": (changed(5, "seed = 02"), "line 6: expected a whole number from 0 to 92.*got '02'"),
     "unknown mode": (changed(4, "mode = chess"), "line 5: expected one of free, arcade, got 'chess'"),
     "seed too large": (changed(5, f"seed = {2**63}"), "line 6: expected a whole number from 0 to 92"),
     "seed no number": (changed(5, "seed = -1"), "line 6: expected a whole number"),
