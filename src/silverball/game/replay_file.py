@@ -53,7 +53,7 @@ HEADER_KEYS = ("program", "physics", "rules", "mode", "seed", "tick_rate", "tabl
 END_KEYS = ("ticks", "score", "ended", "digest", "checksum")
 TICK_RATES = (10, 1000)
 AGAIN = "get the file again from where it was written"
-_NUMBER = re.compile(r"\d{1,19}", re.ASCII)
+_NUMBER = re.compile(r"0|[1-9]\d{0,18}", re.ASCII)
 _HEX = re.compile(r"[0-9a-f]{64}", re.ASCII)
 
 
@@ -103,7 +103,7 @@ class Replay:
         from silverball import __version__
 
         return cls(
-            __version__, mode, world.table, world.seed, world.tick_rate,
+            __version__, mode, _without_meshes(world.table), world.seed, world.tick_rate,
             lines, tail, world.tick, score, ended, digest,
         )  # fmt: skip
 
@@ -174,6 +174,8 @@ class _Reader:
         head, table, play, end = self._sections()
         self._check_checksum(end)
         values = self._values(head, HEADER_KEYS)
+        self._whole(head, 1, values[1], PHYSICS_VERSION, PHYSICS_VERSION)
+        self._whole(head, 2, values[2], RULES_VERSION, RULES_VERSION)
         mode = self._choice(head, 3, values[3], tuple(Mode))
         seed = self._whole(head, 4, values[4], 0, 2**63 - 1)
         rate = self._whole(head, 5, values[5], *TICK_RATES)
@@ -261,9 +263,8 @@ class _Reader:
 
     def _whole(self, part: _Numbered, number: int, value: str, least: int, most: int) -> int:
         if not _NUMBER.fullmatch(value) or not least <= int(value) <= most:
-            self.refuse(
-                part.first + number, f"expected a whole number from {least} to {most}, got {_shown(value)}"
-            )
+            span = f"a whole number from {least} to {most}" if least < most else str(least)
+            self.refuse(part.first + number, f"expected {span}, got {_shown(value)}")
         return int(value)
 
     def _choice(self, part: _Numbered, number: int, value: str, choices: Sequence[str]) -> str:
@@ -325,7 +326,7 @@ class _Reader:
             self.refuse(part.first, f"the table is not valid TOML: {str(error)[:200]}")
         if table.random is not None:
             self.refuse(part.first, "the table is a recipe; a replay has the finished board")
-        if any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder):
+        if _has_mesh(table):
             self.refuse(part.first, "the table names a mesh; a replay has its footprint instead")
         got = table_digest(table)
         if got != digest:
@@ -334,6 +335,19 @@ class _Reader:
                 f"this is not the table that was played: expected digest {digest}, got {got}; {AGAIN}",
             )
         return table
+
+
+def _without_meshes(table: Table) -> Table:
+    """The table with the footprints of its meshes, so that it needs no other file."""
+    if not _has_mesh(table):
+        return table
+    prisms = tuple(part.resolved() for part in table.triangular_prism)
+    cylinders = tuple(part.resolved() for part in table.cylinder)
+    return table.model_copy(update={"triangular_prism": prisms, "cylinder": cylinders})
+
+
+def _has_mesh(table: Table) -> bool:
+    return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
 
 
 def _checksum(body: str) -> str:

@@ -16,7 +16,7 @@ from silverball.game.replay_lines import Input, read
 if TYPE_CHECKING:
     from silverball.game.replay_file import Replay
 
-SNAPSHOT_SECONDS = 4  # of play between two saved moments; chosen: some 2 ms to play, 1 MB for an hour
+SNAPSHOT_SECONDS = 2  # of play between two saved moments; chosen: a few ms to play, 3 MB for an hour
 
 
 class InputRefusedError(SilverballError):
@@ -28,7 +28,6 @@ class Playback:
 
     Args:
         replay: What is played.
-        record: Whether the game records itself again, to be compared.
 
     Attributes:
         game: The game, at the moment that has been reached.
@@ -36,9 +35,9 @@ class Playback:
         at_end: Whether all of the replay has been played.
     """
 
-    def __init__(self, replay: Replay, *, record: bool = False) -> None:
+    def __init__(self, replay: Replay) -> None:
         self.replay = replay
-        self.game = Game(replay.table, replay.seed, replay.mode, replay.tick_rate, record=record)
+        self.game = Game(replay.table, replay.seed, replay.mode, replay.tick_rate, record=False)
         self.at_end = False
         self._held = (False, False)
         self._second = -1  # the one that the inputs below belong to
@@ -52,11 +51,17 @@ class Playback:
         return self.game.tick
 
     def advance(self, ticks: int = 1) -> None:
-        """Play on with the recorded inputs, at most to the end.
+        """Play on with the recorded inputs, at most to the end, and end there as the game did.
 
         Raises:
             InputRefusedError: An input could not be given to the game, so it is not the one recorded.
         """
+        self.play(ticks)
+        if not self.at_end and (self.tick >= self.replay.ticks or self.game.is_over):
+            self.finish()
+
+    def play(self, ticks: int) -> None:
+        """Play on, but leave out what comes after the last tick."""
         rate = self.replay.tick_rate
         target = min(self.tick + max(ticks, 0), self.replay.ticks)
         while self.tick < target and not self.game.is_over:
@@ -66,8 +71,6 @@ class Playback:
             following = self._inputs[self._next].tick if self._next < len(self._inputs) else rate
             stop = min(target, self._second * rate + following)
             self.game.advance(*self._held, ticks=stop - self.tick)
-        if not self.at_end and (self.tick >= self.replay.ticks or self.game.is_over):
-            self._end()
 
     def jump(self, state: bytes) -> None:
         """Go on from a moment at the beginning of a second, as `Game.save` gave it."""
@@ -105,8 +108,8 @@ class Playback:
         except SilverballError as error:
             raise InputRefusedError(f"tick {self.tick}: {what} was recorded, but {error}") from None
 
-    def _end(self) -> None:
-        """The last tick has been played: give what came after it."""
+    def finish(self) -> None:
+        """The last tick has been played: give the inputs that came after it, and end the game."""
         if self.tick == self.replay.ticks:
             if self.tick // self.replay.tick_rate != self._second:
                 self._begin_second(self.tick // self.replay.tick_rate)

@@ -56,24 +56,25 @@ def verify(replay: Replay, progress: Callable[[int], None] = lambda _: None) -> 
         a difference too.
     """
     try:
-        playback = Playback(replay, record=True)
+        playback = Playback(replay)
     except SilverballError as error:
         return _differs(0, 0, 0, "table", "a board that can be played", str(error).replace("\n", " "))
     game, rate = playback.game, replay.tick_rate
     for number, line in enumerate(replay.lines):
         before = game.tick
         try:
-            playback.advance(rate)
+            playback.play(rate)
         except InputRefusedError as error:
             return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
         if game.tick != (number + 1) * rate:
             return _ended_early(playback)
-        expected, got = line[: CHARACTERS * len(GROUPS)], game.replay.lines[-1][: CHARACTERS * len(GROUPS)]
+        expected, got = line[: CHARACTERS * len(GROUPS)], game.short_digests
         if expected != got:
             return _differs_in_second(game.score, before, game.tick, expected, got)
         progress(game.tick)
     try:
-        playback.advance(replay.ticks - game.tick)
+        playback.play(replay.ticks - game.tick)
+        playback.finish()
     except InputRefusedError as error:
         return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
     if game.tick != replay.ticks:

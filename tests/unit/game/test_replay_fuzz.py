@@ -37,9 +37,9 @@ def short_game() -> Game:
 
 
 SOURCES = [
-    reflex_game("classic", 2, seconds=12).replay.to_text(),
-    reflex_game(generate_table(4), 4, Mode.FREE, seconds=8).replay.to_text(),
-    frantic_game(3, seconds=6).replay.to_text(),
+    reflex_game("classic", 2, seconds=6).replay.to_text(),
+    reflex_game(generate_table(4), 4, Mode.FREE, seconds=5).replay.to_text(),
+    frantic_game(3, seconds=4).replay.to_text(),
     short_game().replay.to_text(),
 ]
 GOOD = [Replay.from_text(text) for text in SOURCES]
@@ -47,18 +47,18 @@ GOOD = [Replay.from_text(text) for text in SOURCES]
 
 @contextmanager
 def time_limit(seconds: float) -> Iterator[None]:
-    """Stop what hangs."""
+    """Stop what takes more of the processor's time [s] than this."""
 
     def stop(*_: object) -> None:
         raise TimeoutError(f"not done after {seconds} s")
 
-    before = signal.signal(signal.SIGALRM, stop)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
 
 
 def flip(text: str, draw: random.Random) -> str:
@@ -194,12 +194,19 @@ def mutated(number: int) -> tuple[str, bytes]:
     for _ in range(draw.choice((0, 0, 0, 1, 3))):
         try:
             text = draw.choice(MUTATIONS)(text, draw)
-        except (IndexError, ValueError):
+        except (IndexError, ValueError, StopIteration):
             break  # nothing is left that this kind of damage could be done to
     if draw.random() < 0.85 and "checksum = " in text:
         body = text[: text.rindex("checksum = ")]
         text = f"{body}checksum = {_checksum(body)}\n"
     return mutate.__name__, text.encode("utf-8", "surrogateescape")
+
+
+def around_table(text: str) -> list[str]:
+    """The lines that say how the game was played; a table and a program may be written in many ways."""
+    before, _, rest = text.replace("\r\n", "\n").removeprefix("\ufeff").partition("--- table\n")
+    lines = (before + rest[rest.index("--- play\n") :]).split("\n")
+    return [line for line in lines if not line.startswith(("program = ", "checksum = "))]
 
 
 def outcome_of(data: bytes, path) -> str:
@@ -214,6 +221,7 @@ def outcome_of(data: bytes, path) -> str:
             assert "\n" not in said, said
             assert len(said) < 600 + len(str(path)), said
             return "refused"
+        assert around_table(data.decode()) == around_table(replay.to_text())
         verdict = verify(replay)
         assert verdict.ok == (verdict.field == ""), verdict
         if verdict.ok:
@@ -243,7 +251,7 @@ def test_hundreds_of_damaged_replays_are_refused_or_named(tmp_path):
     outcomes = run(range(400), tmp_path)
     seen = {outcome for _, outcome in outcomes}
     assert seen == {"refused", "named", "equal"}
-    assert outcomes["change_input", "named"] > 10
+    assert outcomes["change_input", "named"] > 5
 
 
 @pytest.mark.slow

@@ -8,18 +8,20 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from games import POCKET, bare, bumper, frantic_game, reflex_game
+from games import IN_POCKET, POCKET, bare, bumper, frantic_game, put, reflex_game
 from hypothesis import given
 from hypothesis import strategies as st
 
 from silverball.errors import StateError
-from silverball.game import replay_lines
+from silverball.game import replay_lines, replay_record
 from silverball.game.game import Game
 from silverball.game.news import Mode, NewsKind
 from silverball.game.replay import InputRefusedError, Replay, ReplayPlayer, Verdict, compare, verify
 from silverball.game.replay_digest import GROUPS
 from silverball.game.replay_file import _checksum
-from silverball.table import generate_table
+from silverball.game.rules import RULES_VERSION
+from silverball.physics import PHYSICS_VERSION
+from silverball.table import Cylinder, generate_table
 
 GAME = reflex_game("classic", 2, seconds=50.3)
 REPLAY = GAME.replay
@@ -177,6 +179,28 @@ def test_a_shorter_replay_of_the_same_game_differs_where_it_ends():
     assert (verdict.field, verdict.tick) == ("ticks", count * 240 - 1)
 
 
+def test_a_game_ends_when_its_recording_is_full(monkeypatch):
+    monkeypatch.setattr(replay_record, "SECONDS_LIMIT", 3)
+    game = Game(bare(*POCKET))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.advance(ticks=5000)
+    assert (game.tick, game.ended) == (3 * 240, "stopped")
+
+
+def test_a_replay_of_a_table_with_a_mesh_needs_no_other_file(tmp_path):
+    trimesh = pytest.importorskip("trimesh")
+    post = trimesh.creation.cylinder(radius=0.6, height=1.0)
+    post.apply_transform([[1, 0, 0, 2.0], [0, 0, 1, 0], [0, 1, 0, 1.0], [0, 0, 0, 1]])
+    post.export(tmp_path / "post.stl")
+    game = Game(bare(Cylinder(mesh=str(tmp_path / "post.stl"))))
+    game.create_ball()
+    game.advance(ticks=300)
+    text = game.replay.to_text()
+    (tmp_path / "post.stl").unlink()
+    assert verify(Replay.from_text(text)).ok
+
+
 # --- watching
 # -----------------------------------------------------------------------------------------------------
 
@@ -284,6 +308,9 @@ REFUSED = {
     "newer physics": (changed(2, "physics = 999"), "line 3: .*physics 999.*newer Silverball"),
     "older physics": (changed(2, "physics = 0"), r"line 3: .*physics 0.*play it with Silverball \d"),
     "newer rules": (changed(3, "rules = 99"), "line 4: .*rules 99.*newer Silverball"),
+    "physics no number": (changed(2, "physics = nan"), f"line 3: expected {PHYSICS_VERSION}, got 'nan'"),
+    "rules no number": (changed(3, f"rules = {'9' * 400}"), f"line 4: expected {RULES_VERSION}, got '9999"),
+    "leading zero": (changed(5, "seed = 02"), "line 6: expected a whole number from 0 to 92.*got '02'"),
     "unknown mode": (changed(4, "mode = chess"), "line 5: expected one of free, arcade, got 'chess'"),
     "seed too large": (changed(5, f"seed = {2**63}"), "line 6: expected a whole number from 0 to 92"),
     "seed no number": (changed(5, "seed = -1"), "line 6: expected a whole number"),

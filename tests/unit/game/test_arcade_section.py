@@ -1,0 +1,76 @@
+"""Does a table file say the rules of its arcade game, and is one that says nothing what it was before?"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+
+import pytest
+
+from silverball.errors import TableError
+from silverball.game.game import Game
+from silverball.table import (
+    Arcade,
+    dump_table,
+    generate_table,
+    load_table,
+    parse_table,
+    table_digest,
+    table_names,
+)
+
+TEXT = 'format = 1\nname = "Mine"\n\n[arcade]\nballs = 5\nball_save = 8.0\n'
+
+
+@pytest.mark.parametrize("name", table_names())
+def test_a_table_that_says_nothing_has_the_digest_and_the_text_that_it_had_without_such_rules(name: str):
+    table = load_table(name)
+    assert table.arcade == Arcade()
+    before = table.model_dump(mode="json")
+    del before["arcade"]
+    text = json.dumps(before, sort_keys=True, separators=(",", ":"))
+    assert table_digest(table) == hashlib.sha256(text.encode()).hexdigest()
+    assert "arcade" not in dump_table(table)
+
+
+def test_the_rules_come_back_from_the_file_and_only_what_differs_is_written():
+    table = parse_table(TEXT)
+    assert (table.arcade.balls, table.arcade.ball_save, table.arcade.warnings) == (5, 8.0, Arcade().warnings)
+    assert dump_table(table) == TEXT
+    assert table_digest(table) != table_digest(parse_table('format = 1\nname = "Mine"\n'))
+
+
+def test_a_section_with_the_defaults_is_no_section():
+    spelt_out = parse_table(f'format = 1\nname = "Mine"\n[arcade]\nballs = {Arcade().balls}\n')
+    assert table_digest(spelt_out) == table_digest(parse_table('format = 1\nname = "Mine"\n'))
+
+
+def test_every_board_of_a_recipe_has_the_recipes_rules():
+    recipe = load_table("random").model_copy(update={"arcade": Arcade(balls=7)})
+    assert generate_table(3, recipe).arcade.balls == 7
+    assert Game(recipe, 3).face.balls == 7
+
+
+@pytest.mark.parametrize(
+    ("line", "path", "hint"),
+    [
+        ("bals = 3", "arcade.bals", "`balls`"),
+        ("balls = 0", "arcade.balls", "must be 1 to 99 balls, got 0"),
+        ("ball_save = -1", "arcade.ball_save", "must be 0 to 60 s, got -1"),
+        ("warnings = 1.5", "arcade.warnings", "whole number"),
+        ("points = 3", "arcade.points", "belongs in a part"),
+        ("gravity = 3", "arcade.gravity", "belongs in [board]"),
+        ("un_stick = 0", "arcade.un_stick", "0.5 to 60 s"),
+    ],
+)
+def test_a_mistake_in_the_rules_comes_with_its_path_and_a_hint(line: str, path: str, hint: str):
+    with pytest.raises(TableError) as caught:
+        parse_table(f"format = 1\n[arcade]\n{line}\n")
+    (problem,) = caught.value.problems
+    assert problem.path == path
+    assert hint in problem.message
+
+
+def test_a_rule_in_the_wrong_section_is_sent_to_its_own():
+    with pytest.raises(TableError, match=r"`combo_limit` belongs in \[arcade\]"):
+        parse_table("format = 1\n[board]\ncombo_limit = 3\n")
