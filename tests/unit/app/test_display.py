@@ -154,6 +154,38 @@ def test_messages_follow_each_other_and_long_ones_scroll_to_their_end():
     assert all(reads(dots, "120") for dots in frames)
 
 
+@pytest.mark.parametrize(
+    ("face", "says"),
+    [
+        (FACE, "BALL SAVED"),
+        (FACE._replace(phase=Phase.READY), "PRESS SPACE"),
+        (FACE._replace(phase=Phase.OVER), "GAME OVER"),
+        (FACE._replace(tilted=True), "TILT"),
+    ],
+)
+def test_a_message_hides_neither_the_score_nor_what_stands_above_it(face, says):
+    display = Display()
+    display.frame(face, 0.0)
+    display.tell(news(NewsKind.BALL_SAVED) if says == "BALL SAVED" else ())
+    display.say("THE BOARD IS KEPT")
+    frames = [display.frame(face, 5.0 + tick / 10) for tick in range(20)]
+    seen = [dots for dots in frames if reads(dots, "120")]
+    assert seen
+    assert all(reads(dots, says) and reads(dots, "THE BOARD IS KEPT") for dots in seen)
+
+
+def test_of_many_messages_the_newest_are_told():
+    display = Display()
+    display.frame(FACE, 0.0)
+    for number in range(30):
+        display.say(f"MESSAGE {number}")
+    frames = [display.frame(FACE, 1.0 + tick / 5) for tick in range(80)]
+    told = [number for number in range(30) if any(reads(dots, f"MESSAGE {number}") for dots in frames[::4])]
+    assert told[-1] == 29
+    assert len(told) <= 5
+    assert not reads(frames[-1], "MESSAGE")
+
+
 def test_more_important_news_interrupt_and_less_important_ones_wait():
     display = Display()
     display.frame(FACE, 0.0)
@@ -213,8 +245,9 @@ def played(moments, rate: float, scores: tuple[int, int]) -> list[tuple[float, n
 def test_the_score_is_never_hidden_for_more_than_a_second(moments, rate):
     hidden_since = None
     for seconds, one, other in played(moments, rate, (888_888, 111_111)):
-        # Where two different scores give the same picture, no score is seen.
-        if (one != other).any():
+        # Where two different scores give much the same picture, no score is seen: six eights or six ones,
+        # in the smaller of the two fonts of scores, differ in 150 dots and more.
+        if (one != other).sum() > 120:
             hidden_since = None
         else:
             hidden_since = seconds if hidden_since is None else hidden_since
