@@ -22,7 +22,7 @@ POINTS_TIME = 0.7  # [s] for which the points of a hit are shown
 SAY_TIME = 2.5  # [s] for which a message stands
 SAY_SPEED = 45.0  # [dot/s] of messages that are too long
 MOST_MESSAGES = 4  # that wait; a message that comes too late tells nothing
-PATIENCE = 2.5  # [s] after which a show that could not begin is out of date
+PATIENCE = 3.5  # [s] after which a show that could not begin is out of date
 COMBO_SHOWN = 3  # hits in a row from which they are announced
 COMBO_FULL = 8  # hits in a row at which the meters are full
 
@@ -57,12 +57,14 @@ class Show(NamedTuple):
 class Display:
     """The score display of one game.
 
-    Args:
+    Attributes:
         start_key: The key that brings a ball, as the display is to write it.
+        is_calm: Nothing fills the display or flashes over all of it, for sensitive eyes.
     """
 
-    def __init__(self, start_key: str = "SPACE") -> None:
+    def __init__(self, start_key: str = "SPACE", is_calm: bool = False) -> None:
         self.start_key = start_key
+        self.is_calm = is_calm
         self._queue: list[tuple[Show, float | None]] = []  # with the time since when it waits
         self._show: Show | None = None
         self._began = 0.0
@@ -169,6 +171,8 @@ class Display:
 
     def _scene(self, seconds: float) -> Callable[[Dots], None] | None:
         """What wants to fill the display now."""
+        if self.is_calm:
+            return None
         if self._tilted_since is not None:
             at = seconds - self._tilted_since
             period = HIDDEN_AT_MOST + SEEN_AT_LEAST

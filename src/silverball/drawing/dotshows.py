@@ -126,7 +126,10 @@ def falling_ball(dots: Dots, at: float) -> None:
 
 
 def tilt(dots: Dots, at: float) -> None:
-    """TILT over the whole display, shaking, dark on bright and bright on dark in turn."""
+    """TILT over the whole display, shaking, dark on bright and bright on dark in turn.
+
+    It turns 2.5 times a second: more than three flashes of a large area are a danger to some people.
+    """
     shake = round(2.5 * math.sin(40.0 * at) * max(1.0 - at, 0.25))
     width = 2 * BOLD.width("TILT")
     left = (WIDTH - width) // 2
@@ -140,7 +143,7 @@ def tilt(dots: Dots, at: float) -> None:
             slope = 8 if side == 0 else -8
             dots.line(start, 0, start - slope, HEIGHT - 1, 110)
             dots.line(start + 1, 0, start + 1 - slope, HEIGHT - 1, 110)
-    if at % 0.3 < 0.15:
+    if at % 0.4 < 0.2:
         dots.invert()
 
 
