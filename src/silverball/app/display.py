@@ -77,6 +77,7 @@ class Display:
         self._tilted_since: float | None = None
         self._phase_since = (Phase.READY, 0.0)
         self._is_beaten = False
+        self._best = 0
 
     def tell(self, news: Iterable[News]) -> None:
         """Take note of what has happened; it is shown from the next frame on."""
@@ -91,8 +92,8 @@ class Display:
                     self._enqueue(show)
 
     def say(self, text: str) -> None:
-        """Show a short message below the score; a long one scrolls."""
-        self._messages.add(text)
+        """Show a short message below the score, in capitals; a long one scrolls."""
+        self._messages.add(text.upper())
 
     def frame(self, face: Face, seconds: float, high_score: int = 0) -> Dots:
         """What is to be seen.
@@ -106,6 +107,7 @@ class Display:
             A picture of its own.
         """
         self._count(face.score, seconds)
+        self._best = high_score
         if face.phase is not self._phase_since[0]:
             self._phase_since = (face.phase, seconds)
         if 0 < high_score < face.score and not self._is_beaten and face.phase is not Phase.OVER:
@@ -220,6 +222,8 @@ class Display:
     def _draw_ready(self, dots: Dots, face: Face, headline: str, seconds: float) -> None:
         dots.text(headline, WIDTH // 2, 4, fitting(headline, WIDTH), "center")
         text = f"BALL {face.ball} OF {face.balls}" if face.balls else "FREE PLAY"
+        if self._best and not face.score and (seconds - self._phase_since[1]) % 4.0 >= 2.0:
+            text = f"BEST {self._best:,}"
         dots.text(text, 1, STATUS_Y - 1, NORMAL, "left", HALF)
         room = WIDTH - NORMAL.width(text) - 8
         dots.number(self._score(seconds), WIDTH - 1, 20, room, (BOLD, NORMAL, TINY), "right")

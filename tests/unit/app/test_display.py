@@ -64,6 +64,22 @@ def test_before_a_ball_it_says_which_key_brings_one():
     assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RETURN")
 
 
+def test_before_the_first_points_it_tells_the_score_to_beat():
+    display = Display()
+    face = FACE._replace(phase=Phase.READY, score=0)
+    frames = [display.frame(face, tick / 4, 98_760) for tick in range(20)]
+    assert any(reads(dots, "BEST 98,760") for dots in frames)
+    assert any(reads(dots, "BALL 1 OF 3") for dots in frames)
+    frames = [display.frame(FACE._replace(phase=Phase.READY), 9.0 + tick / 4, 98_760) for tick in range(20)]
+    assert not any(reads(dots, "BEST") for dots in frames)
+
+
+def test_messages_are_written_in_capitals():
+    display = Display()
+    display.say("Sound off")
+    assert reads(display.frame(FACE, 1.0), "SOUND OFF")
+
+
 def test_a_key_with_a_long_name_still_fits():
     display = Display("RIGHT SHIFT")
     assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RIGHT SHIFT")
