@@ -26,7 +26,7 @@ PATIENCE = 3.5  # [s] after which a show that could not begin is out of date
 COMBO_SHOWN = 3  # hits in a row from which they are announced
 COMBO_FULL = 8  # hits in a row at which the meters are full
 
-STATUS_Y = 25
+STATUS_Y = 24
 HALF = 130  # brightness of what is less important
 
 Scene = Callable[[Dots, float], None]
@@ -121,7 +121,7 @@ class Display:
         message = self._messages.at(seconds)
         dots = self._picture(face, seconds, message is not None)
         if message is not None:
-            dots.box(0, STATUS_Y - 2, WIDTH, HEIGHT - STATUS_Y + 2, 0)
+            dots.box(0, STATUS_Y - 1, WIDTH, HEIGHT - STATUS_Y + 1, 0)
             dots.text(message[0], message[1], STATUS_Y, NORMAL)
         return dots
 
@@ -224,7 +224,7 @@ class Display:
         text = f"BALL {face.ball} OF {face.balls}" if face.balls else "FREE PLAY"
         if self._best and not face.score and (seconds - self._phase_since[1]) % 4.0 >= 2.0:
             text = f"BEST {self._best:,}"
-        dots.text(text, 1, STATUS_Y - 1, NORMAL, "left", HALF)
+        dots.text(text, 1, STATUS_Y, NORMAL, "left", HALF)
         room = WIDTH - NORMAL.width(text) - 8
         dots.number(self._score(seconds), WIDTH - 1, 20, room, (BOLD, NORMAL, TINY), "right")
 
@@ -296,8 +296,9 @@ class _Messages:
 
 def _combo_scene(value: int) -> Scene:
     def scene(dots: Dots, at: float) -> None:
+        dotshows.ring(dots, at, speed=170.0)
         dotshows.burst(dots, at)
-        dots.text(f"{value}×", WIDTH // 2, 5, BOLD, "center", scale=2)
+        dots.text(f"{value} HITS", WIDTH // 2, 5, BOLD, "center", scale=2)
 
     return scene
 

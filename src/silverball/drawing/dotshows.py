@@ -39,17 +39,17 @@ def draw_ball(dots: Dots, x: float, y: float) -> None:
     dots.sprite(BALL, left, top)
 
 
-def burst(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, rays: int = 24) -> None:
+def burst(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, rays: int = 36) -> None:
     """Rays that fly apart from a place and fade, in about 0.7 s."""
     for ray in range(rays):
         angle = 2.0 * math.pi * ray / rays
-        speed = 150.0 * (0.7 + 0.6 * ((ray * GOLDEN) % 1.0))
+        speed = 200.0 * (0.5 + 0.6 * ((ray * GOLDEN) % 1.0))
         light = 1.0 - at / 0.7
-        for step in range(5):
+        for step in range(8):
             away = speed * (at - 0.012 * step)
             if away > 3.0 and light > 0.0:
                 dot_x, dot_y = round(x + away * math.cos(angle)), round(y + 0.7 * away * math.sin(angle))
-                dots.dot(dot_x, dot_y, round(FULL * light * (1.0 - 0.18 * step)))
+                dots.dot(dot_x, dot_y, round(FULL * light * (1.0 - 0.11 * step)))
 
 
 def ring(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, speed: float = 110.0) -> None:

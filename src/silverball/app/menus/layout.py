@@ -7,7 +7,7 @@ import math
 from silverball.drawing.dotfonts import BOLD, NORMAL, Font
 from silverball.drawing.dots import HEIGHT, WIDTH, Dots
 
-TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 25
+TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 24
 FAINT, HALF = 70, 145  # brightness of what is less important
 MARGIN = 13  # [dot] on both sides of the middle, for the arrows
 
@@ -116,8 +116,8 @@ def blinks(seconds: float, period: float = 0.5) -> bool:
 
 def under(dots: Dots, below: Dots) -> None:
     """Lay the upper part of what the game shows above the line of help."""
-    dots.pixels[: FOOT_Y - 2] = below.pixels[: FOOT_Y - 2]
-    dots.pixels[FOOT_Y - 2 : HEIGHT] = 0
+    dots.pixels[: FOOT_Y - 1] = below.pixels[: FOOT_Y - 1]
+    dots.pixels[FOOT_Y - 1 : HEIGHT] = 0
 
 
 def scroll_time(width: int, room: int = WIDTH) -> float:

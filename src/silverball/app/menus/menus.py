@@ -155,7 +155,7 @@ class Menus:
         dots = self._desk.pages[-1].draw(self._desk, seconds, game)
         message, since = self._desk.message(seconds)
         if message:
-            dots.box(0, layout.FOOT_Y - 2, WIDTH, HEIGHT - layout.FOOT_Y + 2, 0)
+            dots.box(0, layout.FOOT_Y - 1, WIDTH, HEIGHT - layout.FOOT_Y + 1, 0)
             light = layout.HALF if since < 0.6 and since % 0.2 < 0.1 else FULL  # it flashes to be noticed
             layout.marquee(dots, message, layout.FOOT_Y, 0, WIDTH, NORMAL, since, brightness=light)
         return dots
