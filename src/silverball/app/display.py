@@ -21,11 +21,12 @@ COUNT_TIME = 0.25  # [s] in which the score counts up to its new value
 POINTS_TIME = 0.7  # [s] for which the points of a hit are shown
 SAY_TIME = 2.5  # [s] for which a message stands
 SAY_SPEED = 45.0  # [dot/s] of messages that are too long
-PATIENCE = 2.5  # [s] after which a show that could not begin is out of date
+MOST_MESSAGES = 4  # that wait; a message that comes too late tells nothing
+PATIENCE = 3.5  # [s] after which a show that could not begin is out of date
 COMBO_SHOWN = 3  # hits in a row from which they are announced
 COMBO_FULL = 8  # hits in a row at which the meters are full
 
-STATUS_Y = 25
+STATUS_Y = 24
 HALF = 130  # brightness of what is less important
 
 Scene = Callable[[Dots, float], None]
@@ -56,17 +57,18 @@ class Show(NamedTuple):
 class Display:
     """The score display of one game.
 
-    Args:
+    Attributes:
         start_key: The key that brings a ball, as the display is to write it.
+        is_calm: Nothing fills the display or flashes over all of it, for sensitive eyes.
     """
 
-    def __init__(self, start_key: str = "SPACE") -> None:
+    def __init__(self, start_key: str = "SPACE", is_calm: bool = False) -> None:
         self.start_key = start_key
+        self.is_calm = is_calm
         self._queue: list[tuple[Show, float | None]] = []  # with the time since when it waits
         self._show: Show | None = None
         self._began = 0.0
-        self._messages: list[str] = []
-        self._message_began: float | None = None
+        self._messages = _Messages()
         self._points = 0  # of the last hit, shown from the next frame on
         self._points_began: float | None = None
         self._score_from, self._score_to, self._score_changed = 0, -1, 0.0  # nothing seen yet
@@ -75,6 +77,7 @@ class Display:
         self._tilted_since: float | None = None
         self._phase_since = (Phase.READY, 0.0)
         self._is_beaten = False
+        self._best = 0
 
     def tell(self, news: Iterable[News]) -> None:
         """Take note of what has happened; it is shown from the next frame on."""
@@ -89,9 +92,8 @@ class Display:
                     self._enqueue(show)
 
     def say(self, text: str) -> None:
-        """Show a short message below the score; a long one scrolls."""
-        if not self._messages or self._messages[-1] != text:
-            self._messages.append(text)
+        """Show a short message below the score, in capitals; a long one scrolls."""
+        self._messages.add(text.upper())
 
     def frame(self, face: Face, seconds: float, high_score: int = 0) -> Dots:
         """What is to be seen.
@@ -105,6 +107,7 @@ class Display:
             A picture of its own.
         """
         self._count(face.score, seconds)
+        self._best = high_score
         if face.phase is not self._phase_since[0]:
             self._phase_since = (face.phase, seconds)
         if 0 < high_score < face.score and not self._is_beaten and face.phase is not Phase.OVER:
@@ -115,11 +118,14 @@ class Display:
         elif self._tilted_since is None:
             self._tilted_since, self._show, self._queue = seconds, None, []
         self._advance(seconds)
-        dots = self._picture(face, seconds)
-        self._draw_message(dots, seconds)
+        message = self._messages.at(seconds)
+        dots = self._picture(face, seconds, message is not None)
+        if message is not None:
+            dots.box(0, STATUS_Y - 1, WIDTH, HEIGHT - STATUS_Y + 1, 0)
+            dots.text(message[0], message[1], STATUS_Y, NORMAL)
         return dots
 
-    def _picture(self, face: Face, seconds: float) -> Dots:
+    def _picture(self, face: Face, seconds: float, has_message: bool) -> Dots:
         """What fills the display if something may, else the score and what there is to say."""
         dots = Dots()
         scene = self._scene(seconds)
@@ -128,27 +134,47 @@ class Display:
             return dots
         if self._hidden_since is not None:
             self._hidden_since, self._seen_since = None, seconds
-        if self._show is not None:
+        headline, is_lit = self._headline(face, seconds)
+        if not headline:
+            self._draw_play(dots, face, seconds)
+        elif has_message:
+            # Three lines: the message has the lowest.
+            dots.text(headline, WIDTH // 2, 0, NORMAL, "center", FULL if is_lit else HALF)
+            self._draw_score(dots, 10, seconds)
+        elif self._show is not None:
             at = seconds - self._began
             if self._show is _HIGH_SCORE:
-                dotshows.fireworks(dots, at % 2.4)
-            self._show.look(dots, at, self._show.text, 2)
-            dots.box(0, 16, WIDTH, HEIGHT - 16, 0)
-            dots.number(self._score(seconds), WIDTH // 2, 19, WIDTH, (BOLD, NORMAL, TINY))
+                dotshows.fireworks(dots, at % 2.4, bottom=16)
+            self._show.look(dots, at, headline, 2)
+            self._draw_score(dots, 19, seconds)
         elif face.tilted:
-            dots.text("TILT", WIDTH // 2, 2, BOLD, "center", FULL if seconds % 0.5 < 0.25 else HALF)
-            dots.number(self._score(seconds), WIDTH // 2, 19, WIDTH, (BOLD, NORMAL, TINY))
+            dots.text(headline, WIDTH // 2, 2, BOLD, "center", FULL if is_lit else HALF)
+            self._draw_score(dots, 19, seconds)
         elif face.phase is Phase.READY:
-            self._draw_ready(dots, face, seconds)
-        elif face.phase is Phase.OVER:
-            dots.text("GAME OVER", WIDTH // 2, 1, NORMAL, "center", FULL if seconds % 1.0 < 0.6 else HALF)
-            dots.number(self._score(seconds), WIDTH // 2, 10)
+            self._draw_ready(dots, face, headline if is_lit else "", seconds)
         else:
-            self._draw_play(dots, face, seconds)
+            dots.text(headline, WIDTH // 2, 1, NORMAL, "center", FULL if is_lit else HALF)
+            dots.number(self._score(seconds), WIDTH // 2, 10)
         return dots
+
+    def _headline(self, face: Face, seconds: float) -> tuple[str, bool]:
+        """What is written above the score, and whether it is bright now; empty while a game just goes on."""
+        if self._show is not None:
+            return self._show.text, True
+        if face.tilted:
+            return "TILT", seconds % 0.5 < 0.25
+        if face.phase is Phase.READY:
+            return f"PRESS {self.start_key}", (seconds - self._phase_since[1]) % 1.0 < 0.65
+        return ("GAME OVER", seconds % 1.0 < 0.6) if face.phase is Phase.OVER else ("", True)
+
+    def _draw_score(self, dots: Dots, y: int, seconds: float) -> None:
+        """The score below a headline."""
+        dots.number(self._score(seconds), WIDTH // 2, y, WIDTH, (BOLD, NORMAL, TINY))
 
     def _scene(self, seconds: float) -> Callable[[Dots], None] | None:
         """What wants to fill the display now."""
+        if self.is_calm:
+            return None
         if self._tilted_since is not None:
             at = seconds - self._tilted_since
             period = HIDDEN_AT_MOST + SEEN_AT_LEAST
@@ -193,33 +219,14 @@ class Display:
             return f"COMBO {face.combo}", 200
         return "", 0
 
-    def _draw_ready(self, dots: Dots, face: Face, seconds: float) -> None:
-        since = seconds - self._phase_since[1]
-        if since % 1.0 < 0.65:
-            text = f"PRESS {self.start_key}"
-            dots.text(text, WIDTH // 2, 4, fitting(text, WIDTH), "center")
+    def _draw_ready(self, dots: Dots, face: Face, headline: str, seconds: float) -> None:
+        dots.text(headline, WIDTH // 2, 4, fitting(headline, WIDTH), "center")
         text = f"BALL {face.ball} OF {face.balls}" if face.balls else "FREE PLAY"
-        dots.text(text, 1, STATUS_Y - 1, NORMAL, "left", HALF)
+        if self._best and not face.score and (seconds - self._phase_since[1]) % 4.0 >= 2.0:
+            text = f"BEST {self._best:,}"
+        dots.text(text, 1, STATUS_Y, NORMAL, "left", HALF)
         room = WIDTH - NORMAL.width(text) - 8
         dots.number(self._score(seconds), WIDTH - 1, 20, room, (BOLD, NORMAL, TINY), "right")
-
-    def _draw_message(self, dots: Dots, seconds: float) -> None:
-        """The oldest message, in the lowest line; the next one when it is over."""
-        if not self._messages:
-            return
-        if self._message_began is None:
-            self._message_began = seconds
-        text, at = self._messages[0], seconds - self._message_began
-        width = NORMAL.width(text)
-        length = SAY_TIME if width <= WIDTH else (WIDTH + width) / SAY_SPEED
-        if at >= length:
-            self._messages.pop(0)
-            self._message_began = None
-            self._draw_message(dots, seconds)
-            return
-        dots.box(0, STATUS_Y - 2, WIDTH, HEIGHT - STATUS_Y + 2, 0)
-        x = (WIDTH - width) // 2 if width <= WIDTH else WIDTH - round(at * SAY_SPEED)
-        dots.text(text, x, STATUS_Y, NORMAL)
 
     def _count(self, score: int, seconds: float) -> None:
         """Let the score count up, or jump where it has become less: that is another game."""
@@ -258,10 +265,40 @@ class Display:
             self._queue.pop(0)
 
 
+class _Messages:
+    """Short messages, one after the other."""
+
+    def __init__(self) -> None:
+        self._texts: list[str] = []
+        self._began: float | None = None
+
+    def add(self, text: str) -> None:
+        """One more, unless it is the last one again; of too many only the newest are kept."""
+        if not self._texts or self._texts[-1] != text:
+            del self._texts[1 : max(len(self._texts) - MOST_MESSAGES + 2, 1)]
+            self._texts.append(text)
+
+    def at(self, seconds: float) -> tuple[str, int] | None:
+        """The message at a time, and the column where it begins; None if there is nothing to say."""
+        while self._texts:
+            if self._began is None:
+                self._began = seconds
+            text, at = self._texts[0], seconds - self._began
+            width = NORMAL.width(text)
+            if width <= WIDTH and at < SAY_TIME:
+                return text, (WIDTH - width) // 2
+            if width > WIDTH and at < (WIDTH + width) / SAY_SPEED:
+                return text, WIDTH - round(at * SAY_SPEED)
+            self._texts.pop(0)
+            self._began = None
+        return None
+
+
 def _combo_scene(value: int) -> Scene:
     def scene(dots: Dots, at: float) -> None:
+        dotshows.ring(dots, at, speed=170.0)
         dotshows.burst(dots, at)
-        dots.text(f"{value}×", WIDTH // 2, 5, BOLD, "center", scale=2)
+        dots.text(f"{value} HITS", WIDTH // 2, 5, BOLD, "center", scale=2)
 
     return scene
 

@@ -39,17 +39,17 @@ def draw_ball(dots: Dots, x: float, y: float) -> None:
     dots.sprite(BALL, left, top)
 
 
-def burst(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, rays: int = 24) -> None:
+def burst(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, rays: int = 36) -> None:
     """Rays that fly apart from a place and fade, in about 0.7 s."""
     for ray in range(rays):
         angle = 2.0 * math.pi * ray / rays
-        speed = 150.0 * (0.7 + 0.6 * ((ray * GOLDEN) % 1.0))
+        speed = 200.0 * (0.5 + 0.6 * ((ray * GOLDEN) % 1.0))
         light = 1.0 - at / 0.7
-        for step in range(5):
+        for step in range(8):
             away = speed * (at - 0.012 * step)
             if away > 3.0 and light > 0.0:
                 dot_x, dot_y = round(x + away * math.cos(angle)), round(y + 0.7 * away * math.sin(angle))
-                dots.dot(dot_x, dot_y, round(FULL * light * (1.0 - 0.18 * step)))
+                dots.dot(dot_x, dot_y, round(FULL * light * (1.0 - 0.11 * step)))
 
 
 def ring(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, speed: float = 110.0) -> None:
@@ -126,7 +126,10 @@ def falling_ball(dots: Dots, at: float) -> None:
 
 
 def tilt(dots: Dots, at: float) -> None:
-    """TILT over the whole display, shaking, dark on bright and bright on dark in turn."""
+    """TILT over the whole display, shaking, dark on bright and bright on dark in turn.
+
+    It turns 2.5 times a second: more than three flashes of a large area are a danger to some people.
+    """
     shake = round(2.5 * math.sin(40.0 * at) * max(1.0 - at, 0.25))
     width = 2 * BOLD.width("TILT")
     left = (WIDTH - width) // 2
@@ -140,7 +143,7 @@ def tilt(dots: Dots, at: float) -> None:
             slope = 8 if side == 0 else -8
             dots.line(start, 0, start - slope, HEIGHT - 1, 110)
             dots.line(start + 1, 0, start + 1 - slope, HEIGHT - 1, 110)
-    if at % 0.3 < 0.15:
+    if at % 0.4 < 0.2:
         dots.invert()
 
 

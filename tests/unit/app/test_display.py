@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reading import reads
-from silverball.app.display import HIDDEN_AT_MOST, Display
+from silverball.app.display import SEEN_AT_LEAST, Display
 from silverball.drawing.dotfonts import BOLD, HUGE
 from silverball.game.news import Face, Mode, News, NewsKind, Phase
 
@@ -62,6 +62,22 @@ def test_free_play_shows_the_balls_on_the_board_instead_of_a_number():
 def test_before_a_ball_it_says_which_key_brings_one():
     display = Display("RETURN")
     assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RETURN")
+
+
+def test_before_the_first_points_it_tells_the_score_to_beat():
+    display = Display()
+    face = FACE._replace(phase=Phase.READY, score=0)
+    frames = [display.frame(face, tick / 4, 98_760) for tick in range(20)]
+    assert any(reads(dots, "BEST 98,760") for dots in frames)
+    assert any(reads(dots, "BALL 1 OF 3") for dots in frames)
+    frames = [display.frame(FACE._replace(phase=Phase.READY), 9.0 + tick / 4, 98_760) for tick in range(20)]
+    assert not any(reads(dots, "BEST") for dots in frames)
+
+
+def test_messages_are_written_in_capitals():
+    display = Display()
+    display.say("Sound off")
+    assert reads(display.frame(FACE, 1.0), "SOUND OFF")
 
 
 def test_a_key_with_a_long_name_still_fits():
@@ -154,6 +170,50 @@ def test_messages_follow_each_other_and_long_ones_scroll_to_their_end():
     assert all(reads(dots, "120") for dots in frames)
 
 
+@pytest.mark.parametrize(
+    ("face", "says"),
+    [
+        (FACE, "BALL SAVED"),
+        (FACE._replace(phase=Phase.READY), "PRESS SPACE"),
+        (FACE._replace(phase=Phase.OVER), "GAME OVER"),
+        (FACE._replace(tilted=True), "TILT"),
+    ],
+)
+def test_a_message_hides_neither_the_score_nor_what_stands_above_it(face, says):
+    display = Display()
+    display.frame(face, 0.0)
+    display.tell(news(NewsKind.BALL_SAVED) if says == "BALL SAVED" else ())
+    display.say("THE BOARD IS KEPT")
+    frames = [display.frame(face, 5.0 + tick / 10) for tick in range(20)]
+    seen = [dots for dots in frames if reads(dots, "120")]
+    assert seen
+    assert all(reads(dots, says) and reads(dots, "THE BOARD IS KEPT") for dots in seen)
+
+
+def test_a_calm_display_never_hides_the_score_and_never_flashes():
+    display = Display(is_calm=True)
+    display.frame(FACE, 0.0)
+    display.tell((*news(NewsKind.DOUBLE_ON), *news(NewsKind.BALL_SAVED)))
+    faces = [FACE] * 60 + [FACE._replace(tilted=True)] * 60
+    frames = [display.frame(face, 5.0 + tick / 15, 50) for tick, face in enumerate(faces)]
+    assert all(reads(dots, "120") for dots in frames)
+    assert max((dots.pixels > 0).mean() for dots in frames) < 0.5
+    assert any(reads(dots, "BALL SAVED") for dots in frames)
+    assert reads(frames[-1], "TILT")
+
+
+def test_of_many_messages_the_newest_are_told():
+    display = Display()
+    display.frame(FACE, 0.0)
+    for number in range(30):
+        display.say(f"MESSAGE {number}")
+    frames = [display.frame(FACE, 1.0 + tick / 5) for tick in range(80)]
+    told = [number for number in range(30) if any(reads(dots, f"MESSAGE {number}") for dots in frames[::8])]
+    assert told[-1] == 29
+    assert len(told) <= 5
+    assert not reads(frames[-1], "MESSAGE")
+
+
 def test_more_important_news_interrupt_and_less_important_ones_wait():
     display = Display()
     display.frame(FACE, 0.0)
@@ -185,7 +245,7 @@ FACES = st.builds(
     on_board=st.integers(0, 2),
 )
 MOMENTS = st.lists(
-    st.tuples(st.lists(KINDS, max_size=3), FACES, st.integers(1, 30), st.booleans()), min_size=1, max_size=6
+    st.tuples(st.lists(KINDS, max_size=3), FACES, st.integers(1, 25), st.booleans()), min_size=1, max_size=5
 )
 
 
@@ -208,18 +268,21 @@ def played(moments, rate: float, scores: tuple[int, int]) -> list[tuple[float, n
     return frames
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(moments=MOMENTS, rate=st.sampled_from([10.0, 30.0, 60.0]))
-def test_the_score_is_never_hidden_for_more_than_a_second(moments, rate):
-    hidden_since = None
+def test_the_score_is_never_hidden_for_more_than_a_second_nor_again_at_once(moments, rate):
+    hidden_since, seen_since = None, None
     for seconds, one, other in played(moments, rate, (888_888, 111_111)):
-        # Where two different scores give the same picture, no score is seen.
-        if (one != other).any():
+        # Where two different scores give much the same picture, no score is seen: six eights or six ones,
+        # in the smaller of the two fonts of scores, differ in 150 dots and more.
+        if (one != other).sum() > 120:
+            seen_since = seconds if hidden_since is not None else seen_since
             hidden_since = None
+        elif hidden_since is None:
+            hidden_since = seconds
+            assert seen_since is None or seconds - seen_since >= SEEN_AT_LEAST
         else:
-            hidden_since = seconds if hidden_since is None else hidden_since
             assert seconds - hidden_since <= 1.0
-    assert HIDDEN_AT_MOST < 1.0
 
 
 @settings(max_examples=10, deadline=None)

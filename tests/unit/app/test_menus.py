@@ -322,6 +322,34 @@ def test_no_show_starts_over_a_paused_game_or_while_initials_are_entered():
         assert menus.tick(5000.0) is None
 
 
+def test_no_show_starts_at_the_end_of_a_long_game():
+    menus = menus_with()
+    menus.tick(1.0)
+    press(menus, START)
+    menus.open_over(1234)
+    assert menus.tick(1.0 + 10.0 * IDLE) is None
+    assert menus.page == "over"
+    assert menus.tick(1.0 + 11.5 * IDLE) == Attract(True)
+
+
+def test_a_long_message_stays_until_it_can_be_read_to_its_end():
+    menus = menus_with()
+    menus.tick(1.0)
+    menus.say("the replay could not be saved because the disk is full")
+    frames = [menus.draw(1.0 + tick / 5) for tick in range(60)]
+    assert any(reads(dots, "THE REPLAY") for dots in frames)
+    assert any(reads(dots, "IS FULL") for dots in frames)
+    assert not reads(frames[-1], "IS FULL")
+
+
+def test_the_replay_page_tells_whose_game_it_is_and_how_to_leave():
+    menus = menus_with()
+    menus.open_transport(ReplayFace(0.0, 30.0, title="abc"))
+    frames = [menus.draw(tick / 2) for tick in range(60)]
+    for text in ("ABC", "SPEED", "BOTH PADDLES HELD: LEAVE", "0:00"):
+        assert any(reads(dots, text) for dots in frames), text
+
+
 def test_the_show_has_the_name_the_scores_and_how_to_begin():
     menus = menus_with(Settings(keys={"create": ("return",)}))
     menus.open_attract()

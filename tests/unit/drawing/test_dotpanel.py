@@ -51,6 +51,17 @@ def test_a_dot_that_is_lit_shines_at_its_place(size):
     assert difference.max() > 150
 
 
+@pytest.mark.parametrize("size", [(700, 200), (900, 140), (500, 99), (150, 90)])
+def test_the_dots_lie_in_the_middle_of_their_area(size):
+    dots = Dots()
+    dots.clear(255)
+    light = drawn(dots, size, background=(0, 0, 0), frame=None).sum(axis=2) > 100
+    for axis in (0, 1):
+        lit = np.flatnonzero(light.any(axis=axis))
+        before, after = lit[0], light.shape[1 - axis] - 1 - lit[-1]
+        assert abs(before - after) <= 2
+
+
 def test_brighter_dots_give_more_light_and_dark_ones_a_little():
     light = []
     for level in (0, 60, 130, 255):

@@ -119,7 +119,7 @@ class ChoicePage(Page):
         since = seconds - self.shown_at
         heading = self._title if isinstance(self._title, str) else self._title()
         if self._is_editing and item.value is not None:
-            _draw_value(dots, item, item.value.place(desk), since)
+            _draw_value(dots, item, desk, since)
             return dots
         layout.title(dots, heading, index, len(items), since)
         shift = layout.slide(seconds - self._moved_at, self._direction) if self._moved_at >= 0.0 else 0
@@ -164,14 +164,19 @@ class ChoicePage(Page):
         return None
 
 
-def _draw_value(dots: Dots, item: Item, index: int, since: float) -> None:
+def _draw_value(dots: Dots, item: Item, desk: Desk, since: float) -> None:
     value = item.value
     assert value is not None
+    index = value.place(desk)
     layout.title(dots, item.label, seconds=since)
     layout.middle(dots, value.shown[index], since)
     layout.arrows(dots, since, strong=True)
     if value.wraps:
-        layout.foot(dots, (value.hints[index] if value.hints else "", "◄ ►: CHANGE   SPACE: KEEP"), since)
+        layout.foot(
+            dots,
+            (value.hints[index] if value.hints else "", f"◄ ►: CHANGE   {desk.key('create')}: KEEP"),
+            since,
+        )
     else:
         # A scale shows how far it is set.
         last = len(value.choices) - 1

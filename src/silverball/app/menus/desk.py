@@ -6,13 +6,15 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Sequence
 from typing import Any, NamedTuple
 
+from silverball.app.menus import layout
 from silverball.app.menus.actions import ActionLine, keys_of, shown
 from silverball.app.menus.commands import Button, Change, Command
 from silverball.app.settings import Settings
+from silverball.drawing.dotfonts import NORMAL
 from silverball.drawing.dots import Dots
 from silverball.game.news import Mode
 
-MESSAGE_TIME = 2.5  # [s] for which a message is shown
+MESSAGE_TIME = 2.5  # [s] for which a message is shown at least
 
 
 class TableEntry(NamedTuple):
@@ -154,7 +156,8 @@ class Desk:
     def message(self, seconds: float) -> tuple[str, float]:
         """What is to be said at a time, and for how long it has been said [s]; empty if nothing."""
         text, since = self._message
-        return (text, seconds - since) if since <= seconds < since + MESSAGE_TIME else ("", 0.0)
+        length = max(MESSAGE_TIME, layout.scroll_time(NORMAL.width(text)))
+        return (text, seconds - since) if since <= seconds < since + length else ("", 0.0)
 
     def table(self) -> TableEntry:
         """The chosen table; one that is no longer there keeps its name: nothing is chosen in secret."""

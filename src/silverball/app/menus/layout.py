@@ -7,7 +7,7 @@ import math
 from silverball.drawing.dotfonts import BOLD, NORMAL, Font
 from silverball.drawing.dots import HEIGHT, WIDTH, Dots
 
-TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 25
+TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 24
 FAINT, HALF = 70, 145  # brightness of what is less important
 MARGIN = 13  # [dot] on both sides of the middle, for the arrows
 
@@ -67,7 +67,7 @@ def foot(dots: Dots, texts: tuple[str, ...], seconds: float, brightness: int = 1
     texts = tuple(text for text in texts if text)
     if not texts:
         return
-    times = [max(FOOT_TURN, _scroll_time(NORMAL.width(text), WIDTH)) for text in texts]
+    times = [max(FOOT_TURN, scroll_time(NORMAL.width(text))) for text in texts]
     at = max(seconds, 0.0) % sum(times)
     for text, time in zip(texts, times, strict=True):
         if at < time:
@@ -92,7 +92,7 @@ def marquee(
     if width <= room:
         x = left + (room - width) // 2 if align == "center" else left
     else:
-        at = max(seconds, 0.0) % _scroll_time(width, room)
+        at = max(seconds, 0.0) % scroll_time(width, room)
         x = left - min(round(max(at - SCROLL_WAIT, 0.0) * SCROLL_SPEED), width - room)
     dots.text(text, x, y, font, "left", brightness, window=(left, right))
 
@@ -116,9 +116,10 @@ def blinks(seconds: float, period: float = 0.5) -> bool:
 
 def under(dots: Dots, below: Dots) -> None:
     """Lay the upper part of what the game shows above the line of help."""
-    dots.pixels[: FOOT_Y - 2] = below.pixels[: FOOT_Y - 2]
-    dots.pixels[FOOT_Y - 2 : HEIGHT] = 0
+    dots.pixels[: FOOT_Y - 1] = below.pixels[: FOOT_Y - 1]
+    dots.pixels[FOOT_Y - 1 : HEIGHT] = 0
 
 
-def _scroll_time(width: int, room: int) -> float:
+def scroll_time(width: int, room: int = WIDTH) -> float:
+    """How long a text of a width takes to be read to its end, where there is so much room [s]."""
     return 2.0 * SCROLL_WAIT + max(width - room, 0) / SCROLL_SPEED

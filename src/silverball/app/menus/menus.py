@@ -57,7 +57,7 @@ class Menus:
         self._down: dict[Button, float] = {}  # since when the paddle buttons are held
         self._next = 0.0  # when the button that is held counts again
         self._is_spent = False  # both were held: they do nothing more until they are released
-        self._touched: float | None = None
+        self._touched: float | None = None  # the last button, or the first tick of an opened page
         self.open_main()
 
     @property
@@ -155,7 +155,7 @@ class Menus:
         dots = self._desk.pages[-1].draw(self._desk, seconds, game)
         message, since = self._desk.message(seconds)
         if message:
-            dots.box(0, layout.FOOT_Y - 2, WIDTH, HEIGHT - layout.FOOT_Y + 2, 0)
+            dots.box(0, layout.FOOT_Y - 1, WIDTH, HEIGHT - layout.FOOT_Y + 1, 0)
             light = layout.HALF if since < 0.6 and since % 0.2 < 0.1 else FULL  # it flashes to be noticed
             layout.marquee(dots, message, layout.FOOT_Y, 0, WIDTH, NORMAL, since, brightness=light)
         return dots
@@ -166,6 +166,7 @@ class Menus:
 
     def open_main(self) -> None:
         """Show the main menu."""
+        self._touched = None
         self._desk.close()
         self._desk.open(main_page(self._desk))
 
@@ -177,6 +178,7 @@ class Menus:
 
     def open_pause(self) -> None:
         """The game is paused."""
+        self._touched = None
         self._desk.close()
         self._desk.open(pause_page(self._desk))
 
@@ -189,6 +191,7 @@ class Menus:
         """
         desk = self._desk
         desk.has_last_game = True
+        self._touched = None
         desk.close()
         desk.open(over_page(desk, score))
 
@@ -202,6 +205,7 @@ class Menus:
 
     def open_transport(self, face: ReplayFace) -> None:
         """A replay is shown."""
+        self._touched = None
         self._desk.pages.clear()  # not closed: one comes back to the pages from which it was opened
         self._desk.open(TransportPage(face))
 
@@ -213,6 +217,7 @@ class Menus:
 
     def reopen(self) -> None:
         """Nothing more to watch: show the page from which it was opened, or the main menu."""
+        self._touched = None
         if not self._desk.come_back():
             self.open_main()
 

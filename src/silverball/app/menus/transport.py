@@ -71,9 +71,10 @@ class TransportPage(Page):
         layout.under(dots, below)
         # Where it stands matters most, so the help waits until nobody has touched anything for a while.
         since = max(seconds - self.shown_at, 0.0)
-        turn = int(since / HELP_TIME) % 6
-        if turn in (2, 5):
-            layout.foot(dots, (self._help(desk) if turn == 2 else "BOTH PADDLES HELD: LEAVE",), 0.0)
+        texts = {2: self.face.title.upper(), 4: self._help(desk), 6: "BOTH PADDLES HELD: LEAVE"}
+        text = texts.get(int(since / HELP_TIME) % 8, "")
+        if text:
+            layout.foot(dots, (text,), since % HELP_TIME)
         else:
             self._draw_line(dots, seconds)
         return dots
