@@ -26,7 +26,7 @@ LEFT = Paddle(side="left", pivot=(-7.2, -2.5))
 RIGHT = Paddle(side="right", pivot=(-7.2, 2.5))
 PADDLES = (LEFT, RIGHT)
 TABLES = Path(__file__).with_name("tables")
-"""Tables that stay as they are: tuning the built-in ones changes no golden digest and no test of the rules."""
+"""Tables that stay as they are, so that tuning the built-in ones changes no golden digest and no test."""
 CLASSIC = load_table(TABLES / "classic.toml")
 RANDOM = load_table(TABLES / "random.toml")
 CONTACTS = ("hit", "touch", "ball_hit", "ball_touch")

@@ -184,3 +184,21 @@ def test_output_that_cannot_be_written_ends_in_one_sentence():
     with Path("/dev/full").open("w") as full:
         result = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert_friendly_refusal(result, "No space left")
+
+
+def test_simulate_feels_how_a_table_plays(silverball):
+    result = silverball("simulate", "--feel", "--games", "3", "--table", "random", "--json")
+    assert result.returncode == 0, result.stderr
+    report = json.loads(result.stdout)
+    assert set(report["players"]) == {"idle", "random", "beginner", "reflex"}
+    for found in report["players"].values():
+        value, low, high = found["seconds_per_ball"]
+        assert 0.0 < low < value < high
+    assert {shots["paddle"] for shots in report["shots"]} == {"left", "right"}
+    text = silverball("simulate", "--feel", "--games", "3", "--table", "random").stdout
+    assert f"{report['players']['idle']['seconds_per_ball'][0]:.1f} ±" in text
+
+
+def test_simulate_refuses_options_that_do_not_go_with_a_feel(silverball):
+    assert_friendly_refusal(silverball("simulate", "--feel", "--soak"), "--soak")
+    assert_friendly_refusal(silverball("simulate", "--games", "5"), "--feel")

@@ -12,6 +12,8 @@ import typer
 SOAK_DEFAULTS = {"table": "random", "worlds": 256, "tick_rate": 60}
 SOAK_ONLY = ("frames", "hostile", "progress", "again")
 PLAY_ONLY = ("seconds", "player", "balls", "audit")
+FEEL_ONLY = ("games",)
+NOT_FEEL = (*PLAY_ONLY, *SOAK_ONLY, "soak", "worlds", "tick_rate")
 
 
 def simulate(
@@ -38,15 +40,26 @@ def simulate(
     hostile: bool = typer.Option(False, "--hostile", help="Soak boards that break every rule."),
     progress: Path = typer.Option(None, help="File of a soak's progress [default: in the data folder]."),
     again: Path = typer.Option(None, help="File of a finding: does it still happen?"),
+    feel: bool = typer.Option(
+        False, "--feel", help="How does the table play? Ball times, shots, liveliness, with 95 % intervals."
+    ),
+    games: int = typer.Option(1000, min=2, max=100_000, help="Games of one ball for each player, to feel."),
 ) -> None:
-    """Let a player play without a window and say what came of it; or soak the solver.
+    """Let a player play without a window and say what came of it; soak the solver; or feel how a table plays.
 
     Example: `silverball simulate --table random --seed 7 --seconds 600 --player reflex --json`
 
     Example: `silverball simulate --soak --frames 1000000000`
+
+    Example: `silverball simulate --feel --table classic --games 1000`
     """
     given = {name for name in ctx.params if str(ctx.get_parameter_source(name)).endswith("COMMANDLINE")}
-    refuse_what_does_not_fit(given, soak)
+    refuse_what_does_not_fit(given, soak, feel)
+    if feel:
+        from silverball.cli.feel import run_feel
+
+        run_feel(table, seed, games, as_json)
+        return
     if soak:
         from silverball.cli.soak import print_soak, run_soak, soak_again
 
@@ -106,10 +119,14 @@ def simulate(
         print_report(report)
 
 
-def refuse_what_does_not_fit(given: set[str], soak: bool) -> None:
+def refuse_what_does_not_fit(given: set[str], soak: bool, feel: bool) -> None:
     """Refuse options that would change nothing."""
     from silverball.errors import SilverballError
 
+    for name in NOT_FEEL if feel else FEEL_ONLY:
+        if name in given:
+            kind = "does not go with --feel; leave it out" if feel else "needs --feel too"
+            raise SilverballError(f"silverball simulate: --{name.replace('_', '-')} {kind}")
     for name in PLAY_ONLY if soak else SOAK_ONLY:
         if name in given:
             kind = "is not for a soak, which presses at random; leave it out" if soak else "needs --soak too"

@@ -205,11 +205,11 @@ def hot_cells(feel: PlayerFeel, table: Table, count: int = 3) -> list[tuple[floa
 
 def shots_as_dict(shots: Shots) -> dict[str, Any]:
     """The figures of a paddle's shots, for people and for JSON."""
-    directions = shots.directions()
+    directions, aimed = shots.directions(), shots.shot["direction"][shots.aim != Aim.NOWHERE]
     windows = {aim.name.lower(): shots.window(aim) for aim in (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)}
     struck = shots.shot[shots.shot["launched"] == 1]
     bunched = max(
-        (float(((directions >= low) & (directions < low + BUNCH)).mean()) for low in directions.tolist()),
+        (float(((aimed >= low) & (aimed < low + BUNCH)).mean()) for low in aimed.tolist()),
         default=float("nan"),
     )
     first = [shots.names[part] for part in struck["first"].tolist() if part >= 0]

@@ -193,7 +193,7 @@ def play_balls(
                 follow_ball(game, world, board, colliders, heat, stays)
 
 
-@internal
+@kernel
 def beginner_presses(world: Any, board: Any, colliders: Any, wishes: Any, tick: float) -> tuple[bool, bool]:
     """The buttons (left, right) that the beginner holds in the next tick: what he wished a reaction ago.
 

@@ -1,0 +1,122 @@
+"""The figures of a table's feel: intervals, shots, and the marks that the built-in tables keep."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from boards import CLASSIC, PADDLES, mirrored, table_of
+from silverball.physics.layout import records
+from silverball.players.feel import measure, ratio, share, shots_as_dict
+from silverball.players.feelgames import TICK_RATE
+from silverball.players.feelshots import SHOT, Aim, Shots, shots_of
+from silverball.table import load_table
+
+AIMS = (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)
+
+
+def test_a_ratio_of_games_that_are_all_alike_is_certain() -> None:
+    assert ratio([2.0, 4.0, 6.0], [1, 2, 3]) == (2.0, 2.0, 2.0)
+    assert all(math.isnan(part) for part in ratio([1.0], [0]))
+
+
+def test_the_interval_of_a_ratio_holds_the_true_one_in_19_of_20_cases() -> None:
+    rng = np.random.default_rng(0)
+    held, cases, games = 0, 400, 200
+    for _ in range(cases):
+        minutes = rng.exponential(2.0, games)
+        points = rng.poisson(30.0 * minutes)  # 30 a minute
+        found = ratio(points, minutes)
+        held += found.low < 30.0 < found.high
+    # 380 are expected; five standard deviations of the binomial below and above.
+    assert abs(held - 0.95 * cases) < 5.0 * math.sqrt(cases * 0.95 * 0.05)
+
+
+def test_the_interval_of_a_share_never_leaves_nought_to_one_and_is_not_empty_for_rare_cases() -> None:
+    none, half, every = share(0, 1000), share(500, 1000), share(1000, 1000)
+    assert none.value == none.low == 0.0
+    assert none.high == pytest.approx(1.96**2 / (1000 + 1.96**2))  # Wilson's at k = 0
+    assert every.low == pytest.approx(1.0 - none.high)
+    assert half.high - 0.5 == pytest.approx(0.5 - half.low)
+    assert half.high - 0.5 == pytest.approx(1.96 * math.sqrt(0.25 / 1000), rel=0.01)
+
+
+def shots_with(aims: str) -> Shots:
+    """Shots of these aims, one a tick; all of them left the paddle."""
+    letters = {".": Aim.NOWHERE, "L": Aim.LEFT, "M": Aim.MIDDLE, "R": Aim.RIGHT}
+    shot = records(len(aims), SHOT)
+    shot["launched"] = 1
+    return Shots("left", False, shot, np.array([letters[letter] for letter in aims]), (), 8.0)
+
+
+def test_a_window_is_the_longest_run_of_presses_without_a_gap() -> None:
+    shots = shots_with("LL.LLL.M.RRRR")
+    tick_ms = 1000.0 / TICK_RATE
+    assert shots.window(Aim.LEFT) == (3 * tick_ms, 3 * tick_ms)
+    assert shots.window(Aim.MIDDLE) == (1 * tick_ms, 7 * tick_ms)
+    assert shots.window(Aim.RIGHT) == (4 * tick_ms, 9 * tick_ms)
+    width, since = shots_with("LLL").window(Aim.RIGHT)
+    assert width == 0.0
+    assert math.isnan(since)
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_the_shots_of_the_right_paddle_are_those_of_the_left_one_in_the_mirror(held: bool) -> None:
+    table = CLASSIC.model_copy(update={"triangular_prism": (), "cylinder": ()})
+    left, right = shots_of(table, "left", held), shots_of(mirrored(table), "right", held)
+    assert left is not None
+    assert right is not None
+    assert left.shot["launched"].sum() > 50
+    # Mirror images, to rounding that some bounces on the paddle enlarge.
+    same = left.shot["launched"] & right.shot["launched"] & (left.shot["speed"] > 15.0)
+    np.testing.assert_allclose(
+        left.shot["direction"][same == 1], -right.shot["direction"][same == 1], atol=1e-3
+    )
+
+
+def test_a_late_press_sends_the_ball_further_across_than_an_early_one() -> None:
+    shots = shots_of(
+        load_table("classic").model_copy(update={"triangular_prism": (), "cylinder": ()}), "left", True
+    )
+    assert shots is not None
+    directions = shots.directions()
+    early, late = np.array_split(directions, 2)
+    assert np.median(late) > np.median(early) + 10.0
+
+
+def test_without_a_guide_or_a_paddle_there_are_no_shots() -> None:
+    assert shots_of(table_of(*PADDLES), "left", False) is None
+    assert shots_of(table_of(CLASSIC.slant_wall[0], PADDLES[0]), "right", False) is None
+
+
+@pytest.fixture(scope="module", params=["classic", "random", "rolling"])
+def feel(request):
+    return measure(load_table(request.param), 120, seed=1, players=("idle", "reflex"))
+
+
+def test_an_idle_ball_lasts_5_to_15_seconds_on_a_built_in_table(feel) -> None:
+    assert 5.0 < feel.players["idle"].figures["seconds_per_ball"].value < 15.0
+
+
+def test_a_reflex_ball_lasts_30_to_90_seconds_on_a_built_in_table(feel) -> None:
+    assert 30.0 < feel.players["reflex"].figures["seconds_per_ball"].value < 90.0
+
+
+def test_no_ball_stays_in_one_place_for_5_seconds_on_a_built_in_table(feel) -> None:
+    for found in feel.players.values():
+        assert found.figures["share_stuck"].value == 0.0
+        assert found.cut_short == 0
+
+
+def test_struck_balls_reach_the_top_and_every_cylinder_of_a_built_in_table(feel) -> None:
+    found = feel.players["reflex"]
+    assert found.figures["strikes_to_top"].low > 0.05
+    assert all(figure.low > 0.0 for figure in found.cylinders.values())
+
+
+def test_shots_to_the_left_middle_and_right_have_time_enough_on_a_built_in_table(feel) -> None:
+    assert len(feel.shots) == 4
+    for shots in feel.shots:
+        assert all(shots.window(aim)[0] >= 25.0 for aim in AIMS), shots_as_dict(shots)["windows_ms"]
