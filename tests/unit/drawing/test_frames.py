@@ -146,7 +146,10 @@ def test_paddles_are_drawn_at_their_angle(renderer, angle):
         middle = corners.mean(axis=0)
         for corner in corners:
             inside = 0.75 * corner + 0.25 * middle
-            assert np.abs(at(picture, renderer, *inside, height) - at(bare, renderer, *inside, height)).max() > 60
+            assert (
+                np.abs(at(picture, renderer, *inside, height) - at(bare, renderer, *inside, height)).max()
+                > 60
+            )
             beyond = corner + 0.7 * (corner - middle) / np.hypot(*(corner - middle)) + (0.35, 0.0)
             difference = at(picture, renderer, *beyond) - at(bare, renderer, *beyond)
             assert np.abs(difference).max() < 40
