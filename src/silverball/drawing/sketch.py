@@ -194,7 +194,7 @@ def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callab
 
 def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Theme) -> None:
     build = pen.camera.build
-    unit = build.prism_height / 0.55
+    unit = build.unit
     pen.face(circle(x, z, radius + (RING_AT + 0.03) * unit, 0.0), color)
     pen.face(circle(x, z, radius + (RING_AT - 0.03) * unit, 0.0), dim(color, 0.3))
     corners = [(px, pz) for px, pz, _ in circle(x, z, radius, 0.0)]

@@ -91,6 +91,9 @@ def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeyp
         def poll(self):
             return 0
 
+        def kill(self):
+            raise OSError("it is gone")
+
     answers = iter([False, True])
     monkeypatch.setattr(compiling, "is_compiled", lambda: next(answers))
     monkeypatch.setattr(background_module.subprocess, "Popen", Process)

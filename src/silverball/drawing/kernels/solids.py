@@ -61,7 +61,7 @@ def part_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
 @inlined
 def _crown_distance(look: Any, c: Any, a: float, y: float) -> float:
     """A cylinder's cap, a slice of a sphere, and the steel ring that it lies in."""
-    unit = look.height / 0.42
+    unit = look.height / 0.38
     rho = a + c.radius
     ring_across = rho - (c.radius - RING * unit)
     ring_up = y - look.height
@@ -78,7 +78,7 @@ def _crown_distance(look: Any, c: Any, a: float, y: float) -> float:
 @inlined
 def _bolt_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
     """A flat dome over the pivot of a paddle."""
-    size = min(0.36 * (c.x2 - c.x0), 0.3 * look.height / 0.46)
+    size = min(0.36 * (c.x2 - c.x0), 0.3 * look.height / 0.33)
     rx = x - c.x - 0.42 * size * look.sine
     rz = z - c.z - 0.42 * size * look.cosine * look.side
     up = 2.0 * (y - look.height)
