@@ -1,7 +1,8 @@
 """How tall is everything? The physics knows footprints alone; heights and the cabinet are chosen here.
 
-All in units [u] of the board. Heights go with the ball, so that one of another size still fits what it hits:
-obstacles are as tall as a ball, rails and bumper caps a little taller.
+All in units [u] of the board. Heights go with the ball, so that one of another size still fits what it hits.
+Most obstacles are lower than a ball, so that it is seen behind them and its shadow climbs onto them; rails,
+bumper caps and the apron are taller.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ class Build(NamedTuple):
     """The heights [u] above the playfield and the widths [u] of what a board is built of.
 
     Attributes:
+        unit: All heights are multiples of it; 1 for a ball of the usual size.
         half_length: Half of the board along x.
         half_width: Half of the board along z.
         thickness: Of the borders: their surface lies so far inside the board's edge.
@@ -35,6 +37,7 @@ class Build(NamedTuple):
         ball: Radius of a ball.
     """
 
+    unit: float
     half_length: float
     half_width: float
     thickness: float
@@ -57,18 +60,19 @@ class Build(NamedTuple):
         unit = min(board.ball_radius / USUAL_BALL_RADIUS, 0.25 * shorter)
         rail = min(RAIL_SHARE * shorter, GREATEST_RAIL)
         return cls(
+            unit=unit,
             half_length=0.5 * board.length,
             half_width=0.5 * board.width,
             thickness=board.wall_thickness,
             rail=rail,
             rail_height=0.62 * unit,
-            wall_height=0.5 * unit,
-            prism_height=0.55 * unit,
-            body_height=0.42 * unit,
-            paddle_height=0.46 * unit,
+            wall_height=0.36 * unit,
+            prism_height=0.34 * unit,
+            body_height=0.38 * unit,
+            paddle_height=0.33 * unit,
             apron_height=0.54 * unit,
             apron_top=max(board.gutter - board.ball_radius, -0.5 * board.length),
             skirt=0.5 * rail,
-            top=1.05 * unit,
+            top=0.95 * unit,
             ball=board.ball_radius,
         )

@@ -20,7 +20,7 @@ import pygame
 from silverball.drawing.build import Build
 from silverball.table import Board
 
-TILT = math.radians(36.5)  # of the view from straight down
+TILT = math.radians(38.0)  # of the view from straight down
 DISTANCE = 2.8  # of the eye from the board's centre, by the longer side of the board
 PANEL_SHAPE = 5.0  # width by height of the score panel: 160 × 32 dots
 PANEL_LEAST, PANEL_MOST = 0.42, 1.25  # width of the panel, in heights of the board's picture

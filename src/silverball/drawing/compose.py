@@ -116,7 +116,7 @@ class Composer:
     def _shade(self, ball: BallAt) -> None:
         r = self._camera.build.ball
         box = self._camera.box(
-            ball.x - 3.4 * r, ball.x + 1.8 * r, ball.z - 2.2 * r, ball.z + 2.2 * r, 0.0, 2.0 * r
+            ball.x - 2.8 * r, ball.x + 2.2 * r, ball.z - 2.2 * r, ball.z + 2.2 * r, 0.0, 2.0 * r
         )
         cast_shadow(self._frame, self._height, self._stage, ball.x, ball.z, r, *box)
         self._changed.append(box)

@@ -138,7 +138,7 @@ class PaddleBaker:
 
     def _box(self, paddle: Paddle, angle: float) -> tuple[int, int, int, int]:
         corners = paddle.corners(angle)
-        reach = SHADOW_REACH * self._camera.build.paddle_height / 0.46
+        reach = SHADOW_REACH * self._camera.build.unit
         xs, zs = [x for x, _ in corners], [z for _, z in corners]
         return self._camera.box(
             min(xs) - reach, max(xs) + 0.3 * reach, min(zs) - reach, max(zs) + reach, 0.0,

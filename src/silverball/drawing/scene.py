@@ -65,9 +65,9 @@ def _set_looks(looks: NDArray[Any], shapes: NDArray[Any], table: Table, build: B
         if form is Form.ABSENT:
             continue
         look["height"] = heights[form]
-        look["bevel"] = 0.07 * build.prism_height / 0.55
+        look["bevel"] = 0.055 * build.unit
         if form is Form.WALL:
-            look["bevel"] = min(shape["radius"], 0.12 * build.wall_height)
+            look["bevel"] = min(shape["radius"], 0.06 * build.unit)
         _set_color(look, in_turn(colors[form], counts[form]))
         look["glow"] = {Form.WALL: 0.0, Form.PRISM: 0.75, Form.CYLINDER: 1.0}[form] * theme.halo
         counts[form] += 1
@@ -93,7 +93,7 @@ def _set_paddle(look: Any, shape: Any, angle: float | None, build: Build, theme:
         return
     look["form"], look["side"] = Form.PADDLE, shape["side"]
     look["sine"], look["cosine"] = math.sin(math.radians(angle)), math.cos(math.radians(angle))
-    look["height"], look["bevel"] = build.paddle_height, 0.12 * build.paddle_height
+    look["height"], look["bevel"] = build.paddle_height, 0.055 * build.unit
     _set_color(look, theme.paddle)
 
 
@@ -118,7 +118,7 @@ def _stage(camera: Camera, theme: Theme) -> NDArray[Any]:
     for name in ("half_length", "half_width", "thickness", "rail", "rail_height", "apron_height"):
         row[name] = getattr(build, name)
     row["apron_top"], row["top"] = build.apron_top, build.top
-    row["unit"] = build.prism_height / 0.55
+    row["unit"] = build.unit
     for name in ("art", "frame", "exposure", "key", "fill", "lacquer", "halo", "cap_ground"):
         row[name] = getattr(theme, name)
     row["light_x"], row["light_y"] = LIGHT

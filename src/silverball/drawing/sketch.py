@@ -24,7 +24,7 @@ Point = tuple[float, float]
 ENLARGED = 2  # the picture is drawn so much larger and shrunk, which smooths its edges,
 MOST_PIXELS = 2_000_000  # unless it is larger than this
 CIRCLE = 28  # corners of a circle
-RAYS, EMBLEM_AT, RING_AT = 22, -0.05, 0.27  # as in art.py and shade.py
+RAYS, EMBLEM_AT, EMBLEM_SIZE, RING_AT = 22, -0.05, 0.105, 0.27  # as in kernels/art.py and kernels/shade.py
 
 
 def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
@@ -35,6 +35,7 @@ def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
     surface.fill(theme.room)
     pen = Pen(surface, camera, enlarged)
     _floor(pen, table, theme)
+    _emblem(pen, table, theme)
     _rails(pen, theme)
     for _, draw in sorted(_parts(pen, table, theme), key=lambda part: -part[0]):  # the far ones first
         draw()
@@ -131,6 +132,19 @@ def _floor(pen: Pen, table: Table, theme: Theme) -> None:
     pen.surface.blit(pygame.transform.smoothscale(small, pen.surface.get_size()), (0, 0))
 
 
+def _emblem(pen: Pen, table: Table, theme: Theme) -> None:
+    """The star where the rays meet, in its ring."""
+    build = pen.camera.build
+    size, x = EMBLEM_SIZE * min(2.0 * build.half_width, build.half_length), EMBLEM_AT * table.board.length
+    for share, color in ((1.34, theme.ornament[0]), (1.27, dim(theme.floor[1], 0.5))):
+        pen.face(circle(x, 0.0, share * size, 0.0), color)
+    star = []
+    for number in range(10):
+        reach, turn = (0.98 if number % 2 == 0 else 0.46) * size, math.radians(36.0 * number)
+        star.append((x + reach * math.cos(turn), reach * math.sin(turn), 0.0))
+    pen.face(star, theme.heart)
+
+
 def _rails(pen: Pen, theme: Theme) -> None:
     """The frame, from the far end to the near one."""
     build = pen.camera.build
@@ -180,7 +194,7 @@ def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callab
 
 def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Theme) -> None:
     build = pen.camera.build
-    unit = build.prism_height / 0.55
+    unit = build.unit
     pen.face(circle(x, z, radius + (RING_AT + 0.03) * unit, 0.0), color)
     pen.face(circle(x, z, radius + (RING_AT - 0.03) * unit, 0.0), dim(color, 0.3))
     corners = [(px, pz) for px, pz, _ in circle(x, z, radius, 0.0)]

@@ -69,9 +69,9 @@ class Workshop:
         if not len(rows):
             return
         first, end = int(rows[0]), int(rows[-1]) + 1
-        self.rows(bake.bake_rows, (scene, canvas), first, end)
+        self.rows(bake.bake_rows, (scene, canvas, canvas.shown, 1), first, end)
         refined = canvas if inner is None else canvas._replace(mask=inner)
-        self.rows(bake.refine_rows, (scene, refined, canvas.shown.copy()), first, end)
+        self.rows(bake.bake_rows, (scene, refined, canvas.shown.copy(), bake.FINE), first, end)
 
     def rows(self, kernel: Callable[..., None], arguments: tuple[Any, ...], first: int, end: int) -> None:
         """Call a kernel for the rows first … end − 1, a few at a time, on all threads.

@@ -32,9 +32,7 @@ def test_the_ray_through_a_point_of_the_picture_meets_what_is_seen_there():
 
 def test_far_things_look_smaller_and_the_left_is_the_right_in_the_mirror():
     camera = Camera(BOARD, (500, 900))
-    near, far = (
-        camera.to_pixel(x, 1.0)[0] - camera.to_pixel(x, -1.0)[0] for x in (-9.0, 9.0)
-    )
+    near, far = (camera.to_pixel(x, 1.0)[0] - camera.to_pixel(x, -1.0)[0] for x in (-9.0, 9.0))
     assert far < 0.9 * near
     assert camera.to_pixel(2.0, -3.0)[0] + camera.to_pixel(2.0, 3.0)[0] == pytest.approx(500.0)
 

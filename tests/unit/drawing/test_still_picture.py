@@ -113,14 +113,17 @@ def test_heights_are_those_of_what_is_seen(canvas):
     corner = np.mean(TABLE.triangular_prism[0].corners(), axis=0)
     across, down = CAMERA.to_pixel(*corner, build.prism_height)
     assert canvas.height[int(down), int(across)] == pytest.approx(build.prism_height, abs=0.01)
-    assert (canvas.height[canvas.part == FLOOR] == pytest.approx(0.0, abs=1e-4))
+    assert canvas.height[canvas.part == FLOOR] == pytest.approx(0.0, abs=1e-4)
 
 
 def test_edges_are_smooth(canvas):
-    """Along the slanting edge of a prism, refined pixels have colours between those of both sides."""
-    refined = np.abs(canvas.shown - np.sqrt(np.clip(canvas.light, 0.0, 1.0))).max(axis=2)
-    edges = canvas.part[1:, 1:] != canvas.part[:-1, :-1]
-    assert refined[1:, 1:][edges].mean() > 2.0 * refined[1:, 1:][~edges].mean()
+    """Where two things meet, pixels do not show what one ray saw but the mean of several."""
+    light = canvas.light.astype(float)
+    one_ray = light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14)
+    refined = np.abs(canvas.shown - np.sqrt(np.clip(one_ray, 0.0, 1.0))).max(axis=2) > 1e-4
+    edges = canvas.part[1:] != canvas.part[:-1]
+    assert refined[1:][edges].mean() > 0.9
+    assert refined[1:][~edges].mean() < 0.4
 
 
 def test_a_board_baked_around_its_obstacles_is_the_board_baked_in_full():
@@ -159,7 +162,8 @@ def test_a_mirrored_table_has_a_mirrored_picture():
         for kinds in (parts, mirrored)
     )
     difference = np.abs(one - other[:, ::-1]).max(axis=2)
-    assert (difference > 24).mean() < 0.004
+    assert (difference > 24).mean() < 0.02
+    assert difference.mean() < 2.0
     assert np.abs(one - other).max() > 100  # it is another picture, before it is turned round
 
 

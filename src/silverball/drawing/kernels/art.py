@@ -86,7 +86,7 @@ def _sky_of_stars(
         side = (0.055 + 0.075 * layer) * w
         i, j = int((x / side + 1000.0) // 1.0), int((z / side + 1000.0) // 1.0)
         draw = chance(i + 7919 * layer, j)
-        if draw < 0.2:
+        if draw < 0.17:
             at_x = (i - 1000.0 + 0.2 + 0.6 * chance(i, j + 513)) * side
             at_z = (j - 1000.0 + 0.2 + 0.6 * chance(i + 271, j)) * side
             off = sqrt((x - at_x) ** 2 + (z - at_z) ** 2)

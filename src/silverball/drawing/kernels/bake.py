@@ -18,10 +18,11 @@ from silverball.drawing.kernels.march import trace
 from silverball.drawing.kernels.shade import part_glow, radiance
 from silverball.drawing.kernels.stage import Form, Scene
 from silverball.drawing.kernels.surfaces import surface_of
-from silverball.drawing.kernels.tones import RGB, film, plus
-from silverball.physics.kernel import internal, kernel
+from silverball.drawing.kernels.tones import RGB, film, plus, scaled
+from silverball.physics.kernel import inlined, internal, kernel
 
 CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel is looked at more closely
+FINE = 4  # rays of such a pixel
 FLASH = 2.6  # how much brighter a part is that has just been hit
 
 
@@ -75,21 +76,6 @@ def _look(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
     return light, y, part
 
 
-@kernel
-def bake_rows(scene: Scene, canvas: Canvas, first: int, end: int) -> None:
-    """One ray through the middle of every pixel of the rows first … end − 1."""
-    s = scene.stage[0]
-    for row in range(first, end):
-        for column in range(canvas.mask.shape[1]):
-            if canvas.mask[row, column]:
-                light, height, part = _look(scene, column + 0.5, row + 0.5)
-                for channel in range(3):
-                    canvas.light[row, column, channel] = s.exposure * light[channel]
-                    canvas.shown[row, column, channel] = film(s.exposure * light[channel])
-                canvas.height[row, column] = height
-                canvas.part[row, column] = part
-
-
 @internal
 def _is_edge(canvas: Canvas, shown: Any, row: int, column: int) -> bool:
     """Whether a pixel differs from one of its four neighbours in what it shows, or much in colour."""
@@ -107,26 +93,50 @@ def _is_edge(canvas: Canvas, shown: Any, row: int, column: int) -> bool:
 
 
 @kernel
-def refine_rows(scene: Scene, canvas: Canvas, rough: Any, first: int, end: int) -> None:
-    """Four more rays for pixels at edges; `rough` is a copy of `canvas.shown` from before any refining."""
+def bake_rows(scene: Scene, canvas: Canvas, rough: Any, rays: int, first: int, end: int) -> None:
+    """Bake the rows first … end − 1: one kernel for both rounds, since each would compile all it calls anew.
+
+    Args:
+        scene: What is seen.
+        canvas: Where to; its mask says which pixels.
+        rough: In the second round, a copy of `canvas.shown` after the first.
+        rays: 1 in the first round, through the middle of every pixel; `FINE` in the second, where `rough` has
+            an edge.
+        first: The first row.
+        end: The row after the last.
+    """
     s = scene.stage[0]
     for row in range(first, end):
         for column in range(canvas.mask.shape[1]):
-            if canvas.mask[row, column] and _is_edge(canvas, rough, row, column):
-                shown = (0.0, 0.0, 0.0)
-                for sample in range(4):  # a square turned a little, so that no two share a row or a column
-                    turn = 0.375 if sample < 2 else -0.375
-                    lean = 0.125 if sample % 2 == 0 else -0.125
-                    off_x, off_y = (turn, lean) if (sample == 0 or sample == 3) else (lean, -turn)  # noqa: PLR1714
-                    light, _height, _part = _look(scene, column + 0.5 + off_x, row + 0.5 + off_y)
-                    seen = (
-                        film(s.exposure * light[0]),
-                        film(s.exposure * light[1]),
-                        film(s.exposure * light[2]),
-                    )
-                    shown = plus(shown, seen, 0.25)
-                for channel in range(3):
-                    canvas.shown[row, column, channel] = shown[channel]
+            if not canvas.mask[row, column] or (rays > 1 and not _is_edge(canvas, rough, row, column)):
+                continue
+            shown = (0.0, 0.0, 0.0)
+            for ray in range(rays):
+                across, down = _place_in_pixel(ray, rays)
+                light, height, part = _look(scene, column + across, row + down)
+                light = scaled(light, s.exposure)
+                shown = plus(shown, (film(light[0]), film(light[1]), film(light[2])), 1.0 / rays)
+                if rays == 1:
+                    canvas.height[row, column] = height
+                    canvas.part[row, column] = part
+                    for channel in range(3):
+                        canvas.light[row, column, channel] = light[channel]
+            for channel in range(3):
+                canvas.shown[row, column, channel] = shown[channel]
+
+
+@inlined
+def _place_in_pixel(ray: int, rays: int) -> tuple[float, float]:
+    """Where a ray goes through its pixel: one in the middle, four with no two in a row or a column."""
+    if rays == 1:
+        return 0.5, 0.5
+    if ray == 0:
+        return 0.875, 0.625
+    if ray == 1:
+        return 0.625, 0.125
+    if ray == 2:
+        return 0.375, 0.875
+    return 0.125, 0.375
 
 
 @kernel

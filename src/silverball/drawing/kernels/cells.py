@@ -29,7 +29,7 @@ def list_cells(
 
 
 @kernel
-def fill_cells(stage: Any, looks: Any, shapes: Any, distance: float, lists: Any) -> int:
+def fill_cells(stage: Any, looks: Any, shapes: Any, distance: float, lists: Any) -> Any:
     """Write the lists as far as there is room; returns how many numbers they take."""
     s = stage[0]
     cells = s.rows * s.columns
@@ -50,7 +50,7 @@ def fill_cells(stage: Any, looks: Any, shapes: Any, distance: float, lists: Any)
 
 
 @inlined
-def cell_at(s: Any, x: float, z: float) -> int:
+def cell_at(s: Any, x: float, z: float) -> Any:
     """The number of the cell that holds (x, z); of the nearest one beyond the board."""
     row = int((x - s.low_x) * s.cell_scale)
     column = int((z - s.low_z) * s.cell_scale)

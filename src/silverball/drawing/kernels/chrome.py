@@ -20,6 +20,7 @@ from silverball.physics.kernel import inlined, internal, kernel
 
 SHADOW = 0.72  # how much of the light a ball takes away at most
 CONTACT = 0.85  # the same where it lies on the playfield
+CONTACT_REACH = 2.2  # radii of the ball, to which that is seen
 
 
 @kernel
@@ -48,8 +49,9 @@ def cast_shadow(
                 q = sqrt(max(square - along * along, 0.0)) - r
                 soft = 0.10 * r + 0.20 * along
                 stay -= SHADOW * (1.0 - smooth(-soft, soft, q))
-            if oy > 0.0:
-                stay *= 1.0 - CONTACT * min(oy * r * r / (square * sqrt(square)), 1.0)
+            fade = 1.0 - (ox * ox + oz * oz) / (CONTACT_REACH * r) ** 2
+            if oy > 0.0 and fade > 0.0:
+                stay *= 1.0 - CONTACT * fade * min(oy * r * r / (square * sqrt(square)), 1.0)
             if stay < 0.999:
                 for channel in range(3):
                     frame[row, column, channel] = int(frame[row, column, channel] * stay)

@@ -61,7 +61,7 @@ def part_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
 @inlined
 def _crown_distance(look: Any, c: Any, a: float, y: float) -> float:
     """A cylinder's cap, a slice of a sphere, and the steel ring that it lies in."""
-    unit = look.height / 0.42
+    unit = look.height / 0.38
     rho = a + c.radius
     ring_across = rho - (c.radius - RING * unit)
     ring_up = y - look.height
@@ -71,17 +71,19 @@ def _crown_distance(look: Any, c: Any, a: float, y: float) -> float:
     sphere = (wide * wide + rise * rise) / (2.0 * rise)
     up = y - (look.height + rise - sphere)
     cap = max(sqrt(rho * rho + up * up) - sphere, look.height - y)
-    return min(ring, cap)
+    crown: float = min(ring, cap)
+    return crown
 
 
 @inlined
 def _bolt_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
     """A flat dome over the pivot of a paddle."""
-    size = min(0.36 * (c.x2 - c.x0), 0.3 * look.height / 0.46)
+    size = min(0.36 * (c.x2 - c.x0), 0.3 * look.height / 0.33)
     rx = x - c.x - 0.42 * size * look.sine
     rz = z - c.z - 0.42 * size * look.cosine * look.side
     up = 2.0 * (y - look.height)
-    return 0.5 * (sqrt(rx * rx + rz * rz + up * up) - size)
+    bolt: float = 0.5 * (sqrt(rx * rx + rz * rz + up * up) - size)
+    return bolt
 
 
 @inlined
@@ -94,7 +96,8 @@ def rail_footprint(s: Any, x: float, z: float) -> float:
     else:
         inner = max(inner_x, inner_z)
     outer = max(abs(x) - (s.half_length + s.rail), abs(z) - (s.half_width + s.rail))
-    return max(-inner, outer)
+    frame: float = max(-inner, outer)
+    return frame
 
 
 @inlined
@@ -108,4 +111,5 @@ def apron_distance(s: Any, x: float, y: float, z: float) -> float:
     """Distance from the plate below the gutter, between the rails; its edge is bevelled."""
     a = max(x - s.apron_top, -s.half_length - x, abs(z) - s.half_width)
     b = y - s.apron_height
-    return max(a, b, 0.7071 * (a + b + 0.16 * s.unit))
+    plate: float = max(a, b, 0.7071 * (a + b + 0.16 * s.unit))
+    return plate

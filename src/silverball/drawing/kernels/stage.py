@@ -19,7 +19,10 @@ CELL = 0.5  # [u] side of a cell at least
 MOST_CELLS = 128  # along the longer side
 NEAR = 1.0  # [u] a cell lists all parts within this distance of any of its points, for marching
 HALO = 2.4  # [u] no part lights up anything farther away than this, for shading
-LIGHT = (0.60, 0.80)  # towards the lamp: x and y of a unit vector; z is 0, so that both sides are lit alike
+LIGHT = (
+    0.75,
+    0.66143782776614768,
+)  # towards the lamp: x and y of a unit vector; z is 0, so that both sides are lit alike
 
 
 class Form(IntEnum):

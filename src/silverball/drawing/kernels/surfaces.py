@@ -209,7 +209,7 @@ def _prism(
     look: Any, y: float, nx: float, ny: float, nz: float, inside: float, tone: RGB, pixel: float
 ) -> Surface:
     """Lit acrylic: light gathers at the edges, and a second, fainter line runs inside the top."""
-    unit = look.height / 0.55
+    unit = look.height / 0.34
     if ny > 0.85:
         edge = exp(-max(inside - look.bevel, 0.0) / (0.07 * unit))
         line = cover(abs(inside - 0.24 * unit) - 0.018 * unit, pixel)
@@ -233,7 +233,7 @@ def _paddle(
     if y > look.height + 0.004:
         return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.8, 1.0)
     edge = ink(scene.inks, Ink.PADDLE_EDGE)
-    rim = cover(inside - 0.055 * look.height / 0.46, pixel)
+    rim = cover(inside - 0.055 * look.height / 0.33, pixel)
     light = scaled(mixed(tone, edge, rim), 0.16)
     if ny < 0.5:
         return Surface(nx, ny, nz, scaled(mixed(tone, edge, 0.45), 0.85), scaled(tone, 0.10), 0.06, 0.0)

@@ -1,0 +1,156 @@
+"""In the background: a picture at once, the best one soon, and nothing left behind."""
+
+from __future__ import annotations
+
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from silverball.drawing import Moment, Renderer, compiling
+from silverball.drawing import background as background_module
+from silverball.drawing.store import Store
+from silverball.table import load_table
+
+TABLE = load_table("classic")
+SIZE = (90, 144)
+START = Moment.before(TABLE)
+PATIENCE = 120.0  # [s], which only a fault takes
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _compiled():
+    compiling.compile_all()
+
+
+def made_sharp(renderer):
+    limit = time.monotonic() + PATIENCE
+    while not renderer.is_sharp and time.monotonic() < limit:
+        time.sleep(0.01)
+    return renderer.is_sharp
+
+
+def test_there_is_a_picture_at_once_and_it_becomes_the_best_one(tmp_path):
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    rough = renderer.array(START).copy()
+    assert made_sharp(renderer)
+    renderer._background.wait(PATIENCE)
+    best = Renderer(TABLE, SIZE, store=Store(tmp_path / "other")).array(START)
+    assert (renderer.array(START) == best).all()
+    assert (rough != best).any()
+    assert np.corrcoef(rough[40:].ravel(), best[40:].ravel())[0, 1] > 0.5  # of the same thing
+    renderer.close()
+
+
+def test_a_board_that_was_seen_before_is_shown_from_the_store_at_once(tmp_path):
+    Renderer(TABLE, SIZE, store=Store(tmp_path)).close()
+    best = Renderer(TABLE.model_copy(update={"paddle": ()}), SIZE, store=Store(tmp_path)).array(START)
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    first = renderer.array(START)
+    renderer.close()
+    assert (first[40:100] == best[40:100]).all()  # above the paddles, whose sprites come later
+
+
+def test_paddles_turn_while_their_pictures_are_still_baked(tmp_path, monkeypatch):
+    gate = threading.Event()
+    bake = background_module_studio().bake_paddles
+    monkeypatch.setattr(background_module_studio(), "bake_paddles", lambda self: (gate.wait(), bake(self)))
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    assert made_sharp(renderer)
+    down, up = (renderer.array(START._replace(angles=(angle, angle))) for angle in (-10.0, 45.0))
+    assert (down != up).any()
+    gate.set()
+    renderer.close()
+
+
+def background_module_studio():
+    from silverball.drawing.studio import Studio
+
+    return Studio
+
+
+def test_closing_ends_the_work_soon(tmp_path):
+    renderer = Renderer(TABLE, (720, 1152), background=True, store=Store(tmp_path))
+    time.sleep(0.3)
+    renderer.close()
+    renderer._background.wait(PATIENCE)
+    assert renderer._background.is_done
+
+
+def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeypatch):
+    started = []
+
+    class Process:
+        returncode = 0
+
+        def __init__(self, command, **_):
+            started.append(command)
+
+        def poll(self):
+            return 0
+
+        def kill(self):
+            raise OSError("it is gone")
+
+    answers = iter([False, True])
+    monkeypatch.setattr(compiling, "is_compiled", lambda: next(answers))
+    monkeypatch.setattr(background_module.subprocess, "Popen", Process)
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    assert made_sharp(renderer)
+    assert started[0][1:] == ["-m", "silverball.drawing.compiling"]
+    renderer.close()
+
+
+@pytest.mark.parametrize("fault", ["no process", "a failure", "too slow and closed"])
+def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, fault):
+    killed = []
+
+    class Process:
+        returncode = 1
+
+        def __init__(self, *_, **__):
+            if fault == "no process":
+                raise OSError
+
+        def poll(self):
+            return None if fault.startswith("too slow") and not killed else 1
+
+        def kill(self):
+            killed.append(1)
+
+        def wait(self):
+            return 1
+
+    monkeypatch.setattr(compiling, "is_compiled", lambda: False)
+    monkeypatch.setattr(background_module.subprocess, "Popen", Process)
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    if fault.startswith("too slow"):
+        time.sleep(0.2)
+        assert not renderer._background.is_done
+        renderer.close()
+        assert killed
+    renderer._background.wait(PATIENCE)
+    assert renderer._background.is_done
+    assert not renderer.is_sharp
+    assert renderer.array(START).std() > 10
+
+
+def test_a_compiler_that_runs_is_killed_when_the_renderer_is_closed(tmp_path, monkeypatch):
+    processes = []
+    popen = subprocess.Popen
+
+    def start(command, **options):
+        processes.append(popen([command[0], "-c", "import time; time.sleep(600)"], **options))
+        return processes[-1]
+
+    monkeypatch.setattr(compiling, "is_compiled", lambda: False)
+    monkeypatch.setattr(background_module.subprocess, "Popen", start)
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    limit = time.monotonic() + PATIENCE
+    while not processes and time.monotonic() < limit:
+        time.sleep(0.01)
+    time.sleep(0.1)
+    renderer.close()
+    assert processes[0].wait(PATIENCE) != 0
