@@ -9,8 +9,11 @@ import pygame
 import pytest
 
 from silverball.app.window import Window
+from silverball.game.news import Mode
+from silverball.table import Table
 
 FRAME = 1 / 60  # [s]
+SLOW_FRAME = 1 / 30  # [s] where many are needed
 
 
 class Player:
@@ -20,8 +23,20 @@ class Player:
         self.window = window
 
     @property
+    def program(self):
+        return self.window.program
+
+    @property
+    def menus(self):
+        return self.window.program.menus
+
+    @property
+    def game(self):
+        return self.window.program.stage.game
+
+    @property
     def world(self):
-        return self.window.session.world
+        return self.game.world
 
     def press(self, key: int, mod: int = 0) -> None:
         pygame.event.post(pygame.Event(pygame.KEYDOWN, key=key, mod=mod, unicode="", scancode=0))
@@ -35,12 +50,30 @@ class Player:
         self.release(key)
         self.frames(1)
 
+    def pad(self, button: int, down: bool = True) -> None:
+        """A gamepad button goes down or comes up."""
+        kind = pygame.CONTROLLERBUTTONDOWN if down else pygame.CONTROLLERBUTTONUP
+        pygame.event.post(pygame.Event(kind, instance_id=0, button=button))
+
+    def tap_pad(self, button: int) -> None:
+        self.pad(button)
+        self.pad(button, down=False)
+        self.frames(1)
+
     def frames(self, count: int, elapsed: float = FRAME) -> None:
         for _ in range(count):
             self.window.frame(elapsed)
 
     def seconds(self, seconds: float) -> None:
-        self.frames(round(seconds / FRAME))
+        self.frames(round(seconds / SLOW_FRAME), SLOW_FRAME)
+
+    def until(self, is_reached, seconds: float = 60.0) -> None:
+        """Frames until something is reached, within so many seconds of play."""
+        for _ in range(round(seconds / SLOW_FRAME)):
+            if is_reached():
+                return
+            self.frames(1, SLOW_FRAME)
+        raise AssertionError(f"not reached within {seconds} s of play")
 
     @property
     def says(self) -> str:
@@ -50,22 +83,32 @@ class Player:
 @pytest.fixture(autouse=True)
 def without_screen(monkeypatch) -> None:
     monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
+
+
+@pytest.fixture(autouse=True)
+def sketches(request, monkeypatch) -> None:
+    """Only tests marked `sharp` wait for pictures in full quality; the others are content with the sketch."""
+    if "sharp" not in request.keywords:
+        monkeypatch.setattr("silverball.drawing.background.Background._work", lambda self: None)
 
 
 @pytest.fixture
 def open_window(tmp_path) -> Iterator:
     opened = []
 
-    def opener(table="classic", seed=7, **options) -> Player:
-        options.setdefault("data_folder", tmp_path / "data")
+    def opener(table: Table | str | None = "classic", seed: int | None = 7, **options) -> Player:
+        options.setdefault("folder", tmp_path / "data")
+        options.setdefault("mode", Mode.FREE)
         window = Window(table, seed, height=400, without_display=True, **options)
         opened.append(window)
-        limit = time.monotonic() + 60.0
+        limit = time.monotonic() + 300.0
         while not window.is_ready:
-            assert time.monotonic() < limit, "the physics was not ready within a minute"
+            assert time.monotonic() < limit, "the physics was not ready within five minutes"
             window.frame(0.0)
-            time.sleep(0.002)
+            time.sleep(0.05)  # the compiler needs the processor more
         pygame.event.clear()
+        window.frame(0.0)
         return Player(window)
 
     yield opener

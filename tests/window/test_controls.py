@@ -1,39 +1,110 @@
-"""The table of keys, the held buttons and the clock, without a window."""
+"""What keys and gamepad buttons ask for, without a window."""
 
 from __future__ import annotations
 
 import pygame
+import pytest
 
 from silverball.app.clock import TickClock
-from silverball.app.controls import BINDINGS, Action, Buttons, action_of
+from silverball.app.controls import Action, Buttons, Controls, key_name
+from silverball.app.gamepad import BUTTON_NAMES, TRIGGER_DOWN, TRIGGER_UP, Gamepads
+from silverball.app.menus import ACTIONS
+from silverball.app.settings import Settings
 
 
-def test_every_action_has_a_line_in_the_help():
-    assert {binding.action for binding in BINDINGS} == set(Action)
-    assert all(binding.shown and binding.does for binding in BINDINGS)
+@pytest.fixture(autouse=True)
+def video(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    pygame.display.init()  # names of keys need it
+    yield
+    pygame.display.quit()
 
 
-def test_every_key_in_the_help_does_what_its_line_says():
-    for binding in BINDINGS:
-        modifiers = pygame.KMOD_LSHIFT if binding.with_shift else 0
-        assert {action_of(key, modifiers) for key in binding.keys} == {binding.action}
+def test_every_action_of_the_menus_is_one_that_the_window_knows():
+    assert {line.action for line in ACTIONS} == {str(action) for action in Action}
 
 
-def test_a_tap_counts_in_the_first_tick_only_and_only_once():
+def test_every_default_key_and_button_is_one_that_pygame_names():
+    for line in ACTIONS:
+        for name in line.keys:
+            assert pygame.key.name(pygame.key.key_code(name)) == name
+        for name in line.pad:
+            assert name in {*BUTTON_NAMES.values(), "lefttrigger", "righttrigger"}
+
+
+def test_no_key_and_no_button_asks_for_two_things():
+    for kind in ("keys", "pad"):
+        names = [name for line in ACTIONS for name in getattr(line, kind)]
+        assert len(set(names)) == len(names)
+
+
+def test_a_key_that_was_given_to_another_action_leaves_the_old_one():
+    controls = Controls(Settings(keys={"jitter": ("a",)}))
+    assert controls.of_key("a") is Action.JITTER
+    assert controls.of_key("z") is None
+    assert controls.of_key("left") is Action.LEFT
+
+
+def test_escape_always_goes_back():
+    assert Controls(Settings(keys={"left": ("escape",)})).of_key("escape") is Action.BACK
+
+
+def test_a_shortcut_of_the_desktop_moves_no_more_than_paddles():
+    controls = Controls(Settings())
+    assert controls.of_key("r", pygame.KMOD_LCTRL) is None
+    assert controls.of_key("a", pygame.KMOD_LCTRL) is Action.LEFT
+
+
+def test_without_latin_letters_keys_go_by_their_place_and_else_by_their_label():
+    assert key_name(ord("ф"), pygame.KSCAN_A) == "a"
+    assert key_name(ord("q"), pygame.KSCAN_A) == "q"
+
+
+def test_a_paddle_is_held_while_one_of_two_sources_holds_it():
     buttons = Buttons()
-    buttons.press(pygame.K_d)
-    buttons.release(pygame.K_d)
-    assert buttons.take() == ((False, True), (False, False))
-    assert buttons.take() == ((False, False), (False, False))
+    buttons.press("key a", Action.LEFT)
+    buttons.press("pad 0 leftshoulder", Action.LEFT)
+    buttons.release("key a")
+    assert buttons.held == (True, False)
+    buttons.release("pad 0 leftshoulder")
+    assert buttons.held == (False, False)
 
 
-def test_the_clock_keeps_what_is_left_of_a_tick():
+def test_a_tap_counts_in_the_first_tick_only():
+    buttons = Buttons()
+    buttons.press("key d", Action.RIGHT)
+    buttons.release("key d")
+    held = buttons.take()
+    assert held == ((False, True), (False, False))
+    assert buttons.take().first == (False, False)
+
+
+def axis(value: int) -> pygame.Event:
+    return pygame.Event(
+        pygame.CONTROLLERAXISMOTION, instance_id=3, axis=pygame.CONTROLLER_AXIS_TRIGGERLEFT, value=value
+    )
+
+
+def test_a_trigger_is_a_button_that_does_not_chatter():
+    pads = Gamepads()
+    seen = []
+    for value in (0, TRIGGER_DOWN, TRIGGER_DOWN - 1, TRIGGER_UP + 1, 32767, TRIGGER_UP, 0):
+        seen += [(button.name, button.down) for button in pads.read(axis(value))]
+    assert seen == [("lefttrigger", True), ("lefttrigger", False)]
+
+
+def test_a_gamepad_that_is_pulled_out_lets_its_trigger_go():
+    pads = Gamepads()
+    list(pads.read(axis(32767)))
+    gone = pads.read(pygame.Event(pygame.CONTROLLERDEVICEREMOVED, instance_id=3))
+    assert [(button.name, button.down) for button in gone] == [("lefttrigger", False)]
+
+
+@pytest.mark.parametrize("speed", [0.25, 1.0, 16.0])
+def test_the_clock_gives_ticks_by_its_speed_and_never_too_many_at_once(speed):
     clock = TickClock(240)
-    assert sum(clock.advance(0.001) for _ in range(1000)) in (239, 240)
-
-
-def test_the_clock_does_not_catch_up_with_a_stall():
-    clock = TickClock(240)
-    assert clock.advance(5.0) == clock.most_ticks == 12
-    assert clock.advance(0.0) == 0
-    assert clock.advance(-1.0) == 0
+    clock.speed = speed
+    ticks = [clock.advance(1 / 60) for _ in range(600)]
+    assert sum(ticks) == pytest.approx(2400 * speed, abs=1)
+    assert clock.advance(10.0) <= max(12, 12 * speed)
+    assert 0.0 <= clock.share < 1.0

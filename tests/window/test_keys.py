@@ -1,4 +1,4 @@
-"""What the keys do in a window, pressed through SDL's own queue."""
+"""What the keys do in a game, pressed through SDL's own queue."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import math
 
 import pygame
 import pytest
+
+from silverball.game.news import Mode
 
 TICK = 1 / 240  # [s]
 
@@ -26,52 +28,75 @@ def angles(player):
     ],
 )
 def test_a_paddle_key_lifts_its_paddle_within_the_stroke_and_release_brings_it_back(player, key, side):
-    stroke = player.window.table.paddle[side].stroke
-    assert angles(player) == pytest.approx([-10.0, -10.0])
+    paddle = player.program.table.paddle[side]
+    rest, up = paddle.rest_angle, paddle.up_angle
+    assert angles(player) == pytest.approx([rest, rest])
     player.press(key)
-    player.frames(round(stroke / TICK), TICK)
-    assert angles(player)[side] == pytest.approx(45.0)
-    assert angles(player)[1 - side] == pytest.approx(-10.0)
+    player.frames(math.ceil(paddle.stroke / TICK), TICK)
+    assert angles(player)[side] == pytest.approx(up)
+    assert angles(player)[1 - side] == pytest.approx(rest)
     player.release(key)
-    player.frames(round(player.window.table.paddle[side].return_stroke / TICK), TICK)
-    assert angles(player)[side] == pytest.approx(-10.0)
+    player.frames(math.ceil(paddle.return_stroke / TICK), TICK)
+    assert angles(player)[side] == pytest.approx(rest)
 
 
 def test_a_paddle_stays_up_while_one_of_its_two_pressed_keys_is_held(player):
+    up = player.program.table.paddle[0].up_angle
     player.press(pygame.K_a)
     player.press(pygame.K_LEFT)
     player.seconds(0.2)
     player.release(pygame.K_a)
     player.seconds(0.2)
-    assert angles(player)[0] == pytest.approx(45.0)
+    assert angles(player)[0] == pytest.approx(up)
 
 
 def test_a_tap_between_two_frames_lifts_the_paddle_for_one_tick(player):
-    paddle = player.window.table.paddle[0]
+    paddle = player.program.table.paddle[0]
     per_tick = (paddle.up_angle - paddle.rest_angle) / paddle.stroke * TICK
     player.press(pygame.K_a)
     player.release(pygame.K_a)
     player.frames(1, TICK)
-    assert angles(player)[0] == pytest.approx(-10.0 + per_tick)
+    assert angles(player)[0] == pytest.approx(paddle.rest_angle + per_tick)
 
 
-def test_a_tap_is_not_lost_in_a_frame_too_short_for_a_tick(player):
+def test_a_tap_is_not_lost_in_a_beat_too_short_for_a_tick(player):
+    rest = player.program.table.paddle[0].rest_angle
     player.press(pygame.K_a)
     player.release(pygame.K_a)
-    player.frames(1, 0.1 * TICK)
-    assert angles(player)[0] == pytest.approx(-10.0)
+    player.window.beat(0.1 * TICK)
+    assert angles(player)[0] == pytest.approx(rest)
+    player.window.beat(TICK)
+    assert angles(player)[0] > rest
+
+
+def test_a_button_reaches_the_simulation_at_the_next_tick_not_at_the_next_picture(player):
+    player.frames(10)
+    tick = player.world.tick
+    player.press(pygame.K_a)
+    player.window.beat(TICK)
+    assert player.world.tick == tick + 1
+    assert player.world.paddles[0].angular_velocity > 0.0
+    assert len(player.window.latency.to_tick) == 1
+    assert not player.window.latency.to_picture
     player.frames(1, TICK)
-    assert angles(player)[0] > -10.0
+    assert len(player.window.latency.to_picture) == 1
 
 
-def test_losing_focus_releases_the_keys(player):
+def test_losing_focus_pauses_the_game_and_releases_the_keys(player):
+    player.tap(pygame.K_SPACE)
     player.press(pygame.K_a)
     player.press(pygame.K_d)
-    player.seconds(0.2)
-    assert angles(player) == pytest.approx([45.0, 45.0])
+    player.seconds(0.1)
     pygame.event.post(pygame.Event(pygame.WINDOWFOCUSLOST))
-    player.seconds(0.2)
-    assert angles(player) == pytest.approx([-10.0, -10.0])
+    player.frames(1)
+    assert player.program.is_paused
+    tick = player.world.tick
+    player.seconds(0.5)
+    assert player.world.tick == tick
+    player.tap(pygame.K_SPACE)  # "go on"
+    assert not player.program.is_paused
+    player.seconds(0.3)
+    assert angles(player) == pytest.approx([paddle.rest_angle for paddle in player.program.table.paddle])
 
 
 def test_space_brings_two_balls_at_most_and_says_why_no_third(player):
@@ -87,22 +112,20 @@ def test_space_brings_two_balls_at_most_and_says_why_no_third(player):
 def test_z_changes_the_velocity_of_the_ball_and_without_a_ball_says_why_not(player):
     player.tap(pygame.K_z)
     assert "no ball" in player.says
-    ball = player.world.create_ball(position=(0.0, 0.0))
+    player.tap(pygame.K_SPACE)
+    before = player.world.balls[0].velocity[2]
     player.tap(pygame.K_z)
-    moved = player.world.balls[0]
-    assert moved.id == ball.id
-    # Falling straight down alone would leave the sideways speed at zero.
-    assert moved.velocity[2] != 0.0
+    # Falling straight down alone would leave the sideways speed as it was.
+    assert player.world.balls[0].velocity[2] != before
 
 
 def test_p_stops_the_time_and_starts_it_again(player):
     player.tap(pygame.K_SPACE)
     player.tap(pygame.K_p)
+    assert player.menus.page == "pause"
     digest = player.world.digest()
     player.seconds(0.5)
     assert player.world.digest() == digest
-    player.tap(pygame.K_SPACE)
-    assert "paused" in player.says
     player.tap(pygame.K_p)
     player.seconds(0.1)
     assert player.world.digest() != digest
@@ -113,22 +136,35 @@ def test_the_help_stops_the_time_while_it_is_shown(player):
     tick = player.world.tick
     player.seconds(0.2)
     assert player.world.tick == tick
+    player.tap(pygame.K_SPACE)
+    assert "F1 goes on" in player.says
     player.tap(pygame.K_F1)
     player.seconds(0.2)
     assert player.world.tick > tick
+    assert not player.world.balls
 
 
 def test_r_makes_a_new_board_and_shift_r_the_same_again(open_window):
     player = open_window("random", seed=11)
-    first = player.window.table
+    first = player.program.table
     player.tap(pygame.K_SPACE)
     player.tap(pygame.K_r, pygame.KMOD_LSHIFT)
-    assert (player.window.seed, player.window.table, player.world.tick > 4) == (11, first, False)
+    assert (player.program.seed, player.program.table, player.world.tick > 4) == (11, first, False)
     player.tap(pygame.K_r)
-    assert player.window.seed != 11
-    assert player.window.table != first
-    assert player.world.seed == player.window.seed
+    assert player.program.seed != 11
+    assert player.program.table != first
+    assert player.world.seed == player.program.seed
     assert not player.world.balls
+
+
+def test_shift_r_lifts_no_paddle(open_window):
+    player = open_window("random", seed=11)
+    player.press(pygame.K_LSHIFT)
+    player.frames(3)
+    player.press(pygame.K_r, pygame.KMOD_LSHIFT)
+    player.frames(1)
+    player.seconds(0.3)
+    assert angles(player) == pytest.approx([paddle.rest_angle for paddle in player.program.table.paddle])
 
 
 def test_the_same_seed_and_keys_give_the_same_game(open_window):
@@ -138,16 +174,31 @@ def test_the_same_seed_and_keys_give_the_same_game(open_window):
         player.tap(pygame.K_SPACE)
         player.press(pygame.K_d)
         player.seconds(1.0)
-        digests.append((player.world.digest(), player.window.table))
+        digests.append((player.world.digest(), player.program.table))
+        player.release(pygame.K_d)
+        player.frames(1)
     assert digests[0] == digests[1]
 
 
-@pytest.mark.parametrize(
-    ("key", "words"), [(pygame.K_m, "No sounds yet"), (pygame.K_g, "F1 shows the keys"), (pygame.K_7, "7")]
-)
-def test_a_key_that_does_nothing_useful_says_so(player, key, words):
+@pytest.mark.parametrize(("key", "words"), [(pygame.K_g, "F1 shows the keys"), (pygame.K_7, "7")])
+def test_a_key_that_does_nothing_says_so(player, key, words):
     player.tap(key)
     assert words in player.says
+
+
+def test_a_key_without_a_latin_letter_and_without_a_use_says_so(player):
+    key = pygame.Event(pygame.KEYDOWN, key=ord("п"), mod=0, unicode="п", scancode=pygame.KSCAN_G)
+    pygame.event.post(key)
+    player.frames(1)
+    assert player.says.startswith("This key does nothing here")
+
+
+def test_m_turns_the_sounds_off_and_on_and_it_is_kept(player):
+    player.tap(pygame.K_m)
+    assert player.says == "Sounds are off."
+    assert player.window.store.settings()["muted"] is True
+    player.tap(pygame.K_m)
+    assert player.window.store.settings()["muted"] is False
 
 
 def test_a_message_goes_away(player):
@@ -159,94 +210,39 @@ def test_a_message_goes_away(player):
 def test_shortcuts_of_the_desktop_are_left_alone(player):
     player.tap(pygame.K_r, pygame.KMOD_LCTRL)
     player.tap(pygame.K_g, pygame.KMOD_LALT)
-    assert (player.window.seed, player.says) == (7, "")
+    assert (player.program.seed, player.says) == (7, "")
 
 
 @pytest.mark.parametrize("event", [pygame.QUIT, pygame.WINDOWCLOSE])
-def test_closing_the_window_ends_the_game(player, event):
+def test_closing_the_window_ends_the_program(player, event):
     pygame.event.post(pygame.Event(event))
     player.frames(1)
     assert player.window.is_over
 
 
-def test_escape_goes_back_one_step_before_it_ends_the_game(player):
-    window = player.window
-    for key in (pygame.K_F11, pygame.K_p, pygame.K_F1):
-        player.tap(key)
-    seen = []
-    for _ in range(4):
-        seen.append((window.shows_help, window.is_paused, window._screen.is_full, window.is_over))
-        player.tap(pygame.K_ESCAPE)
-    assert seen == [
-        (True, True, True, False),
-        (False, True, True, False),
-        (False, False, True, False),
-        (False, False, False, False),
-    ]
-    assert window.is_over
-
-
-def test_p_while_the_help_is_shown_pauses_nothing_unseen(player):
+def test_escape_goes_back_step_by_step_and_never_ends_a_game_at_once(player):
     player.tap(pygame.K_F1)
-    player.tap(pygame.K_p)
-    assert not player.window.is_paused
-    assert "F1 goes on" in player.says
-    player.tap(pygame.K_F1)
-    assert not player.says
+    player.tap(pygame.K_ESCAPE)
+    assert not player.window.shows_help
+    player.tap(pygame.K_ESCAPE)
+    assert player.menus.page == "pause"
+    player.tap(pygame.K_ESCAPE)
+    assert not player.menus.is_open
+    assert not player.window.is_over
 
 
 @pytest.mark.parametrize("key", [pygame.K_p, pygame.K_F1])
 def test_taps_on_a_paddle_while_the_game_waits_are_forgotten_but_a_held_key_counts(player, key):
+    rest = player.program.table.paddle[0].rest_angle
     player.tap(key)
     player.tap(pygame.K_a)
+    player.tap(pygame.K_LEFT)
     player.press(pygame.K_d)
     player.frames(1)
     player.press(key)
-    player.frames(1, TICK)
-    assert angles(player)[0] == pytest.approx(-10.0)
-    assert angles(player)[1] > -10.0
-
-
-def type_at(player, place, label):
-    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=ord(label), mod=0, unicode=label, scancode=place))
-    player.seconds(0.1)
-
-
-def test_without_latin_letters_keys_go_by_their_place(player):
-    type_at(player, pygame.KSCAN_A, "ф")
-    type_at(player, pygame.KSCAN_D, "в")
-    assert angles(player) == pytest.approx([45.0, 45.0])
-    up = pygame.Event(pygame.KEYUP, key=ord("ф"), mod=0, unicode="", scancode=pygame.KSCAN_A)
-    pygame.event.post(up)
-    player.seconds(0.3)
-    assert angles(player) == pytest.approx([-10.0, 45.0])
-    type_at(player, pygame.KSCAN_Z, "я")
-    assert "no ball to shove" in player.says
-    type_at(player, pygame.KSCAN_P, "з")
-    assert player.window.is_paused
-
-
-def test_a_key_without_a_latin_letter_and_without_a_use_says_so(player):
-    type_at(player, pygame.KSCAN_G, "п")
-    assert player.says.startswith("This key does nothing here")
-
-
-def test_a_latin_label_goes_before_the_place(player):
-    type_at(player, pygame.KSCAN_A, "q")  # as on a French keyboard
-    assert angles(player) == pytest.approx([-10.0, -10.0])
-    assert player.says.startswith("Q does nothing")
-    type_at(player, pygame.KSCAN_Z, "ż")
-    assert player.says.startswith("Ż does nothing")
-
-
-def test_shift_r_lifts_no_paddle(open_window):
-    player = open_window("random", seed=11)
-    player.press(pygame.K_LSHIFT)
-    player.frames(3)
-    player.press(pygame.K_r, pygame.KMOD_LSHIFT)
-    player.frames(1)
-    player.seconds(0.3)
-    assert angles(player) == pytest.approx([-10.0, -10.0])
+    player.frames(2, TICK)
+    assert angles(player)[0] == pytest.approx(rest)
+    assert angles(player)[1] > rest
 
 
 def test_a_table_without_a_paddle_says_so(open_window):
@@ -270,23 +266,26 @@ def test_the_same_message_again_and_again_does_not_stay_for_ever(player):
     assert gone
 
 
-def test_a_message_while_a_ball_is_in_play_is_gone_after_two_and_a_half_seconds(player):
-    player.world.create_ball(position=(8.0, 0.0))
-    player.window.messages.say("a long message " * 10)
-    player.frames(151)
-    assert player.world.balls
-    assert player.says == ""
+@pytest.mark.parametrize("mode", list(Mode))
+def test_slow_motion_slows_the_world_and_an_arcade_game_says_that_it_no_longer_counts(open_window, mode):
+    player = open_window(mode=mode)
+    player.tap(pygame.K_COMMA)
+    assert ("no longer counts" in player.says) == (mode is Mode.ARCADE)
+    player.tap(pygame.K_COMMA)
+    tick = player.world.tick
+    player.seconds(1.0)
+    assert player.world.tick - tick == pytest.approx(60, abs=2)
+    for _ in range(5):
+        player.tap(pygame.K_PERIOD)
+    assert player.program.speed == 1.0
 
 
-def test_a_ball_that_lies_still_for_three_seconds_brings_the_hint_to_press_z(open_window):
-    # Two slant walls that meet in a valley, where a ball comes to rest.
-    from boards import table_of
-    from silverball.table import SlantWall
-
-    valley = [SlantWall(start=(-5.0, z), end=(-6.0, 0.0), restitution=0.2) for z in (-5.0, 5.0)]
-    player = open_window(table_of(*valley))
-    player.world.create_ball(position=(-5.5, 0.0))
-    player.seconds(2.9)
-    assert player.says == ""
-    player.seconds(3.0)
-    assert "Z gives it a shove" in player.says
+def test_n_moves_a_paused_game_on_by_one_tick(player):
+    player.tap(pygame.K_SPACE)
+    player.tap(pygame.K_n)
+    assert "paused" in player.says
+    player.tap(pygame.K_p)
+    tick = player.world.tick
+    for count in (1, 2, 3):
+        player.tap(pygame.K_n)
+        assert player.world.tick == tick + count

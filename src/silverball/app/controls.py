@@ -1,76 +1,92 @@
-"""Which key does what, and which paddles are held? One table of keys drives the game and its help.
+"""Which key or gamepad button asks for what, and which paddles are held?
 
-Keys go by what is printed on them, not by their place on the keyboard; only where that is no Latin character,
-as on a Greek or Cyrillic keyboard, their place counts.
+The table of all actions, with the keys they have at first, is `menus/actions.py`; the settings hold what a
+player has changed. Keys go by what is printed on them, not by their place on the keyboard; only where that is
+no Latin character, as on a Greek or Cyrillic keyboard, their place counts. Keys have the names that
+`pygame.key.name` gives them.
 """
 
 from __future__ import annotations
 
 import sys
 import unicodedata
-from enum import Enum, auto
+from enum import StrEnum
 from typing import NamedTuple
 
 import pygame
 
-
-class Action(Enum):
-    """What a key can ask for."""
-
-    LEFT = auto()
-    RIGHT = auto()
-    JITTER = auto()
-    CREATE = auto()
-    PAUSE = auto()
-    NEW_BOARD = auto()
-    SAME_BOARD = auto()
-    MUTE = auto()
-    HELP = auto()
-    FRAME_RATE = auto()
-    FULL_SCREEN = auto()
-    QUIT = auto()
+from silverball.app.menus import ACTIONS, ActionLine, Button, action_by_key, action_by_pad, keys_of
+from silverball.app.settings import Settings
 
 
-class Binding(NamedTuple):
-    """One line of the help.
+class Action(StrEnum):
+    """What a key or a gamepad button can ask for."""
 
-    Attributes:
-        action: What is asked for.
-        keys: Any of these pygame keys asks for it.
-        shown: The labels on the key caps; "<" and ">" stand for arrows.
-        does: What it does, in a few words.
-        with_shift: Only together with shift.
-    """
+    LEFT = "left"
+    RIGHT = "right"
+    CREATE = "create"
+    JITTER = "jitter"
+    PAUSE = "pause"
+    NEW_BOARD = "new_board"
+    MUTE = "mute"
+    HELP = "help"
+    DEBUG = "debug"
+    FULL_SCREEN = "full_screen"
+    SLOWER = "slower"
+    FASTER = "faster"
+    SINGLE_TICK = "single_tick"
+    BACK = "back"
 
-    action: Action
-    keys: tuple[int, ...]
-    shown: tuple[str, ...]
-    does: str
-    with_shift: bool = False
 
-
-BINDINGS = (
-    Binding(
-        Action.LEFT, (pygame.K_a, pygame.K_LEFT, pygame.K_LSHIFT), ("A", "<", "left Shift"), "left paddle"
-    ),
-    Binding(
-        Action.RIGHT, (pygame.K_d, pygame.K_RIGHT, pygame.K_RSHIFT), ("D", ">", "right Shift"), "right paddle"
-    ),
-    Binding(Action.CREATE, (pygame.K_SPACE,), ("Space",), "new ball"),
-    Binding(Action.JITTER, (pygame.K_z,), ("Z",), "shove the balls"),
-    Binding(Action.PAUSE, (pygame.K_p,), ("P",), "pause"),
-    Binding(Action.SAME_BOARD, (pygame.K_r,), ("Shift", "R"), "same board again", with_shift=True),
-    Binding(Action.NEW_BOARD, (pygame.K_r,), ("R",), "new board"),
-    Binding(Action.MUTE, (pygame.K_m,), ("M",), "mute (sounds come later)"),
-    Binding(Action.HELP, (pygame.K_F1,), ("F1",), "these keys"),
-    Binding(Action.FRAME_RATE, (pygame.K_F3,), ("F3",), "frames per second"),
-    Binding(Action.FULL_SCREEN, (pygame.K_F11,), ("F11",), "full screen"),
-    Binding(Action.QUIT, (pygame.K_ESCAPE,), ("Esc",), "go back, or end"),
-)
-"""All keys, in the order of the help. Where a key stands twice, the first line that fits is meant."""
+PADDLES = (Action.LEFT, Action.RIGHT)
+MENU_BUTTONS = {
+    Action.LEFT: Button.LEFT,
+    Action.RIGHT: Button.RIGHT,
+    Action.CREATE: Button.START,
+    Action.BACK: Button.BACK,
+    Action.PAUSE: Button.BACK,
+}
+"""What the actions mean while a menu is open."""
+MENU_KEYS = {"up": Button.LEFT, "down": Button.RIGHT, "return": Button.START, "enter": Button.START}
+"""What else works a menu, for hands that are used to it, where the key has nothing else to do."""
 
 _LAST_ASCII = 127
 _COMMANDS = pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META
+
+
+class Controls:
+    """The keys and buttons as a player has chosen them."""
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._of_key = action_by_key(settings) | {"escape": "back"}
+        self._of_pad = action_by_pad(settings)
+
+    def keys(self, action: Action) -> tuple[str, ...]:
+        """The names of the keys that ask for something."""
+        return keys_of(self._settings, _LINES[action])
+
+    def of_key(self, name: str, modifiers: int = 0) -> Action | None:
+        """What a key asks for; None if nothing, or if it is a shortcut of the desktop (Ctrl, Alt, Meta)."""
+        action = self._of_key.get(name)
+        if action is None or (modifiers & _COMMANDS and action not in PADDLES):
+            return None
+        return Action(action)
+
+    def of_pad(self, name: str) -> Action | None:
+        """What a gamepad button asks for."""
+        action = self._of_pad.get(name)
+        return None if action is None else Action(action)
+
+
+def is_command(modifiers: int) -> bool:
+    """Whether a key is a shortcut of the desktop."""
+    return bool(modifiers & _COMMANDS)
+
+
+def key_name(key: int, scancode: int) -> str:
+    """The name of the key to go by: what it bears, or the letter at its place if that is not Latin."""
+    return pygame.key.name(meant(key, scancode))
 
 
 def meant(key: int, scancode: int) -> int:
@@ -90,26 +106,16 @@ def is_latin(key: int) -> bool:
     return key <= _LAST_ASCII or key > sys.maxunicode or unicodedata.name(chr(key), "").startswith("LATIN")
 
 
-def action_of(key: int, modifiers: int = 0) -> Action | None:
-    """What a key asks for; None if nothing, or if it is a shortcut of the desktop (Ctrl, Alt, Meta)."""
-    if modifiers & _COMMANDS and key not in _PADDLE_KEYS:
-        return None
-    for binding in BINDINGS:
-        if key in binding.keys and (not binding.with_shift or modifiers & pygame.KMOD_SHIFT):
-            return binding.action
-    return None
-
-
 def says_something(key: int) -> bool:
     """Whether an unused key deserves an answer: a letter or a digit does, Caps Lock does not."""
-    return pygame.K_SPACE <= key <= sys.maxunicode and key != pygame.K_DELETE
+    return pygame.K_SPACE < key <= sys.maxunicode and key != pygame.K_DELETE
 
 
 class Held(NamedTuple):
-    """The paddle buttons over the ticks of one frame: left and right.
+    """The paddle buttons over the ticks of one beat: left and right.
 
     Attributes:
-        first: In the first tick, in which also counts what was tapped since the last frame.
+        first: In the first tick, in which also counts what was tapped since the last beat.
         rest: In all later ticks.
     """
 
@@ -118,25 +124,26 @@ class Held(NamedTuple):
 
 
 class Buttons:
-    """The paddle keys that are down, and those that were down since the last tick, however briefly."""
+    """The paddle buttons that are down, and those that were down since the last tick, however briefly.
+
+    A button is told by its source, for example "key a" or "pad 0 leftshoulder": two keys may hold one paddle.
+    """
 
     def __init__(self) -> None:
-        self._down: set[int] = set()
+        self._down: dict[str, Action] = {}
         self._tapped: set[Action] = set()
 
-    def press(self, key: int) -> None:
-        """A key went down."""
-        for action, keys in _PADDLES.items():
-            if key in keys:
-                self._down.add(key)
-                self._tapped.add(action)
+    def press(self, source: str, side: Action) -> None:
+        """A button for a paddle went down."""
+        self._down[source] = side
+        self._tapped.add(side)
 
-    def release(self, key: int) -> None:
-        """A key came up."""
-        self._down.discard(key)
+    def release(self, source: str) -> None:
+        """A button came up."""
+        self._down.pop(source, None)
 
     def release_all(self) -> None:
-        """The window no longer hears the keys."""
+        """The window no longer hears the buttons."""
         self._down.clear()
         self._tapped.clear()
 
@@ -144,22 +151,18 @@ class Buttons:
         """No play is going on: only what is held when it goes on will count."""
         self._tapped.clear()
 
+    @property
+    def held(self) -> tuple[bool, bool]:
+        """Left and right, as they are held now."""
+        down = self._down.values()
+        return Action.LEFT in down, Action.RIGHT in down
+
     def take(self) -> Held:
         """What is held now; taps count once."""
-        held = Held(
-            (self._counts(Action.LEFT, True), self._counts(Action.RIGHT, True)),
-            (self._counts(Action.LEFT, False), self._counts(Action.RIGHT, False)),
-        )
+        left, right = self.held
+        first = (left or Action.LEFT in self._tapped, right or Action.RIGHT in self._tapped)
         self._tapped.clear()
-        return held
-
-    def _counts(self, action: Action, with_taps: bool) -> bool:
-        return not self._down.isdisjoint(_PADDLES[action]) or (with_taps and action in self._tapped)
+        return Held(first, (left, right))
 
 
-_PADDLES: dict[Action, frozenset[int]] = {
-    binding.action: frozenset(binding.keys)
-    for binding in BINDINGS
-    if binding.action in (Action.LEFT, Action.RIGHT)
-}
-_PADDLE_KEYS = frozenset().union(*_PADDLES.values())
+_LINES: dict[str, ActionLine] = {line.action: line for line in ACTIONS}

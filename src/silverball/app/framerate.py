@@ -11,11 +11,14 @@ class FrameTimes:
     def __init__(self) -> None:
         self._times: deque[float] = deque()
         self._sum = 0.0
+        self._last: float | None = None
 
-    def add(self, seconds: float) -> None:
-        """A frame came so long after the one before."""
-        self._times.append(seconds)
-        self._sum += seconds
+    def add(self, now: float) -> None:
+        """There is a frame at this time [s]."""
+        if self._last is not None:
+            self._times.append(now - self._last)
+            self._sum += now - self._last
+        self._last = now
         while len(self._times) > 1 and self._sum > 1.0:
             self._sum -= self._times.popleft()
 

@@ -1,24 +1,22 @@
-"""What is written on top of the table? The first hint, messages, the help, the pause and the frame rate.
+"""What is written on top of the table? Short messages, and the help with all keys.
 
 Every panel is put together once for a size and then only placed.
 """
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 
 import pygame
 
-from silverball.app.controls import BINDINGS, Action, Binding
-from silverball.app.framerate import FrameTimes
+from silverball.app.controls import Action, Controls
 from silverball.app.layout import column, in_columns, key_cap, panel, plate, row
+from silverball.app.menus import ACTIONS
 from silverball.drawing import palette
 from silverball.drawing.text import line, wrapped
 
 TEXT_SIZE = 0.5  # [u] of ordinary text
 LEAST_TEXT_SIZE = 11  # [pixel]
-HINT_AT = 0.72  # of the height, 0 is the top: below the middle, above the paddles of most tables
 LEAST_MESSAGE_SIZE = 8  # [pixel] to which a message shrinks before it grows beyond its place
 DIM = (0, 0, 0, 120)  # over the table behind the help and the pause
 
@@ -26,16 +24,6 @@ DIM = (0, 0, 0, 120)  # over the table behind the help and the pause
 def text_size(scale: float) -> int:
     """The size of ordinary text [pixel] at so many pixels per table unit."""
     return max(round(TEXT_SIZE * scale), LEAST_TEXT_SIZE)
-
-
-def draw_first_hint(target: pygame.Surface, scale: float) -> None:
-    """Before the first ball: what to press."""
-    _place(target, _first_hint(text_size(scale)), HINT_AT)
-
-
-def draw_next_ball_hint(target: pygame.Surface, scale: float, seconds: float) -> None:
-    """When no ball is left: how to get another; it breathes slowly."""
-    _place(target, _next_ball_hint(text_size(scale)), HINT_AT, 0.62 + 0.38 * math.cos(3.0 * seconds))
 
 
 def draw_message(
@@ -47,50 +35,27 @@ def draw_message(
     target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, target.get_height())))
 
 
-def draw_help(target: pygame.Surface, scale: float, seed: int) -> None:
-    """All keys, and the seed in full."""
+def draw_help(target: pygame.Surface, scale: float, seed: int, controls: Controls) -> None:
+    """All keys as they are now, and the seed in full."""
     _dim(target)
-    _place(target, _help(text_size(scale), round(0.94 * target.get_width()), seed), 0.5)
+    keys = []
+    for one in ACTIONS:
+        names = controls.keys(Action(one.action))
+        names = ("escape", *names) if one.action == "back" else names
+        if names:
+            keys.append((one.label.lower(), tuple(map(_cap, names))))
+    _place(target, _help(text_size(scale), round(0.94 * target.get_width()), seed, tuple(keys)), 0.5)
 
 
-def draw_pause(target: pygame.Surface, scale: float) -> None:
-    """The game is paused."""
-    _dim(target)
-    _place(target, _pause(text_size(scale)), 0.5)
+def small_text_size(scale: float) -> int:
+    """The size of figures [pixel] at so many pixels per table unit."""
+    return max(round(0.7 * text_size(scale)), 9)
 
 
-def draw_frame_rate(
-    target: pygame.Surface, apron: pygame.Rect, scale: float, times: FrameTimes, seed: int
-) -> None:
-    """Above the apron: frames per second, the longest time between two of them, and the seed in full."""
-    texts = (
-        f"{times.per_second:.0f} frames/s, slowest {1000.0 * times.slowest:.0f} ms",
-        f"seed {seed}",
-    )
-    image = column([line(text, text_size(scale), palette.TEXT) for text in texts], 0)
-    target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, apron.top - round(0.1 * scale))))
-
-
-@lru_cache(maxsize=4)
-def _first_hint(size: int) -> pygame.Surface:
-    gap = size // 2
-    large = round(1.3 * size)
-    title = row([key_cap("Space", large), line("drops a ball", large, palette.SCORE)], gap)
-    sides = [
-        [
-            row([key_cap(label, size) for label in _binding(action).shown[:2]], gap // 2),
-            line(does, size, palette.TEXT),
-        ]
-        for action, does in ((Action.LEFT, "left paddle"), (Action.RIGHT, "right paddle"))
-    ]
-    more = row([key_cap("F1", size), line("shows all keys", size, palette.FAINT_TEXT)], gap)
-    keys = column(in_columns(sides, gap), gap, centered=False)
-    return panel(column([title, keys, more], round(0.7 * size)), size)
-
-
-@lru_cache(maxsize=4)
-def _next_ball_hint(size: int) -> pygame.Surface:
-    return panel(row([key_cap("Space", size), line("new ball", size, palette.SCORE)], size // 2), size // 2)
+def _cap(name: str) -> str:
+    """What stands on a key; "<" and ">" are the arrow keys."""
+    short = {"left": "<", "right": ">", "escape": "Esc"}
+    return short.get(name, name.upper() if len(name) < 3 or name[1:].isdigit() else name.capitalize())
 
 
 @lru_cache(maxsize=16)
@@ -104,34 +69,19 @@ def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
 
 
 @lru_cache(maxsize=4)
-def _help(size: int, width: int, seed: int) -> pygame.Surface:
+def _help(size: int, width: int, seed: int, keys: tuple[tuple[str, tuple[str, ...]], ...]) -> pygame.Surface:
     gap = size // 2
     rows = [
-        [
-            row([key_cap(label, size) for label in binding.shown], gap // 2),
-            line(binding.does, size, palette.TEXT),
-        ]
-        for binding in BINDINGS
+        [row([key_cap(name, size) for name in names], gap // 2), line(label, size, palette.TEXT)]
+        for label, names in keys
     ]
     title = line("KEYS", round(1.2 * size), palette.SCORE)
-    keys = column(in_columns(rows, gap), gap // 2, centered=False)
-    content = column([title, keys, line(f"seed {seed}", size, palette.FAINT_TEXT)], gap)
+    listed = column(in_columns(rows, gap), gap // 2, centered=False)
+    content = column([title, listed, line(f"seed {seed}", size, palette.FAINT_TEXT)], gap)
     whole = panel(content, size)
     if whole.get_width() > width and size > 7:
-        return _help(size - 1, width, seed)
+        return _help(size - 1, width, seed, keys)
     return whole
-
-
-@lru_cache(maxsize=4)
-def _pause(size: int) -> pygame.Surface:
-    title = line("PAUSE", round(1.8 * size), palette.SCORE)
-    return panel(
-        column([title, row([key_cap("P", size), line("goes on", size, palette.TEXT)], size // 2)], size), size
-    )
-
-
-def _binding(action: Action) -> Binding:
-    return next(binding for binding in BINDINGS if binding.action is action)
 
 
 def _dim(target: pygame.Surface) -> None:

@@ -1,111 +1,161 @@
 """The table in a window of any size: always whole, in the middle, and never a frozen picture.
 
-A new size is shown at once, as a sketch or as it was stored the last time, and gets sharp by itself.
+The renderer shows a sketch at once and sharpens by itself. While the window is being resized the last picture
+is stretched; a new renderer comes when the size has stood for a moment.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import pygame
 
+from silverball.app.settings import Settings
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.palette import ROOM
-from silverball.table import Table
+from silverball.drawing.renderer import rgb_surface
+from silverball.table import Board, Table
 
 if TYPE_CHECKING:
+    from silverball.drawing.dots import Dots
     from silverball.world import Event
+
+SETTLED = 0.25  # [s] for which a size has stood
+
+
+class _Shown(NamedTuple):
+    """What a renderer was made for."""
+
+    table: Table
+    board_seed: int | None
+    theme: str
+    effects: Literal["full", "less"]
 
 
 class Picture:
-    """Draws a table into windows of changing size.
+    """Draws tables into windows of changing size. `show` says which table, `draw` draws a moment.
 
     Args:
-        table: A finished table.
         window_size: Width and height of the window [pixel].
-        board_seed: What the board was made from, if it is not always the same.
-        theme: A name of the drawing's themes.
-        effects: "full" or "less".
     """
 
-    def __init__(
-        self,
-        table: Table,
-        window_size: tuple[int, int],
-        board_seed: int | None = None,
-        *,
-        theme: str = "neon",
-        effects: Literal["full", "less"] = "full",
-    ) -> None:
-        self.table = table
-        self._board_seed = board_seed
-        self._theme = theme
-        self._effects = effects
+    def __init__(self, window_size: tuple[int, int]) -> None:
         self._window_size = window_size
-        self.area = fitted(table, window_size)
-        self.renderer = self._new_renderer()
+        self._resized: float | None = None  # when the window last got another size
+        self._shown: _Shown | None = None
+        self._renderer: Renderer | None = None
+        self._stretched: pygame.Surface | None = None
+        self.area = pygame.Rect((0, 0), window_size)
+
+    @property
+    def renderer(self) -> Renderer:
+        """What draws."""
+        assert self._renderer is not None, "show() comes first"
+        return self._renderer
 
     @property
     def scale(self) -> float:
-        """Pixels per table unit."""
-        return self.renderer.camera.scale
+        """Pixels per table unit, about: of the width of the picture."""
+        return self.area.width / (self.renderer.table.board.width + 1.0)
 
     @property
     def apron(self) -> pygame.Rect:
         """The plate below the gutter [pixel of the table's area]: whatever covers it hides no play."""
-        return self.renderer.apron
+        return self._fitted(self.renderer.apron)
+
+    @property
+    def figures_area(self) -> pygame.Rect:
+        """Where figures may be written [pixel of the table's area]: below the score display."""
+        panel = self._fitted(self.renderer.score_panel)
+        return pygame.Rect(panel.left, panel.bottom + 4, panel.width, self.area.height - panel.bottom)
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table on screen is drawn at its best."""
-        return self.renderer.is_sharp
+        """Whether the table is drawn in full quality at its present size."""
+        return self.renderer.is_sharp and self.renderer.camera.size == self.area.size
 
-    def fit(self, window_size: tuple[int, int]) -> None:
-        """Follow the window's size."""
-        if window_size == self._window_size:
-            return
-        self._window_size = window_size
-        before, self.area = self.area, fitted(self.table, window_size)
-        if self.area.size != before.size:
-            effects = self.renderer.effects
-            self.renderer.close()
-            self.renderer = self._new_renderer()
-            self.renderer.effects = effects
+    def show(self, table: Table, board_seed: int | None, settings: Settings) -> None:
+        """Draw this table from now on."""
+        shown = _Shown(table, board_seed, settings.theme, settings.effects)
+        if shown != self._shown:
+            self._shown = shown
+            self.area = fitted(table.board, self._window_size)
+            self._renew()
 
     def note(self, events: Iterable[Event], tick_rate: int) -> None:
         """Tell what happened since the last picture."""
-        self.renderer.note(events, tick_rate)
+        if self._renderer is not None:
+            self._renderer.note(events, tick_rate)
 
-    def draw(self, moment: Moment, window: pygame.Surface, dots: Any = None) -> pygame.Surface:
+    def forget(self) -> None:
+        """Another game begins."""
+        if self._renderer is not None:
+            self._renderer.effects.forget()
+
+    def draw(self, moment: Moment, window: pygame.Surface, dots: Dots | None = None) -> pygame.Surface:
         """Draw a moment into a window of any size; returns the part of it that the table fills."""
-        self.fit(window.get_size())
+        self._fit(window.get_size())
         if window.get_size() != self.area.size:
             window.fill(ROOM)
         target = window.subsurface(self.area)
-        self.renderer.draw(moment, target, dots)
+        size = self.renderer.camera.size
+        if size == self.area.size:
+            self.renderer.draw(moment, target, dots)
+            return target
+        if self._stretched is None or self._stretched.get_size() != size:
+            self._stretched = rgb_surface(size)
+        self.renderer.draw(moment, self._stretched, dots)
+        target.blit(pygame.transform.smoothscale(self._stretched, self.area.size), (0, 0))
         return target
 
     def close(self) -> None:
-        """End what is still done in the background."""
-        self.renderer.close()
+        """Stop sharpening."""
+        if self._renderer is not None:
+            self._renderer.close()
 
-    def _new_renderer(self) -> Renderer:
-        return Renderer(
-            self.table,
-            self.area.size,
-            theme=self._theme,
-            effects=self._effects,
-            board_seed=self._board_seed,
-            background=True,
+    def _fit(self, window_size: tuple[int, int]) -> None:
+        now = time.monotonic()
+        if window_size != self._window_size:
+            self._window_size, self._resized = window_size, now
+            self.area = fitted(self.renderer.table.board, window_size)
+        elif self._resized is not None and now - self._resized >= SETTLED:
+            self._resized = None
+            if self.area.size != self.renderer.camera.size:
+                self._renew()
+
+    def _renew(self) -> None:
+        assert self._shown is not None
+        table, board_seed, theme, effects = self._shown
+        before, self._renderer = (
+            self._renderer,
+            Renderer(
+                table, self.area.size, theme=theme, effects=effects, board_seed=board_seed, background=True
+            ),
+        )
+        if before is not None:
+            before.close()
+            if before.table == table and before.effects.is_full == self._renderer.effects.is_full:
+                self._renderer.effects = before.effects
+
+    def _fitted(self, box: pygame.Rect) -> pygame.Rect:
+        """A rectangle of the renderer's picture in the table's area, which may be of another size."""
+        wide, high = self.renderer.camera.size
+        across, down = self.area.width / wide, self.area.height / high
+        return pygame.Rect(
+            round(box.left * across),
+            round(box.top * down),
+            round(box.width * across),
+            round(box.height * down),
         )
 
 
-def fitted(table: Table, window_size: tuple[int, int]) -> pygame.Rect:
+def fitted(board: Board, window_size: tuple[int, int]) -> pygame.Rect:
     """The largest area in the middle of a window that the whole table fits into."""
     width, height = window_size
-    wide, high = best_size(table.board, max(height, 2))
+    wide, high = best_size(board, max(height, 2))
     if wide > width:
         high = max(2, height * width // wide)
-        wide = min(best_size(table.board, high)[0], width)
+        wide = min(best_size(board, high)[0], width)
     return pygame.Rect((width - wide) // 2, (height - high) // 2, wide, high)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+from pathlib import Path
 
 import pygame
 
@@ -45,8 +46,8 @@ class Screen:
         return min(self.desktop[1] - DECORATION, GREATEST_HEIGHT)
 
     @property
-    def frame_rate(self) -> int:
-        """Frames per second to aim at: as many as the screen shows."""
+    def refresh_rate(self) -> int:
+        """Pictures per second that the screen shows, as far as it says."""
         rates = pygame.display.get_desktop_refresh_rates()
         return min(max(rates[0] if rates else 0, FRAME_RATES[0]), FRAME_RATES[1])
 
@@ -60,6 +61,10 @@ class Screen:
         self._window = pygame.Window(self._title, size, resizable=True, allow_high_dpi=True)
         self._window.minimum_size = LEAST_SIZE
         self._window.set_icon(ball_icon(ICON_SIDE))
+
+    def owns(self, event: pygame.Event) -> bool:
+        """Whether an event is about this window, and not about another one of this program."""
+        return getattr(event, "window", self._window) is self._window
 
     def flip(self) -> None:
         """Show what has been drawn."""
@@ -109,10 +114,16 @@ def open_video(*, without_display: bool = False) -> None:
     if driver.lower() in _NOT_A_SCREEN and not without_display:
         pygame.display.quit()
         raise NoDisplay(_sentence(f"SDL uses the driver {driver!r}, which shows nothing"))
-    if driver == "x11":
-        # SDL would put each frame through OpenGL, which without a GPU takes 4 ms instead of 0.3 ms. Other
-        # systems have no second way (Wayland) or choose well by themselves.
+    if driver == "x11" and not has_gpu():
+        # SDL would put each frame through OpenGL, which without a GPU takes 4 ms instead of 0.3 ms.
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
+    else:
+        os.environ.setdefault("SDL_RENDER_VSYNC", "1")  # a flip waits for the screen: no picture is torn
+
+
+def has_gpu() -> bool:
+    """Whether Linux knows of a graphics card; elsewhere it is taken for granted."""
+    return sys.platform != "linux" or any(Path("/dev/dri").glob("renderD*"))
 
 
 def _sentence(reason: str) -> str:

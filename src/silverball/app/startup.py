@@ -70,11 +70,13 @@ def compiling_words() -> str:
 
 def warm_up(table: Table) -> None:
     """Call once what every game calls, so that no later call has to load or compile."""
-    from silverball.app.controls import Held
-    from silverball.app.session import Session
+    from silverball.game.game import Game
+    from silverball.players import make_player
 
-    session = Session(table, 0)
-    session.create_ball()
-    session.jitter()
-    session.advance(Held((True, True), (False, False)), 2)
-    session.world.digest()
+    game = Game(table, 0)
+    game.create_ball()
+    game.jitter()
+    game.advance(True, True, 2)
+    game.advance(False, False, 2)
+    game.replay.to_text()
+    make_player("reflex").press(game.world)

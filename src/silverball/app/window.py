@@ -1,45 +1,76 @@
-"""The game in a window: events in, ticks, picture out, until the player ends it.
+"""The game in a window: buttons in, ticks, picture and sounds out, until the player ends it.
 
-A frame is: keys → as many ticks as real time asks for → the table → what is written on top → the screen.
+A *beat* is: buttons → as many ticks as real time asks for. A *frame* is a beat, and then: the table → what is
+written on top → the screen. Between two frames the window goes on beating, a thousand times a second, so that
+a button reaches the simulation within a tick and not only with the next picture.
 """
 
 from __future__ import annotations
 
-import secrets
 import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pygame
 
 from silverball.app import overlay
 from silverball.app.clock import TickClock
-from silverball.app.controls import Action, Buttons, action_of, is_latin, meant, says_something
+from silverball.app.controls import (
+    MENU_KEYS,
+    PADDLES,
+    Action,
+    Buttons,
+    Controls,
+    is_command,
+    is_latin,
+    key_name,
+    says_something,
+)
+from silverball.app.debug import DebugView
 from silverball.app.framerate import FrameTimes
-from silverball.app.keep import LAST_GAME, keep
+from silverball.app.gamepad import Gamepads, PadButton
+from silverball.app.latency import LatencyMeter
+from silverball.app.library import Library
 from silverball.app.messages import Messages
 from silverball.app.picture import Picture
+from silverball.app.program import Program
 from silverball.app.screen import Screen
-from silverball.app.session import TICK_RATE, Session
+from silverball.app.settings import Settings
+from silverball.app.sound import Sounds
+from silverball.app.sound.mixdown import rolling_balls
+from silverball.app.stages import Stage
 from silverball.app.startup import Startup, compiling_words
 from silverball.drawing import Moment, best_size
-from silverball.errors import BoardFull, FaultError, NoRoom, SilverballError
-from silverball.table import Table, generate_table, load_table
+from silverball.drawing.themes import THEMES
+from silverball.game.folder import data_folder
+from silverball.game.news import Mode
+from silverball.game.store import Store
+from silverball.table import Table
 
+if TYPE_CHECKING:
+    from silverball.game.replay import Replay
+
+TICK_RATE = 240
 LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor more
-SEEDS = 1_000_000  # a new board's seed is below it: short enough to tell a friend
+BEAT = 0.001  # [s] between two looks at the buttons
+PAGE_SOUNDS = {"initials": "high_score", "attract": "attract"}
+RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles with full strength
 
 
 class Window:
     """A window to play in.
 
     Args:
-        table: A table, a built-in name, or a path to a file. A recipe makes a new board for every seed.
+        table: A table, a built-in name, or a path to a file; None: as chosen last. A recipe makes a new board
+            for every seed.
         seed: Of the first board; None draws one.
+        mode: Begin this game at once; None: begin in the menu.
+        replay: Begin by showing this replay.
         height: Of the window [pixel]; None: as high as fits the screen.
         without_display: Whether SDL's drivers that show nothing will do, as in tests.
-        data_folder: Where the log of the last game goes; None: the user's data folder.
+        folder: Where scores, settings and replays are; None: the user's data folder.
         on_compile: Called (from a thread) if the physics has to be compiled first.
         on_ready: Called when a game can begin.
 
@@ -50,142 +81,238 @@ class Window:
 
     def __init__(
         self,
-        table: Table | str = "random",
+        table: Table | str | None = None,
         seed: int | None = None,
         *,
+        mode: Mode | None = None,
+        replay: Replay | None = None,
         height: int | None = None,
         without_display: bool = False,
-        data_folder: Path | None = None,
+        folder: Path | None = None,
         on_compile: Callable[[], None] = lambda: None,
         on_ready: Callable[[], None] = lambda: None,
     ) -> None:
-        self._recipe = load_table(table) if isinstance(table, str) else table
-        self._screen = Screen("Silverball", without_display=without_display)
-        self.seed = secrets.randbelow(SEEDS) if seed is None else seed
-        self.table = self._finished()
-        self._on_ready = on_ready
-        self._startup: Startup | None = Startup(self.table, on_compile)
-        self._screen.open(best_size(self.table.board, height or self._screen.first_height))
-        self._picture = self._new_picture()
-        self.session: Session | None = None
+        self._folder = folder or data_folder()
+        self.store = Store(self._folder)
+        settings = Settings.of(self.store.settings())
+        given = {}
+        if table is not None:
+            name = table if isinstance(table, str) else table.name
+            given = {} if isinstance(table, str) else {name: table}
+            settings = settings.changed(table=name, mode=mode or settings.mode)
+        library = Library(self.store, self._folder, given)
         self.messages = Messages()
+        self.program = _program(self.store, settings, library, seed, self.messages.say, table is None)
+        self._screen = Screen("Silverball", without_display=without_display)
+        self._on_ready = on_ready
+        self._startup: Startup | None = Startup(self.program.table, on_compile)
+        self._screen.open(best_size(self.program.table.board, height or self._screen.first_height))
+        if settings.full_screen:
+            self._screen.toggle_full()
+        self._picture = Picture(self._screen.surface.get_size())
+        self.sounds = Sounds(settings)
+        self.sounds.open()
+        self._pads = Gamepads()
         self._buttons = Buttons()
         self._clock = TickClock(TICK_RATE)
         self._frame_times = FrameTimes()
-        self._data_folder = data_folder
+        self.latency = LatencyMeter()
+        self.debug = DebugView()
+        self._controls = Controls(settings)
+        self._settings = settings
+        self._stage: Stage | None = None
+        self._before: Moment | None = None  # one tick before the present one
         self._seconds = 0.0  # real time so far
-        self._wants_ball = False  # Space was pressed before the physics was ready
-        self.is_paused = self.shows_help = self.shows_frame_rate = self.is_over = False
-        self._answers: dict[Action, Callable[[], None]] = {
-            Action.CREATE: self._create_ball,
-            Action.JITTER: self._jitter,
-            Action.PAUSE: self._pause,
-            Action.NEW_BOARD: self._new_board,
-            Action.SAME_BOARD: self._same_board,
-            Action.MUTE: lambda: self.messages.say("no sounds yet, so there is nothing to mute"),
-            Action.HELP: self._help,
-            Action.FRAME_RATE: self._show_frame_rate,
-            Action.FULL_SCREEN: self._screen.toggle_full,
-            Action.QUIT: self._go_back,
-        }
+        self.shows_help = self.shows_debug = False
+        for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
+            self.messages.say(trouble)
+        if replay is not None:
+            self.program.watch(replay)
+        elif mode is not None:
+            self.program.play(mode, settings.table, self.program.seed)
 
     # --- the loop ---------------------------------------------------------------------------------
 
     def run(self, seconds: float | None = None) -> None:
         """Play until the player ends it, or for some seconds."""
-        pacer = pygame.time.Clock()
         before = start = time.perf_counter()
         try:
             while not self.is_over and (seconds is None or before - start < seconds):
                 now = time.perf_counter()
                 self.frame(now - before)
                 before = now
-                pacer.tick(self._screen.frame_rate if self.is_ready else LOADING_FRAME_RATE)
+                before = self._beat_until(now + 1.0 / self.frame_rate, before)
         except Exception:
             self._keep_after_crash()
             raise
         finally:
             self.close()
 
-    def frame(self, elapsed: float) -> None:
-        """One frame, so many seconds after the one before."""
+    def beat(self, elapsed: float) -> None:
+        """Answer the buttons and play on, so many seconds after the last beat or frame."""
         self._seconds += elapsed
-        self._frame_times.add(elapsed)
         self._begin_when_ready()
         for event in pygame.event.get():
             self._answer(event)
         self._play(elapsed)
-        self.messages.pass_time(elapsed, in_play=self._is_playing and self._has_ball)
+
+    def frame(self, elapsed: float) -> None:
+        """One frame, so many seconds after the last beat or frame."""
+        self.beat(elapsed)
+        page = self.program.menus.page
+        self.program.pass_time(self._seconds)
+        if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
+            self.sounds.menu(PAGE_SOUNDS[self.program.menus.page])
+        self._follow_settings()
+        self._frame_times.add(self._seconds)
+        is_watched = self.program.is_playing and bool(self._stage and self._stage.game.world.balls)
+        self.messages.pass_time(elapsed, in_play=is_watched)
+        self._sound(elapsed)
         self._draw()
+        self.latency.shown()
 
     def close(self) -> None:
-        """Keep the log of the last game and close the window."""
-        self._keep_last_game()
-        self.session = None
+        """Keep the game that is played and close the window."""
+        self.program.keep_last_game()
+        self.program.stage = self._stage = None
         self._picture.close()
+        self.sounds.close()
+        self._pads.close()
+        self.store.close()
         self._screen.close()
 
-    # --- playing ----------------------------------------------------------------------------------
+    @property
+    def is_over(self) -> bool:
+        """Whether the player wants to end."""
+        return self.program.is_over
 
     @property
     def is_ready(self) -> bool:
         """Whether the physics is loaded and a game can be played."""
-        return self.session is not None
+        return self.program.is_ready
+
+    @property
+    def frame_rate(self) -> int:
+        """Frames per second to aim at."""
+        if not self.is_ready:
+            return LOADING_FRAME_RATE
+        wanted = self.program.settings.frame_rate
+        return self._screen.refresh_rate if wanted == "screen" else int(wanted)
+
+    def _beat_until(self, due: float, before: float) -> float:
+        """Go on beating until the next picture is due; the time of the last beat."""
+        while (now := time.perf_counter()) < due and not self.is_over:
+            time.sleep(min(BEAT, due - now) if self.is_ready else due - now)
+            now = time.perf_counter()
+            if now < due:
+                self.beat(now - before)
+                before = now
+        return before
+
+    # --- playing ----------------------------------------------------------------------------------
 
     def _begin_when_ready(self) -> None:
         if self._startup is not None and self._startup.is_done:
             self._startup = None
             self.messages.clear()
-            self.session = Session(self.table, self.seed)
             self._on_ready()
-            if self._wants_ball:
-                self._create_ball()
+            self.program.get_ready()
         elif self._startup is not None and self._startup.is_compiling and self.messages.strength < 1.0:
             self.messages.say(compiling_words())
 
-    @property
-    def _is_playing(self) -> bool:
-        """Whether time goes on for the balls."""
-        waits = self.is_paused or self.shows_help
-        return self.session is not None and not waits and not self.session.world.fault
-
-    @property
-    def _has_ball(self) -> bool:
-        return self.session is not None and bool(self.session.world.balls)
-
     def _play(self, elapsed: float) -> None:
-        session = self.session
-        if session is None or not self._is_playing:
+        program = self.program
+        self._follow_stage()
+        if not program.is_moving or self.shows_help:
             self._buttons.forget_taps()
+            self.latency.forget()
             return
+        self._clock.speed = program.speed
         ticks = self._clock.advance(elapsed)
-        if ticks == 0:
+        if ticks == 0 or self._stage is None:
             return
-        try:
-            session.advance(self._buttons.take(), ticks)
-        except FaultError as error:
-            self.messages.say(
-                f"{error.fault}: this board had to stop. {self._keep_log('fault')} R makes a new one"
-            )
-        self._picture.note(session.take_events(), session.world.tick_rate)
-        if session.has_still_ball and self.messages.strength < 1.0:  # it stays there, and is soon said again
-            self.messages.say("the ball lies still: Z gives it a shove")
+        held = self._buttons.take()
+        if ticks > 1:
+            program.advance(held, ticks - 1)
+            held = held._replace(first=held.rest)
+        self._before = Moment.of(self._stage.game.world)
+        program.advance(held, 1)
+        self.latency.ticked()
+        self._note_events()
+
+    def _note_events(self) -> None:
+        stage, program = self._stage, self.program
+        if stage is None:
+            return
+        world = stage.game.world
+        news, events = stage.take_news(), stage.take_events()
+        program.display.tell(news)
+        self._picture.note(events, world.tick_rate)
+        self.debug.note(events, world.tick_rate)
+        if program.is_heard:
+            self.sounds.tell(news)
+            self.sounds.note(events, world.tick_rate, world.table.board.width)
+        if stage.is_played:
+            for event in events:
+                if event.kind == "hit" and event.part.startswith("cylinder"):
+                    self._pads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
+
+    def _follow_stage(self) -> None:
+        """Another game, replay or show has begun."""
+        stage = self.program.stage
+        if stage is self._stage:
+            return
+        self._stage, self._before = stage, None
+        self._picture.forget()
+        self.debug.forget()
+        self._clock = TickClock(stage.game.tick_rate if stage is not None else TICK_RATE)
+        if stage is not None:
+            self.sounds.begin(stage.game.world.table)
+
+    def _follow_settings(self) -> None:
+        settings = self.program.settings
+        if settings is self._settings:
+            return
+        before, self._settings = self._settings, settings
+        self._controls = Controls(settings)
+        self.sounds.change(settings)
+        if settings.full_screen not in (before.full_screen, self._screen.is_full):
+            self._screen.toggle_full()
+
+    def _sound(self, elapsed: float) -> None:
+        program, sounds = self.program, self.sounds
+        if not program.is_moving or self.shows_help or self._stage is None or not program.is_heard:
+            sounds.pause()
+            sounds.rolling((), elapsed, self.program.table.board.width)
+            return
+        sounds.resume()
+        world = self._stage.game.world
+        game = self._stage.game
+        sounds.buttons(*((False, False) if game.face.tilted else game.held))
+        balls = rolling_balls(world)
+        sounds.rolling(balls, elapsed * program.speed, world.table.board.width)
+
+    # --- drawing ----------------------------------------------------------------------------------
 
     def _draw(self) -> None:
-        moment = Moment.before(self.table) if self.session is None else Moment.of(self.session.world)
-        target = self._picture.draw(moment, self._screen.surface)
+        program, stage = self.program, self._stage
+        moment = Moment.before(program.table)
+        if stage is not None:
+            moment = Moment.of(stage.game.world)
+            if self._before is not None and program.is_moving:
+                moment = Moment.between(self._before, moment, self._clock.share)
+        self._picture.show(program.table, program.board_seed, program.settings)
+        target = self._picture.draw(moment, self._screen.surface, program.dots(self._seconds))
+        renderer = self._picture.renderer
         scale, apron = self._picture.scale, self._picture.apron
-        if self.shows_frame_rate:
-            overlay.draw_frame_rate(target, apron, scale, self._frame_times, self.seed)
+        if self.shows_debug and stage is not None:
+            self.debug.draw(target, renderer.camera, stage.game.world)
+            self.debug.draw_figures(
+                target, stage.game.world, self._frame_times, self.latency, program.speed,
+                self._picture.figures_area, overlay.small_text_size(scale),
+            )  # fmt: skip
         if self.shows_help:
-            overlay.draw_help(target, scale, self.seed)
-        elif self.is_paused:
-            overlay.draw_pause(target, scale)
-        elif self.session is not None and not moment.balls:
-            if self.session.world.created:
-                overlay.draw_next_ball_hint(target, scale, self._seconds)
-            else:
-                overlay.draw_first_hint(target, scale)
+            overlay.draw_help(target, scale, program.seed, self._controls)
         if self.messages.strength > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
         self._screen.flip()
@@ -194,139 +321,114 @@ class Window:
 
     def _answer(self, event: pygame.Event) -> None:
         if event.type == pygame.KEYDOWN:
-            self._answer_key(meant(event.key, event.scancode), event.key, event.mod)
+            self._answer_key(event)
         elif event.type == pygame.KEYUP:
-            self._buttons.release(meant(event.key, event.scancode))
-        elif event.type == pygame.WINDOWFOCUSLOST:
+            name = key_name(event.key, event.scancode)
+            self._release(f"key {name}", self._controls.of_key(name))
+            if name in MENU_KEYS:
+                self.program.menus.release(MENU_KEYS[name])
+        elif event.type == pygame.WINDOWFOCUSLOST and self._screen.owns(event):
             self._buttons.release_all()
+            self.program.lose_focus()
         elif event.type in (pygame.QUIT, pygame.WINDOWCLOSE):
-            self._quit()
+            self.program.is_over = True
+        for button in self._pads.read(event):
+            self._answer_pad(button)
 
-    def _answer_key(self, key: int, label: int, modifiers: int) -> None:
-        action = action_of(key, modifiers)
-        if action is Action.LEFT or action is Action.RIGHT:
-            self._press(key, "left" if action is Action.LEFT else "right")
+    def _answer_key(self, event: pygame.Event) -> None:
+        name = key_name(event.key, event.scancode)
+        action = self._controls.of_key(name, event.mod)
+        if self.program.menus.wants_key and name != "escape" and not is_command(event.mod):
+            self.program.capture(name)
         elif action is not None:
-            self._answers[action]()
-        elif says_something(key) and not modifiers & (pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META):
-            name = chr(label) if is_latin(label) else "this key"
-            self.messages.say(f"{name} does nothing here; F1 shows the keys")
+            self._press(f"key {name}", action, again=bool(event.mod & pygame.KMOD_SHIFT))
+        elif name in MENU_KEYS and self.program.menus.is_open:
+            self.program.press_menu(MENU_KEYS[name])
+        elif says_something(event.key) and not is_command(event.mod):
+            shown = name.upper() if is_latin(event.key) else "this key"
+            helps = self._controls.keys(Action.HELP)
+            self.messages.say(
+                f"{shown} does nothing here; {helps[0].upper() if helps else 'F1'} shows the keys"
+            )
 
-    def _press(self, key: int, side: str) -> None:
-        self._buttons.press(key)
-        if not self._is_playing:
-            self._buttons.forget_taps()
-        elif all(paddle.side != side for paddle in self.table.paddle):
-            self.messages.say(f"this table has no {side} paddle")
+    def _answer_pad(self, button: PadButton) -> None:
+        action = self._controls.of_pad(button.name)
+        if not button.down:
+            self._release(button.source, action)
+        elif self.program.menus.wants_pad:
+            self.program.capture(button.name)
+        elif action is not None:
+            self._press(button.source, action)
 
-    def _create_ball(self) -> None:
-        self._wants_ball = self.session is None
-        if session := self._session_in_play():
-            try:
-                session.create_ball()
-            except BoardFull:
-                count = session.world.table.board.max_balls
-                self.messages.say("one ball is the most" if count == 1 else f"{count} balls are the most")
-            except NoRoom:
-                self.messages.say("there is no room for a ball now")
-
-    def _jitter(self) -> None:
-        if session := self._session_in_play():
-            try:
-                session.jitter()
-            except SilverballError as reason:
-                self.messages.say(str(reason))
-
-    def _session_in_play(self) -> Session | None:
-        """The session if it can take a ball or a shove now; otherwise the player is told why not."""
-        if self.session is None:
-            self.messages.say("one moment, please: the physics is being made ready")
-        elif self.session.world.fault:
-            self.messages.say("this board had to stop; R makes a new one")
-        elif self.shows_help:
-            self.messages.say("the game waits while the keys are shown; F1 goes on")
-        elif self.is_paused:
-            self.messages.say("the game is paused; P goes on")
-        else:
-            return self.session
-        return None
-
-    def _pause(self) -> None:
-        if self.shows_help:
-            self.messages.say("the game waits while the keys are shown; F1 goes on")
-        else:
-            self.is_paused = not self.is_paused
-            self.messages.clear()  # it may tell of the state that has just ended
-
-    def _help(self) -> None:
-        self.shows_help = not self.shows_help
-        self.messages.clear()
-
-    def _show_frame_rate(self) -> None:
-        self.shows_frame_rate = not self.shows_frame_rate
-
-    def _go_back(self) -> None:
-        """One step out: of the help, of the pause, of the full screen, and only then of the game."""
-        if self.shows_help:
-            self._help()
-        elif self.is_paused:
-            self._pause()
-        elif self._screen.is_full:
+    def _press(self, source: str, action: Action, *, again: bool = False) -> None:
+        if action is Action.HELP or (self.shows_help and action is Action.BACK):
+            self.shows_help = not self.shows_help
+            self.messages.clear()
+        elif action is Action.DEBUG:
+            self.shows_debug = not self.shows_debug
+        elif action is Action.FULL_SCREEN:
             self._screen.toggle_full()
+        elif action is Action.MUTE:
+            self.program.set(muted=not self.program.settings.muted)
+            self.messages.say("sounds are off" if self.program.settings.muted else "sounds are on")
+        elif action in PADDLES:
+            if action is Action.LEFT or action is Action.RIGHT:
+                self._buttons.press(source, action)
+            if not self.program.is_playing or self.shows_help:
+                self._buttons.forget_taps()
+            else:
+                self.latency.heard()
+            self._pass_on(action)
+        elif action is Action.SINGLE_TICK:
+            self.program.single_tick(self._buttons.take())
+            self._note_events()
+        elif again and action is Action.NEW_BOARD:
+            self._buttons.release("key left shift")  # it was meant for R, not for a paddle
+            self._buttons.release("key right shift")
+            self.program.press(action, again=True)
         else:
-            self._quit()
+            self._pass_on(action)
 
-    def _quit(self) -> None:
-        self.is_over = True
+    def _pass_on(self, action: Action) -> None:
+        """A button for the game or the menus, which wait while the keys are shown."""
+        if self.shows_help:
+            self.messages.say("the game waits while the keys are shown; F1 goes on")
+            return
+        was_open, page = self.program.menus.is_open, self.program.menus.signature
+        self.program.press(action)
+        if was_open and self.program.menus.signature != page:
+            self.sounds.menu("move" if action in PADDLES else "back" if action is Action.BACK else "choose")
 
-    def _new_board(self) -> None:
-        self._begin(secrets.randbelow(SEEDS))
-        if self._recipe.random is None:
-            self.messages.say(f"{self.table.name} is always the same table; the balls come at other places")
-        else:
-            self.messages.say(f"board {self.seed}. Shift+R plays it again")
-
-    def _same_board(self) -> None:
-        for shift in (pygame.K_LSHIFT, pygame.K_RSHIFT):  # it was meant for R, not for a paddle
-            self._buttons.release(shift)
-        self._begin(self.seed)
-        self.messages.say(f"board {self.seed} from the start")
-
-    def _begin(self, seed: int) -> None:
-        """Begin another game."""
-        self.seed = seed
-        table = self._finished()
-        if table != self.table:
-            self.table = table
-            self._picture.close()
-            self._picture = self._new_picture()
-        self._picture.renderer.effects.forget()
-        self.is_paused = self.shows_help = False
-        if self._startup is None:
-            self._keep_last_game()
-            self.session = Session(table, seed)
-
-    def _finished(self) -> Table:
-        return self._recipe if self._recipe.random is None else generate_table(self.seed, self._recipe)
-
-    def _new_picture(self) -> Picture:
-        board_seed = None if self._recipe.random is None else self.seed
-        return Picture(self.table, self._screen.surface.get_size(), board_seed)
-
-    # --- keeping logs -----------------------------------------------------------------------------
-
-    def _keep_last_game(self) -> None:
-        """Keep the log of the game that ends now, if anything was played."""
-        if self.session is not None and self.session.world.created:
-            keep(self.session.log.ended(self.session.world).to_text(), LAST_GAME, self._data_folder)
-
-    def _keep_log(self, why: str) -> str:
-        """Keep the log of a game that cannot go on, and say where."""
-        assert self.session is not None
-        name = time.strftime(f"{why}-%Y-%m-%d-%H%M%S.jsonl")
-        path = keep(self.session.log.ended(self.session.world).to_text(), name, self._data_folder)
-        return f"A log of it for a report is at {path}." if path else "Its log could not be written."
+    def _release(self, source: str, action: Action | None) -> None:
+        self._buttons.release(source)
+        if action is not None:
+            self.program.release(action)
 
     def _keep_after_crash(self) -> None:
-        if self.session is not None:
-            print(f"silverball: the game ended unexpectedly. {self._keep_log('crash')}", file=sys.stderr)
+        stage = self._stage
+        if stage is not None and stage.is_played:
+            path = self.program.keep_file("crash")
+            where = f"A replay for a report is at {path}." if path else "Its replay is lost."
+            print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)
+
+
+def _program(
+    store: Store,
+    settings: Settings,
+    library: Library,
+    seed: int | None,
+    say: Callable[[str], None],
+    may_fall_back: bool,
+) -> Program:
+    """The program on the chosen table; on the default one if a table chosen long ago is no longer there."""
+    from silverball.errors import TableError
+
+    themes = tuple(THEMES)
+    try:
+        return Program(store, settings, library, seed, say, themes)
+    except TableError as error:
+        if not may_fall_back:
+            raise
+        say(str(error))
+        default = Settings.model_fields["table"].default
+        return Program(store, settings.changed(table=default), library, seed, say, themes)

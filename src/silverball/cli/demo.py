@@ -2,22 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import typer
 
 from silverball.cli.output import file_name
-
-if TYPE_CHECKING:
-    from silverball.drawing import Renderer
-    from silverball.drawing.film import Picture
-
-TICK_RATE = 240
-SECOND_BALL_AFTER = 3.0  # [s]
-HEIGHTS = {".gif": 720, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
-GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in memory, a byte or two for each
 
 
 def demo(
@@ -30,15 +19,17 @@ def demo(
     seconds: float = typer.Option(20.0, min=0.1, max=600.0, help="Of play. A PNG shows the last moment."),
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
+    player: str = typer.Option("reflex", help="Who plays; `silverball simulate --help` names them."),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
     theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
 ) -> None:
-    """Let the program play by itself and make a film of it; no display is needed.
+    """Let the program play by itself and make a film of it, with sound in an MP4; no display is needed.
 
-    Example: `silverball demo --out demo.gif --seconds 20`
+    Example: `silverball demo --out demo.mp4 --seconds 20`
     """
-    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, theme=theme, force=force)
+    place = out or free_name("demo.gif")
+    make_demo(place, seconds, table, seed, size, player=player, theme=theme, force=force)
 
 
 def make_demo(
@@ -48,75 +39,37 @@ def make_demo(
     seed: int = 7,
     size: int | None = None,
     *,
+    player: str = "reflex",
     theme: str = "neon",
     force: bool = False,
 ) -> None:
     """Make a film, or a picture, of the program playing; say where it is."""
-    from rich.progress import Progress
-
-    from silverball.cli.console import compiling, errors
+    from silverball.cli.console import compiling
+    from silverball.cli.filming import ENDINGS, film_size, shoot
     from silverball.cli.look import baking, theme_named
-    from silverball.drawing import Renderer, best_size
-    from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
-    from silverball.errors import OutputError
+    from silverball.drawing import Renderer
+    from silverball.drawing.film import check_output
+    from silverball.players import make_player
     from silverball.table import generate_table, load_table
 
     look = theme_named(theme)
-    check_output(out, (".gif", ".mp4", ".png"), force=force)
-    ending = out.suffix.lower()
+    check_output(out, ENDINGS, force=force)
+    hands = make_player(player)
     board = load_table(table)
     board_seed = None if board.random is None else seed
     if board.random is not None:
         board = generate_table(seed, board)
-    height = size or HEIGHTS[ending]
-    width, height = best_size(board.board, height)
-    if ending == ".gif" and width * height * seconds * FILM_RATES[ending] > GIF_LIMIT:
-        raise OutputError(
-            f"{out}: a GIF of {seconds:g} s at {width} × {height} pixels is too large to make; "
-            "ask for fewer --seconds, a smaller --size, or an .mp4"
-        )
+    picture_size = film_size(out, board, seconds, size)
     with compiling():
+        from silverball.app.stages import Showing
         from silverball.app.startup import warm_up
-        from silverball.players import make_player
-        from silverball.world import World
 
         warm_up(board)
-        make_player("reflex").press(World(board))
+        stage = Showing(board, seed, hands)
     with baking() as progress:
-        renderer = Renderer(board, (width, height), theme=look, board_seed=board_seed, progress=progress)
-    with Progress(console=errors, transient=True) as bar:
-        task = bar.add_task(f"playing into {out.name}", total=seconds)
-
-        def advance(done: float) -> None:
-            bar.update(task, completed=done)
-
-        if ending == ".png":
-            write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, advance))[-1])
-        else:
-            write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], advance))
+        renderer = Renderer(board, picture_size, theme=look, board_seed=board_seed, progress=progress)
+    shoot(out, stage, renderer, seconds)
     renderer.close()
-    typer.echo(f"wrote {out}")
-
-
-def film(
-    renderer: Renderer, seed: int, seconds: float, rate: float, advance: Callable[[float], None]
-) -> Iterator[Picture]:
-    """The pictures of the program playing, `rate` for every second of play."""
-    from silverball.drawing import Moment
-    from silverball.players import make_player
-    from silverball.world import World
-
-    world = World(renderer.table, seed, TICK_RATE)
-    player = make_player("reflex")
-    for number in range(1, max(round(seconds * rate), 1) + 1):
-        while world.tick < round(number * TICK_RATE / rate):
-            wanted = 2 if world.time > SECOND_BALL_AFTER else 1
-            if len(world.balls) < min(wanted, world.table.board.max_balls):
-                world.create_ball()
-            world.step(*player.press(world))
-            renderer.note(world.events, TICK_RATE)
-        yield renderer.array(Moment.of(world))
-        advance(number / rate)
 
 
 def free_name(name: str) -> Path:

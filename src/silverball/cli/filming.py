@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
+    from silverball.app.sound.mixdown import FilmSound
+    from silverball.app.stages import Stage
+    from silverball.drawing import Renderer
     from silverball.drawing.film import Picture
     from silverball.table import Table
 
 ENDINGS = (".gif", ".mp4", ".png")
-HEIGHTS = {".gif": 720, ".mp4": 1080, ".png": 1152}  # [pixel] if no size is asked for
+HEIGHTS = {".gif": 720, ".mp4": 1152, ".png": 1152}  # [pixel] if no size is asked for
 GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in memory, a byte or two for each
-
-Pictures = Callable[[float, Callable[[float], None]], "Iterator[Picture]"]
-"""Makes the pictures, so many for each second of play, and tells after each how many seconds are done."""
 
 
 def film_size(out: Path, table: Table, seconds: float, height: int | None) -> tuple[int, int]:
@@ -40,10 +40,14 @@ def film_size(out: Path, table: Table, seconds: float, height: int | None) -> tu
     return size
 
 
-def shoot(out: Path, seconds: float, pictures: Pictures, *, quiet: bool = False) -> None:
-    """Make the pictures with a moving line, write them, and say where they are; of a PNG the last one."""
+def shoot(out: Path, stage: Stage, renderer: Renderer, seconds: float, *, quiet: bool = False) -> None:
+    """Film what goes on on a stage with a moving line, and say where it is; of a PNG only the last moment.
+
+    An MP4 has the sounds of the game.
+    """
     from rich.progress import Progress
 
+    from silverball.app.sound.mixdown import FilmSound
     from silverball.cli.console import errors
     from silverball.drawing.film import FILM_RATES, write_film, write_picture
 
@@ -54,10 +58,56 @@ def shoot(out: Path, seconds: float, pictures: Pictures, *, quiet: bool = False)
         def advance(done: float) -> None:
             bar.update(task, completed=done)
 
+        rate = FILM_RATES.get(ending, FILM_RATES[".mp4"])
+        sound = FilmSound(stage.game.table, stage.game.tick_rate, rate) if ending == ".mp4" else None
+        pictures = filmed(stage, renderer, seconds, rate, advance, sound, only_last=ending == ".png")
         if ending == ".png":
-            *_, last = pictures(1.0 / max(seconds, 1e-9), advance)
-            write_picture(out, last)
+            write_picture(out, next(pictures))
         else:
-            write_film(out, pictures(FILM_RATES[ending], advance))
+            write_film(out, pictures, sound.track if sound is not None else None)
     if not quiet:
         typer.echo(f"wrote {out}")
+
+
+def filmed(
+    stage: Stage,
+    renderer: Renderer,
+    seconds: float,
+    rate: float,
+    advance: Callable[[float], None],
+    sound: FilmSound | None = None,
+    *,
+    only_last: bool = False,
+) -> Iterator[Picture]:
+    """The pictures of what goes on on a stage.
+
+    Args:
+        stage: Is moved on.
+        renderer: Of its table.
+        seconds: How long.
+        rate: Pictures for every second of play.
+        advance: Told after each picture how many seconds are done.
+        sound: Collects what is heard.
+        only_last: Whether only the last picture is wanted.
+    """
+    from silverball.app.controls import Held
+    from silverball.app.display import Display
+    from silverball.drawing import Moment
+
+    nothing = Held((False, False), (False, False))
+    display, world = Display(), stage.game.world
+    start, count = world.tick, max(round(seconds * rate), 1)
+    for number in range(1, count + 1):
+        stage.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
+        events, news = stage.take_events(), stage.take_news()
+        display.tell(news)
+        renderer.note(events, world.tick_rate)
+        if sound is not None:
+            sound.note(world, events, stage.game.held, news)
+        dots, moment = display.frame(stage.game.face, number / rate), Moment.of(world)
+        if not only_last or number == count:
+            yield renderer.array(moment, dots)
+        else:
+            for _ in renderer.effects.trails(moment):
+                pass  # they remember the way of the balls
+        advance(number / rate)

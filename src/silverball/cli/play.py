@@ -2,29 +2,43 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import typer
 
 from silverball.errors import NoDisplay
+from silverball.game.news import Mode
+
+if TYPE_CHECKING:
+    from silverball.game.replay import Replay
 
 DEMO_SECONDS = 20.0
 
 
 def play(
-    table: str = typer.Option(
-        "random", help="A built-in table or a table file; random makes boards of its own."
+    table: str | None = typer.Option(
+        None, help="A built-in table or a table file; the one chosen last if not given."
     ),
     seed: int | None = typer.Option(
         None, min=0, max=2**63 - 1, help="Of the first board; drawn if not given."
     ),
+    mode: Mode | None = typer.Option(
+        None, help="Begin this game at once: arcade, or free for the original. Without, the menu comes first."
+    ),
 ) -> None:
-    """Play in a window: A and D move the paddles, Space brings a ball, F1 shows all keys.
+    """Play in a window: A and D move the paddles, Space chooses and brings a ball, F1 shows all keys.
 
-    Example: `silverball play --table random --seed 7`
+    Example: `silverball play --table random --seed 7 --mode free`
     """
-    open_window(table, seed)
+    open_window(table, seed, mode)
 
 
-def open_window(table: str = "random", seed: int | None = None) -> None:
+def open_window(
+    table: str | None = None,
+    seed: int | None = None,
+    mode: Mode | None = None,
+    replay: Replay | None = None,
+) -> None:
     """Open the window and play, telling the terminal while the physics is being compiled."""
     from silverball.app.startup import compiling_words
     from silverball.app.window import Window
@@ -36,7 +50,7 @@ def open_window(table: str = "random", seed: int | None = None) -> None:
         status.update(compiling_words())
         status.start()
 
-    window = Window(table, seed, on_compile=tell, on_ready=status.stop)
+    window = Window(table, seed, mode=mode, replay=replay, on_compile=tell, on_ready=status.stop)
     try:
         window.run()
     finally:

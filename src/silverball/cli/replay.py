@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,8 +12,6 @@ from silverball.cli.output import file_name
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
-    from silverball.drawing import Renderer
-    from silverball.drawing.film import Picture
     from silverball.game.replay import Replay, Verdict
 
 LAST = "last"
@@ -35,6 +32,7 @@ def replay(
         None, min=0.1, max=600.0, help="How much of it to film; a PNG shows the last moment."
     ),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
+    theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
     as_json: bool = typer.Option(False, "--json", help="Print what there is to tell as JSON."),
 ) -> None:
@@ -56,7 +54,7 @@ def replay(
         told["against"] = {"file": against} | verdict._asdict()
         say(as_json, f"{file} and {against}: {verdict.message}")
     if out is not None and (verdict is None or verdict.ok):
-        make_film(out, game, start, seconds, size, force=force, quiet=as_json)
+        make_film(out, game, start, seconds, size, theme=theme, force=force, quiet=as_json)
         told["out"] = str(out)
     if as_json:
         typer.echo(json.dumps(told, ensure_ascii=False))
@@ -87,11 +85,10 @@ def load(file: str) -> Replay:
 
 def last_game() -> str | None:
     """The replay of the game that was played last, if there is one."""
-    from importlib import import_module
+    from silverball.game.store import Store
 
-    with import_module("silverball.game.store").Store() as store:
-        text: str | None = store.last_game()
-    return text
+    with Store() as store:
+        return store.last_game()
 
 
 def facts(file: str, game: Replay) -> dict[str, Any]:
@@ -139,9 +136,8 @@ def compared(game: Replay, other: Replay) -> Verdict:
 
 def watch(game: Replay) -> None:
     """Watch a replay in the window."""
-    from silverball.cli import play
+    from silverball.cli.play import open_window
 
-    open_window: Any = play.open_window
     open_window(replay=game)
 
 
@@ -152,6 +148,7 @@ def make_film(
     seconds: float | None,
     size: int | None,
     *,
+    theme: str = "neon",
     force: bool,
     quiet: bool = False,
 ) -> None:
@@ -160,39 +157,22 @@ def make_film(
     Raises:
         SilverballError: The part is empty, or the file cannot be written.
     """
+    from silverball.app.stages import Watching
     from silverball.cli.filming import ENDINGS, film_size, shoot
+    from silverball.cli.look import baking, theme_named
     from silverball.drawing import Renderer
     from silverball.drawing.film import check_output
+    from silverball.game.replay import ReplayPlayer
 
     check_output(out, ENDINGS, force=force)
     if start >= game.seconds:
         raise SilverballError(f"--from must be before the game's end at {game.seconds:.2f} s, got {start:g}")
     length = min(game.seconds - start, game.seconds if seconds is None else seconds)
-    renderer = Renderer(game.table, film_size(out, game.table, length, size))
-    shoot(
-        out, length, lambda rate, advance: pictures(renderer, game, start, length, rate, advance), quiet=quiet
-    )
-
-
-def pictures(
-    renderer: Renderer,
-    game: Replay,
-    start: float,
-    length: float,
-    rate: float,
-    advance: Callable[[float], None],
-) -> Iterator[Picture]:
-    """The pictures of a part of a replay, `rate` for every second of play."""
-    from silverball.drawing import Moment
-    from silverball.game.replay import ReplayPlayer
-
-    player = ReplayPlayer(game)
-    first = round(start * game.tick_rate)
-    player.seek(first)
-    for number in range(1, max(round(length * rate), 1) + 1):
-        until = first + round(number * game.tick_rate / rate)
-        while player.tick < until and not player.at_end:
-            player.advance()
-            renderer.note(player.game.take_events(), game.tick_rate)
-        yield renderer.array(Moment.of(player.game.world)._replace(score=player.game.score))
-        advance(number / rate)
+    with baking() as progress:
+        renderer = Renderer(
+            game.table, film_size(out, game.table, length, size), theme=theme_named(theme), progress=progress
+        )
+    stage = Watching(ReplayPlayer(game))
+    stage.player.seek(round(start * game.tick_rate))
+    shoot(out, stage, renderer, length, quiet=quiet)
+    renderer.close()

@@ -18,8 +18,8 @@ def run_soak(
     """Soak until so many frames are done; what came of it, for `print_soak`."""
     from rich.progress import Progress
 
-    from silverball.app.keep import data_folder
     from silverball.cli.console import compiling, errors
+    from silverball.game.folder import data_folder
     from silverball.table import load_table
 
     recipe = load_table(table)

@@ -45,7 +45,24 @@ class Moment(NamedTuple):
         return cls(world.time, balls, (math.degrees(left.angle), math.degrees(right.angle)), world.score)
 
     @classmethod
+    def between(cls, first: Moment, second: Moment, share: float) -> Self:
+        """What there is to see between two moments a tick apart: 0 is the first, 1 the second."""
+        was = {ball.id: ball for ball in first.balls}
+        balls = tuple(
+            ball._replace(x=_mixed(was[ball.id].x, ball.x, share), z=_mixed(was[ball.id].z, ball.z, share))
+            if ball.id in was
+            else ball
+            for ball in second.balls
+        )
+        left, right = (_mixed(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
+        return cls(_mixed(first.time, second.time, share), balls, (left, right), second.score)
+
+    @classmethod
     def before(cls, table: Table) -> Self:
         """The moment before play starts: no ball, paddles at rest."""
         rest = {paddle.side: paddle.rest_angle for paddle in table.paddle}
         return cls(0.0, (), (rest.get("left", 0.0), rest.get("right", 0.0)), 0)
+
+
+def _mixed(first: float, second: float, share: float) -> float:
+    return first + share * (second - first)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.errors import SilverballError
 from silverball.table import generate_table, load_table, table_digest, table_names
 
 if TYPE_CHECKING:
+    from silverball.game.replay import Replay
     from silverball.game.store import Score
 
 
@@ -31,15 +31,16 @@ def prove(score: Score, text: str) -> Proof:
         score: What is claimed.
         text: Its replay.
     """
-    replays: Any = importlib.import_module("silverball.game.replay")
+    from silverball.game.replay import Replay, verify
+
     if of_another_version(text):
         return Proof(None, "its replay is of another version of the physics or the rules")
     try:
-        replay = replays.Replay.from_text(text)
+        replay = Replay.from_text(text)
         why = _another_game(score, replay)
         if why:
             return Proof(False, why)
-        verdict = replays.verify(replay)
+        verdict = verify(replay)
     except SilverballError as error:
         return Proof(False, " ".join(str(error).split()))
     if not verdict.ok:
@@ -51,10 +52,10 @@ def prove(score: Score, text: str) -> Proof:
 
 def of_another_version(text: str) -> bool:
     """Whether a replay was written by a program whose games go otherwise; it is not false for that."""
+    from silverball.game.rules import RULES_VERSION
     from silverball.physics import PHYSICS_VERSION
 
-    rules: Any = importlib.import_module("silverball.game.rules")
-    ours = {"physics": PHYSICS_VERSION, "rules": rules.RULES_VERSION}
+    ours = {"physics": PHYSICS_VERSION, "rules": RULES_VERSION}
     for line in text.splitlines()[:6]:
         key, _, value = line.partition(" = ")
         if key in ours and value.isdecimal() and int(value) != ours[key]:
@@ -62,7 +63,7 @@ def of_another_version(text: str) -> bool:
     return False
 
 
-def _another_game(score: Score, replay: Any) -> str:
+def _another_game(score: Score, replay: Replay) -> str:
     """What shows that a replay is one of another game; empty if nothing does."""
     for what, claimed, found in (("mode", score.mode, replay.mode), ("seed", score.seed, replay.seed)):
         if claimed != found:
@@ -72,7 +73,7 @@ def _another_game(score: Score, replay: Any) -> str:
     return ""
 
 
-def _may_be_its_table(score: Score, replay: Any) -> bool:
+def _may_be_its_table(score: Score, replay: Replay) -> bool:
     """Whether a replay's table is that of the score, or a board of it."""
     digest = table_digest(replay.table)
     if digest == score.table_digest:

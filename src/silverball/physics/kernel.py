@@ -25,6 +25,7 @@ import hashlib
 import os
 import shutil
 import sys
+import threading
 import time
 from collections.abc import Callable
 from functools import cache
@@ -39,6 +40,7 @@ SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
 DRAWING = ("physics", "drawing/kernels")
 KERNEL_PACKAGES = (*PLAY, "drawing")  # a kernel elsewhere must be added here; a test sees to it
+_ONE_AT_A_TIME = threading.Lock()
 KEEP_SECONDS = 30 * 24 * 3600.0
 
 
@@ -133,14 +135,16 @@ def _compile(function: F, **more: bool) -> F:
         "no_cfunc_wrapper": True,
         **more,
     }
-    before = SETTINGS.CACHE_DIR
-    try:
-        # Numba picks the place of the cache when the decorator runs, from this one setting.
-        if folder is not None:
-            SETTINGS.CACHE_DIR = str(folder)
-        compiled = numba.njit(**options)(function)
-    finally:
-        SETTINGS.CACHE_DIR = before
+    # Numba picks the place of the cache when the decorator runs, from this one setting, which all threads
+    # share: a window loads the physics in one and the drawing in another.
+    with _ONE_AT_A_TIME:
+        before = SETTINGS.CACHE_DIR
+        try:
+            if folder is not None:
+                SETTINGS.CACHE_DIR = str(folder)
+            compiled = numba.njit(**options)(function)
+        finally:
+            SETTINGS.CACHE_DIR = before
     if more.get("no_cpython_wrapper") and isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal
     if hasattr(compiled, "_cache"):

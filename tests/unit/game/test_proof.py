@@ -6,18 +6,17 @@ from datetime import UTC, datetime
 
 import pytest
 
+from silverball.game.game import Game
 from silverball.game.proof import prove
 from silverball.game.store import Score
 from silverball.table import load_table, table_digest
-
-games = pytest.importorskip("silverball.game.game")
 
 SEED = 5
 
 
 def played(name: str, seed: int = SEED, mode: str = "arcade") -> tuple[Score, str]:
     """A game that reached some points: its score and its replay."""
-    game = games.Game(name, seed=seed, mode=mode)
+    game = Game(name, seed=seed, mode=mode)
     while not game.score:
         if not game.face.on_board:
             game.create_ball()

@@ -1,0 +1,134 @@
+"""What does the physics see? Velocities, contact points and normals on the table, and the figures beside it.
+
+Drawn over a picture through the same camera, at the board's own height: an arrow stands where the solver has
+it, even where a wall hides the ball from the eye.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+import pygame
+
+from silverball.app.framerate import FrameTimes
+from silverball.app.latency import LatencyMeter, middle
+from silverball.drawing import palette
+from silverball.drawing.text import line
+
+if TYPE_CHECKING:
+    from silverball.drawing import Camera
+    from silverball.world import Event, World
+
+VELOCITY_SECONDS = 0.12  # an arrow shows where the ball would be after so long
+NORMAL_LENGTH = 0.9  # [u]
+CONTACT_SECONDS = 1.0  # for which a contact stays visible
+LOG_LINES = 10
+VELOCITY = (120, 255, 160)
+NORMAL = (255, 210, 80)
+TOUCH = (150, 160, 190)
+OUTLINE = (255, 90, 150)
+_QUIET = ("touch", "ball_touch")
+
+
+class _Seen(NamedTuple):
+    time: float
+    event: Event
+
+
+class DebugView:
+    """Remembers what happened lately and draws it when asked."""
+
+    def __init__(self) -> None:
+        self._contacts: deque[_Seen] = deque(maxlen=64)
+        self._log: deque[str] = deque(maxlen=LOG_LINES)
+
+    def forget(self) -> None:
+        """Another game begins."""
+        self._contacts.clear()
+        self._log.clear()
+
+    def note(self, events: Iterable[Event], tick_rate: int) -> None:
+        """Remember what happened since the last call."""
+        for event in events:
+            time = event.tick / tick_rate + event.offset
+            self._contacts.append(_Seen(time, event))
+            if event.kind not in _QUIET:
+                what = f"{event.kind} {event.part}" if event.part else event.kind
+                self._log.append(f"{time:8.4f} s  ball {event.ball}  {what}  {event.speed:.2f} u/s")
+
+    def draw(self, target: pygame.Surface, camera: Camera, world: World) -> None:
+        """Draw velocities and contacts onto a picture that the camera has seen."""
+        radius = world.table.board.ball_radius
+        for paddle, moving in zip(("left", "right"), world.paddles, strict=True):
+            for part in world.table.paddle:
+                if part.side == paddle:
+                    corners = part.corners(math.degrees(moving.angle))
+                    pygame.draw.aalines(target, OUTLINE, True, [camera.to_pixel(*c) for c in corners])
+        for _, event in (seen for seen in self._contacts if 0.0 <= world.time - seen.time < CONTACT_SECONDS):
+            if event.kind in ("created", "gutter", "jitter", "jam"):
+                continue
+            x, _, z = event.position
+            nx, _, nz = event.normal
+            foot = camera.to_pixel(x - nx * radius, z - nz * radius)
+            tip = camera.to_pixel(x + nx * (NORMAL_LENGTH - radius), z + nz * (NORMAL_LENGTH - radius))
+            color = TOUCH if event.kind in _QUIET else NORMAL
+            pygame.draw.aaline(target, color, foot, tip)
+            pygame.draw.aacircle(target, color, foot, 3)
+        for ball in world.balls:
+            x, _, z = ball.position
+            vx, _, vz = ball.velocity
+            start = camera.to_pixel(x, z)
+            end = camera.to_pixel(x + VELOCITY_SECONDS * vx, z + VELOCITY_SECONDS * vz)
+            pygame.draw.line(target, VELOCITY, start, end, 2)
+            pygame.draw.aacircle(target, VELOCITY, end, 3)
+            rim = [camera.to_pixel(x + radius * c, z + radius * s) for c, s in _CIRCLE]
+            pygame.draw.aalines(target, VELOCITY, True, rim)
+
+    def draw_figures(
+        self,
+        target: pygame.Surface,
+        world: World,
+        frames: FrameTimes,
+        latency: LatencyMeter,
+        speed: float,
+        area: pygame.Rect,
+        size: int,
+    ) -> None:
+        """Write the figures into an area: frames, latency, the world's counts, the last events.
+
+        Args:
+            target: The picture.
+            world: The world that is seen.
+            frames: Of the window.
+            latency: Of the window.
+            speed: Seconds of play per second.
+            area: Where to write [pixel].
+            size: Of the text [pixel].
+        """
+        lines = [
+            f"{frames.per_second:.0f} frames/s, slowest {1e3 * frames.slowest:.1f} ms, "
+            f"{world.tick_rate} ticks/s, speed {speed:g}",
+            f"button to tick {1e3 * middle(latency.to_tick):.1f} ms, "
+            f"to picture {1e3 * middle(latency.to_picture):.1f} ms (medians of {len(latency.to_tick)})",
+            f"seed {world.seed}  tick {world.tick}  {world.time:.2f} s  jams {world.jams}",
+            *(
+                f"ball {ball.id}  x {ball.position[0]:+.4f}  z {ball.position[2]:+.4f}  "
+                f"v {(ball.velocity[0] ** 2 + ball.velocity[2] ** 2) ** 0.5:6.3f} u/s"
+                for ball in world.balls
+            ),
+            *self._log,
+        ]
+        height = round(1.15 * size)
+        veil = pygame.Surface((area.width, height * len(lines) + size), pygame.SRCALPHA)
+        veil.fill((0, 0, 0, 150))
+        target.blit(veil, area.topleft)
+        for row, text in enumerate(lines):
+            target.blit(
+                line(text, size, palette.TEXT), (area.left + size // 2, area.top + size // 2 + row * height)
+            )
+
+
+_CIRCLE = [(math.cos(math.pi * i / 12), math.sin(math.pi * i / 12)) for i in range(24)]

@@ -1,0 +1,109 @@
+"""What does a command of the menus bring about? One function for each kind of command."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING
+
+from silverball.app.menus import commands
+from silverball.app.stages import Playing, Watching
+
+if TYPE_CHECKING:
+    from silverball.app.program import Program
+
+
+@singledispatch
+def carry_out(command: object, program: Program) -> None:
+    """Do what a command says; None says nothing."""
+    if command is not None:
+        raise TypeError(f"expected a command of the menus, got {command!r}")
+
+
+@carry_out.register(commands.Play)
+def _(command: commands.Play, program: Program) -> None:
+    program.play(command.mode, command.table, command.seed)
+
+
+@carry_out.register(commands.WatchLast)
+def _(command: commands.WatchLast, program: Program) -> None:
+    program.watch_text(program.store.last_game() or "", "the last game")
+
+
+@carry_out.register(commands.WatchScore)
+def _(command: commands.WatchScore, program: Program) -> None:
+    program.watch_score(int(command.key))
+
+
+@carry_out.register(commands.WatchMachine)
+def _(command: commands.WatchMachine, program: Program) -> None:
+    program.show_off()
+
+
+@carry_out.register(commands.Attract)
+def _(command: commands.Attract, program: Program) -> None:
+    if command.on and program.is_ready and not isinstance(program.stage, Playing):
+        program.show_off(nobody_there=True)
+
+
+@carry_out.register(commands.Change)
+def _(command: commands.Change, program: Program) -> None:
+    program.use(command.settings)
+
+
+@carry_out.register(commands.Quit)
+def _(command: commands.Quit, program: Program) -> None:
+    program.is_over = True
+
+
+@carry_out.register(commands.Resume)
+def _(command: commands.Resume, program: Program) -> None:
+    """The menu has closed: the game goes on."""
+
+
+@carry_out.register(commands.Restart)
+def _(command: commands.Restart, program: Program) -> None:
+    if isinstance(program.stage, Playing):
+        program.begin(program.stage.game.mode)
+
+
+@carry_out.register(commands.EndGame)
+def _(command: commands.EndGame, program: Program) -> None:
+    if isinstance(program.stage, Playing):
+        program.stage.game.end()
+        program.keep_last_game()
+    program.stage = None
+
+
+@carry_out.register(commands.SaveReplay)
+def _(command: commands.SaveReplay, program: Program) -> None:
+    path = program.keep_file("game")
+    program.menus.say("saved" if path else "could not be saved")
+    program.say(f"the replay is at {path}" if path else "the data folder cannot be written")
+
+
+@carry_out.register(commands.Initials)
+def _(command: commands.Initials, program: Program) -> None:
+    program.keeper.rename(program.ended, command.text)
+    program.use(program.settings.changed(initials=command.text))
+
+
+@carry_out.register(commands.ReplaySpeed)
+def _(command: commands.ReplaySpeed, program: Program) -> None:
+    program.change_speed(command.step)
+
+
+@carry_out.register(commands.ReplayPause)
+def _(command: commands.ReplayPause, program: Program) -> None:
+    program.is_held = not program.is_held
+
+
+@carry_out.register(commands.ReplayJump)
+def _(command: commands.ReplayJump, program: Program) -> None:
+    if isinstance(program.stage, Watching):
+        player = program.stage.player
+        player.seek(player.tick + round(command.seconds * player.replay.tick_rate))
+
+
+@carry_out.register(commands.EndReplay)
+def _(command: commands.EndReplay, program: Program) -> None:
+    program.end_watching()

@@ -1,0 +1,436 @@
+"""What is the program doing, and what follows from a button? Games begin, pause, end and are kept.
+
+At any time there is a board, perhaps a stage on it (somebody plays, a replay, the program itself), perhaps a
+page of the menus on the score display. The window passes in actions and time, and shows what is here; no
+window in here.
+"""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Controls, Held
+from silverball.app.display import Display
+from silverball.app.keeping import Ended, Keeper
+from silverball.app.menus import Button, Menus, ReplayFace
+from silverball.app.orders import carry_out
+from silverball.app.settings import Settings
+from silverball.app.stages import Playing, Showing, Stage, Watching
+from silverball.errors import BoardFull, NoRoom, SilverballError
+from silverball.game.news import Mode
+from silverball.table import Table
+
+if TYPE_CHECKING:
+    from silverball.app.library import Library
+    from silverball.drawing.dots import Dots
+    from silverball.game.replay import Replay
+    from silverball.game.store import Store
+
+SEEDS = 1_000_000  # a new board's seed is below it: short enough to tell a friend
+OVER_SECONDS = 2.5  # for which the end of a game is shown before a page of the menus comes
+SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
+AS_PLAYED = SPEEDS.index(1.0)
+
+
+class Program:
+    """What is going on.
+
+    Args:
+        store: What is kept.
+        settings: As they were kept.
+        library: The tables and scores that can be chosen.
+        seed: Of the first board; None draws one.
+        say: Tells the player a sentence.
+        themes: Names of the colours there are.
+
+    Attributes:
+        settings: As they are now.
+        table: The board that is seen, finished.
+        seed: That it was made with.
+        recipe: What it was made of.
+        stage: What goes on on it; None before anything does.
+        menus: The pages on the score display.
+        is_ready: Whether the physics is loaded.
+        is_over: Whether the program is to end.
+        is_held: Whether a replay stands still.
+        store: What is kept.
+        keeper: Keeps games in it.
+        ended: What has become of the game that was over last.
+        say: Tells the player a sentence.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        settings: Settings,
+        library: Library,
+        seed: int | None = None,
+        say: Callable[[str], None] = lambda text: None,
+        themes: Sequence[str] = ("neon",),
+    ) -> None:
+        self.settings = settings
+        self.stage: Stage | None = None
+        self.is_ready = self.is_over = False
+        self.is_held = False
+        self.menus = Menus(settings, library.entries(), library.scores, themes=themes)
+        self.menus.know(has_last_game=store.last_game() is not None)
+        self.display = Display()
+        self.store, self.say = store, say
+        self.keeper = Keeper(store, library)
+        self._library = library
+        self._controls = Controls(settings)
+        self._now = 0.0
+        self._speed = AS_PLAYED
+        self._wish: Callable[[], None] | None = None  # waits for the physics
+        self._ended_at: float | None = None  # when the game that is played was over
+        self._counts = True  # whether its score is for the scores
+        self.ended = Ended()
+        self._is_shown_off = False  # the program plays because nobody is there
+        self._is_fresh = True  # nobody has played on this board yet
+        self._look_at(settings.table, seed)
+
+    # --- what there is to see -----------------------------------------------------------------------
+
+    @property
+    def speed(self) -> float:
+        """Seconds of play per second of real time."""
+        return SPEEDS[self._speed]
+
+    @property
+    def is_playing(self) -> bool:
+        """Whether somebody's paddles move now."""
+        return isinstance(self.stage, Playing) and not self.menus.is_open and not self.stage.has_ended
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether time goes on on the board."""
+        if self.stage is None or self.stage.has_ended:
+            return False
+        if isinstance(self.stage, Playing):
+            return not self.menus.is_open
+        return not self.is_held
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether a game waits for its player."""
+        return isinstance(self.stage, Playing) and self.menus.is_open and not self.stage.has_ended
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether the board makes sounds: not while it only shows off."""
+        return not self._is_shown_off
+
+    @property
+    def board_seed(self) -> int | None:
+        """The seed of the board, None if it is always the same."""
+        return None if self.recipe.random is None else self.seed
+
+    @property
+    def wants_input(self) -> bool:
+        """Whether the next key or gamepad button belongs to the menus, whatever it is."""
+        return self.menus.wants_key or self.menus.wants_pad
+
+    def dots(self, seconds: float) -> Dots:
+        """What the score display shows."""
+        below = None
+        if self.stage is not None:
+            best = self._library.best(self.settings.table, self.stage.game.mode)
+            below = self.display.frame(self.stage.game.face, seconds, best if self.stage.is_played else 0)
+        if not self.menus.is_open and below is None:
+            from silverball.drawing.dots import Dots
+
+            return Dots()
+        return self.menus.draw(seconds, below)
+
+    # --- time ---------------------------------------------------------------------------------------
+
+    def pass_time(self, seconds: float) -> None:
+        """Real time has gone on.
+
+        Args:
+            seconds: By a clock that never goes back [s].
+        """
+        self._now = seconds
+        carry_out(self.menus.tick(seconds), self)
+        stage = self.stage
+        if isinstance(stage, Playing) and stage.has_ended:
+            self._after_the_end(stage)
+        if isinstance(stage, Watching):
+            stage.player.prepare(480)  # a little ahead, so that a jump is quick
+            self.menus.show_replay(self._replay_face(stage))
+
+    def advance(self, held: Held, ticks: int) -> None:
+        """Move what goes on on the board by a number of ticks."""
+        if self.stage is not None and self.is_moving:
+            try:
+                self.stage.advance(held, ticks)
+            except SilverballError as error:  # a replay that is not the game it says
+                self.say(str(error))
+                self._stop_watching()
+
+    def single_tick(self, held: Held) -> None:
+        """Move on by one tick while the game waits."""
+        if self.stage is None or self.is_moving or self.stage.has_ended:
+            self.say("one tick at a time is for a game that is paused")
+            return
+        self._no_longer_counts()
+        self.stage.advance(held, 1)
+
+    # --- buttons ------------------------------------------------------------------------------------
+
+    def press(self, action: Action, *, again: bool = False) -> None:
+        """A key or gamepad button went down.
+
+        Args:
+            action: What it asks for; full screen, help, debug view and mute are the window's.
+            again: Whether shift is held: the same board instead of a new one.
+        """
+        if action is Action.SLOWER or action is Action.FASTER:
+            self.change_speed(-1 if action is Action.SLOWER else 1)
+        elif self.menus.is_open:
+            if action in MENU_BUTTONS:
+                self.press_menu(MENU_BUTTONS[action])
+            elif action is Action.NEW_BOARD and isinstance(self.stage, Playing):
+                self._new_board(again)
+            elif action is Action.JITTER and self.is_paused:
+                self.say("the game is paused")
+        elif isinstance(self.stage, Playing):
+            self._press_in_play(action, again, self.stage)
+        elif action not in (Action.JITTER, Action.NEW_BOARD):
+            self._stop_watching()  # the program plays; whoever touches anything wants the menu
+
+    def release(self, action: Action) -> None:
+        """A key or gamepad button came up."""
+        if action in MENU_BUTTONS:
+            self.menus.release(MENU_BUTTONS[action])
+
+    def press_menu(self, button: Button) -> None:
+        """A button of the menus went down."""
+        carry_out(self.menus.press(button), self)
+
+    def capture(self, name: str) -> None:
+        """The key or gamepad button that the menus have asked for."""
+        carry_out(self.menus.capture(name), self)
+
+    def lose_focus(self) -> None:
+        """The window no longer hears the keys: a game with a ball on the board waits."""
+        self.menus.release_all()
+        if self.is_playing:
+            self.menus.open_pause()
+
+    def set(self, **values: Any) -> None:
+        """Change settings otherwise than in the menus, by a key for example."""
+        self.use(self.settings.changed(**values))
+        self.menus.use(self.settings)
+
+    def _press_in_play(self, action: Action, again: bool, stage: Playing) -> None:
+        if stage.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
+            self._ended_at = self._now - OVER_SECONDS  # seen enough
+        elif action is Action.CREATE:
+            self._try(stage.game.create_ball)
+        elif action is Action.JITTER:
+            self._try(stage.game.jitter)
+        elif action is Action.PAUSE or action is Action.BACK:
+            self.menus.open_pause()
+        elif action is Action.NEW_BOARD:
+            self._new_board(again)
+        elif action in PADDLES and all(paddle.side != str(action) for paddle in self.table.paddle):
+            self.say(f"this table has no {action} paddle")
+
+    def _try(self, do: Callable[[], object]) -> None:
+        try:
+            do()
+        except BoardFull:
+            count = self.table.board.max_balls
+            self.say("one ball is the most" if count == 1 else f"{count} balls are the most")
+        except NoRoom:
+            self.say("there is no room for a ball now")
+        except SilverballError as reason:
+            self.say(str(reason))
+
+    def change_speed(self, step: int) -> None:
+        """Slower (-1) or faster (+1), by one step."""
+        fastest = AS_PLAYED if isinstance(self.stage, Playing) else len(SPEEDS) - 1
+        self._speed = min(max(self._speed + step, 0), fastest)
+        if isinstance(self.stage, Playing):
+            self.say("as fast as ever" if self.speed == 1.0 else f"{self.speed:g} of the speed")
+        if self.speed < 1.0:
+            self._no_longer_counts()
+
+    def _no_longer_counts(self) -> None:
+        stage = self.stage
+        if self._counts and isinstance(stage, Playing) and stage.game.mode is Mode.ARCADE:
+            self._counts = False
+            self.say("slowed down, this game no longer counts for the scores")
+
+    # --- games --------------------------------------------------------------------------------------
+
+    def get_ready(self) -> None:
+        """The physics is loaded: do what somebody has asked for meanwhile."""
+        self.is_ready = True
+        wish, self._wish = self._wish, None
+        if wish is not None:
+            wish()
+
+    def play(self, mode: Mode, table: str, seed: int | None = None) -> None:
+        """Begin a game as soon as the physics is ready."""
+        self.menus.close()
+        if seed is None and self._is_fresh and table == self.settings.table:
+            seed = self.seed  # the board that is seen is the one that is played
+        if self._look_at(table, seed):
+            self._when_ready(lambda: self.begin(mode))
+
+    def watch(self, replay: Replay) -> None:
+        """Show a replay as soon as the physics is ready."""
+        self._when_ready(lambda: self._show_replay(replay))
+
+    def keep_last_game(self) -> None:
+        """Keep the replay of the game that is played, if anything was played."""
+        stage = self.stage
+        if isinstance(stage, Playing) and self._ended_at is None:
+            self.keeper.last_game(stage.game)
+            self.menus.know(has_last_game=self.store.last_game() is not None)
+
+    def keep_file(self, what: str) -> Path | None:
+        """Keep the replay of the game that is played as a file; where it is, None if it cannot be written."""
+        return self.keeper.file(self.stage.game, what) if isinstance(self.stage, Playing) else None
+
+    def _when_ready(self, do: Callable[[], None]) -> None:
+        if self.is_ready:
+            do()
+        else:
+            self._wish = do
+            self.say("one moment, please: the physics is being made ready")
+
+    def _look_at(self, table: str, seed: int | None) -> bool:
+        """Show another board; False, and the old one, if it cannot be used."""
+        try:
+            recipe = self._library.recipe(table)
+            seed = secrets.randbelow(SEEDS) if seed is None else seed
+            finished = self._library.finished(recipe, seed)
+        except SilverballError as error:
+            if not hasattr(self, "table"):
+                raise
+            self.say(str(error))
+            self.menus.open_main()
+            return False
+        self.recipe: Table = recipe
+        self.table: Table = finished
+        self.seed = seed
+        self._is_fresh = True
+        if recipe.random is not None:
+            self.menus.know(last_seed=seed)
+        return True
+
+    def begin(self, mode: Mode) -> None:
+        """Begin a game on the board that is seen; the physics is ready."""
+        from silverball.game.game import Game
+
+        self.keep_last_game()
+        self._is_fresh = False
+        self._start(Playing(Game(self.table, self.seed, mode)))
+
+    def _start(self, stage: Stage) -> None:
+        self.stage = stage
+        self.display = Display(self._key_of(Action.CREATE), is_calm=self.settings.effects == "less")
+        self._speed, self.is_held, self._is_shown_off = AS_PLAYED, False, False
+        self._ended_at, self._counts, self.ended = None, True, Ended()
+
+    def _key_of(self, action: Action) -> str:
+        """The first key of an action, as the display writes it."""
+        keys = self._controls.keys(action)
+        return keys[0].upper() if keys else "?"
+
+    def _new_board(self, again: bool) -> None:
+        stage = self.stage
+        mode = stage.game.mode if stage is not None else Mode(self.settings.mode)
+        self.menus.close()
+        if not self._look_at(self.settings.table, self.seed if again else None):
+            return
+        self._when_ready(lambda: self.begin(mode))
+        if self.recipe.random is None:
+            self.say(f"{self.table.name} is always the same table; the balls come at other places")
+        elif again:
+            self.say(f"board {self.seed} from the start")
+        else:
+            self.say(f"board {self.seed}. Shift+R plays it again")
+
+    def _after_the_end(self, stage: Playing) -> None:
+        """Keep a game that is over at once, and show what comes after it when it has been seen."""
+        if self._ended_at is None:
+            self.ended = self.keeper.ended(
+                stage.game, self.recipe, self.settings.initials, counts=self._counts
+            )
+            self.menus.know(has_last_game=True)
+            if self.ended.words:
+                self.say(self.ended.words)
+            self._ended_at = self._now
+        elif self._now - self._ended_at >= OVER_SECONDS and not self.menus.is_open:
+            self.menus.open_over(stage.game.score, self.ended.rank)
+
+    def _show_replay(self, replay: Replay) -> None:
+        from silverball.game.replay import ReplayPlayer
+
+        self.keep_last_game()
+        self.recipe = self.table = replay.table
+        self.seed = replay.seed
+        stage = Watching(ReplayPlayer(replay))
+        self._start(stage)
+        self.menus.open_transport(self._replay_face(stage))
+
+    def show_off(self, *, nobody_there: bool = False) -> None:
+        """Let the program play, as soon as the physics is ready."""
+        self._when_ready(lambda: self._show_off(nobody_there))
+
+    def _show_off(self, nobody_there: bool) -> None:
+        from silverball.players import make_player
+
+        if self.recipe.random is not None or self.stage is not None:
+            self._look_at(self.settings.table, None)
+        self._start(Showing(self.table, self.seed, make_player("reflex")))
+        self._is_shown_off = nobody_there
+
+    def _stop_watching(self) -> None:
+        self.stage = None
+        self.menus.reopen()
+
+    def _replay_face(self, stage: Watching) -> ReplayFace:
+        player, rate = stage.player, stage.player.replay.tick_rate
+        return ReplayFace(player.tick / rate, player.ticks / rate, self.speed, self.is_held, "REPLAY")
+
+    def watch_text(self, text: str, source: str) -> None:
+        """Show a replay, or tell why it cannot be played."""
+        from silverball.game.replay import Replay
+
+        try:
+            self.watch(Replay.from_text(text, source))
+        except SilverballError as error:
+            self._refuse(error)
+
+    def watch_score(self, number: int) -> None:
+        """Show the game of a score, or tell why it cannot be played."""
+        try:
+            self.watch_text(self.store.replay(number), f"score {number}")
+        except SilverballError as error:
+            self._refuse(error)
+
+    def end_watching(self) -> None:
+        """Nobody watches any longer: the chosen table is seen again."""
+        self.stage = None
+        self._look_at(self.settings.table, None)
+
+    def use(self, settings: Settings) -> None:
+        """Use other settings and keep them."""
+        changed = settings.table != self.settings.table
+        self.settings = settings
+        self._controls = Controls(settings)
+        self.store.keep_settings(settings.model_dump(mode="json"))
+        if changed and not isinstance(self.stage, Playing):
+            self.end_watching()
+
+    def _refuse(self, error: SilverballError) -> None:
+        self.say(str(error))
+        self.menus.reopen()

@@ -1,0 +1,154 @@
+"""What is going on on the board: somebody plays, a replay is watched, or the program plays by itself?
+
+All three look the same from outside: ticks in, a world to draw, news to tell. No window in here.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING, Protocol
+
+from silverball.app.controls import Held
+from silverball.errors import BoardFull, NoRoom
+from silverball.game.news import Face, Mode, News
+
+if TYPE_CHECKING:
+    from silverball.game.game import Game
+    from silverball.game.replay import ReplayPlayer
+    from silverball.players import Player
+    from silverball.table import Table
+    from silverball.world import Event
+
+SHOW_SECOND_BALL_AFTER = 4.0  # [s] of a ball alone, until the program brings another
+SHOW_PAUSE = 1.0  # [s] between two balls that the program brings
+
+
+class Stage(Protocol):
+    """What is going on on the board."""
+
+    @property
+    def game(self) -> Game:
+        """The game that is seen."""
+
+    @property
+    def is_played(self) -> bool:
+        """Whether the buttons move the paddles."""
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether nothing more will happen."""
+
+    def advance(self, held: Held, ticks: int) -> None:
+        """Move on by a number of ticks."""
+
+    def take_events(self) -> list[Event]:
+        """What happened on the board since this was last asked."""
+
+    def take_news(self) -> list[News]:
+        """What happened in the game since this was last asked."""
+
+
+class Playing:
+    """Somebody plays a game."""
+
+    is_played = True
+
+    def __init__(self, game: Game) -> None:
+        self.game = game
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the game is over."""
+        return self.game.is_over
+
+    def advance(self, held: Held, ticks: int) -> None:
+        """Move on with the paddle buttons held; a tap holds a paddle for one tick."""
+        if ticks <= 0:
+            return
+        if held.first != held.rest:
+            self.game.advance(*held.first, 1)
+            ticks -= 1
+        if ticks > 0:
+            self.game.advance(*held.rest, ticks)
+
+    def take_events(self) -> list[Event]:
+        """What happened on the board since this was last asked."""
+        return list(self.game.take_events())
+
+    def take_news(self) -> list[News]:
+        """What happened in the game since this was last asked."""
+        return list(self.game.take_news())
+
+
+class Showing:
+    """The program plays free play, for whoever looks on."""
+
+    is_played = False
+    has_ended = False
+
+    def __init__(self, table: Table, seed: int, player: Player) -> None:
+        from silverball.game.game import Game
+
+        self.game = Game(table, seed, Mode.FREE)
+        self._player = player
+        self._wait = 0.0
+
+    def advance(self, held: Held, ticks: int) -> None:
+        """Move on by a number of ticks; `held` moves nothing."""
+        for _ in range(ticks):
+            self._bring_balls()
+            self.game.advance(*self._player.press(self.game.world), 1)
+
+    def take_events(self) -> list[Event]:
+        """What happened on the board since this was last asked."""
+        return list(self.game.take_events())
+
+    def take_news(self) -> list[News]:
+        """What happened in the game since this was last asked."""
+        return list(self.game.take_news())
+
+    def _bring_balls(self) -> None:
+        world = self.game.world
+        self._wait = max(0.0, self._wait - 1.0 / world.tick_rate)
+        count = len(world.balls)
+        if count >= world.table.board.max_balls or self._wait > 0.0:
+            return
+        with contextlib.suppress(BoardFull, NoRoom):
+            self.game.create_ball()
+        self._wait = SHOW_PAUSE if count == 0 else SHOW_SECOND_BALL_AFTER
+
+
+class Watching:
+    """A replay is watched."""
+
+    is_played = False
+
+    def __init__(self, player: ReplayPlayer) -> None:
+        self.player = player
+
+    @property
+    def game(self) -> Game:
+        """The game as it was at this moment."""
+        return self.player.game
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the replay has been played to its end."""
+        return self.player.at_end
+
+    def advance(self, held: Held, ticks: int) -> None:
+        """Move on by a number of ticks; `held` moves nothing."""
+        self.player.advance(ticks)
+
+    def take_events(self) -> list[Event]:
+        """What happened on the board since this was last asked."""
+        return list(self.game.take_events())
+
+    def take_news(self) -> list[News]:
+        """What happened in the game since this was last asked."""
+        return list(self.game.take_news())
+
+
+def face_of(stage: Stage) -> Face:
+    """What there is to show of the game on a stage."""
+    return stage.game.face

@@ -1,0 +1,195 @@
+"""A whole arcade game: from the menu to the initials to the score table, by keys and by gamepad."""
+
+from __future__ import annotations
+
+import pygame
+import pytest
+from machines import leaky
+
+from silverball.game.news import Mode, Phase
+from silverball.game.replay import Replay, verify
+from silverball.game.store import Store
+
+
+def play_all_balls(player, create) -> None:
+    """Bring ball after ball until the game is over."""
+    for _ in range(20):
+        if player.game.is_over:
+            return
+        create()
+        player.until(lambda: player.game.phase is not Phase.PLAY, 60.0)
+    raise AssertionError("the game does not end")
+
+
+def with_keys(player):
+    return {
+        "left": lambda: player.tap(pygame.K_a),
+        "right": lambda: player.tap(pygame.K_d),
+        "start": lambda: player.tap(pygame.K_SPACE),
+    }
+
+
+def with_pad(player):
+    return {
+        "left": lambda: player.tap_pad(pygame.CONTROLLER_BUTTON_LEFTSHOULDER),
+        "right": lambda: player.tap_pad(pygame.CONTROLLER_BUTTON_RIGHTSHOULDER),
+        "start": lambda: player.tap_pad(pygame.CONTROLLER_BUTTON_A),
+    }
+
+
+@pytest.mark.parametrize("hands", [with_keys, with_pad])
+def test_a_game_from_the_menu_to_the_score_table(open_window, tmp_path, hands):
+    player = open_window(leaky(), seed=3, mode=None)
+    do = hands(player)
+    assert player.menus.page == "main"
+    do["start"]()  # play
+    assert player.program.is_playing
+    assert player.game.mode is Mode.ARCADE
+    play_all_balls(player, do["start"])
+    score = player.game.score
+    assert score > 0
+    player.frames(1)
+    with Store(tmp_path / "data") as other:  # kept before any page tells of it
+        assert [row.score for row in other.scores()] == [score]
+    player.until(lambda: player.menus.page == "initials")
+    do["right"]()  # A → B
+    do["start"]()
+    do["start"]()  # the second letter stays
+    do["right"]()
+    do["right"]()
+    do["start"]()
+    do["start"]()  # END
+    player.until(lambda: player.menus.page == "over", 5.0)
+    for _ in range(3):
+        do["right"]()
+    do["start"]()  # menu
+    assert player.menus.page == "main"
+    for _ in range(4):
+        do["right"]()
+    do["start"]()  # scores
+    assert player.menus.page == "scores"
+    shown = player.program._library.scores(player.program.settings.table, Mode.ARCADE)
+    assert [(row.initials, row.score) for row in shown] == [("BAC", score)]
+    with Store(tmp_path / "data") as other:
+        (row,) = other.scores()
+        assert (row.initials, row.score) == ("BAC", score)
+        verdict = verify(Replay.from_text(other.replay(row.id)))
+    assert verdict.ok
+    assert verdict.score == score
+
+
+def test_a_game_is_watched_again_from_its_last_page(open_window):
+    player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
+    score = player.game.score
+    player.until(lambda: player.menus.page == "initials")
+    player.tap(pygame.K_ESCAPE)
+    player.until(lambda: player.menus.page in ("over", "initials"), 5.0)
+    while player.menus.page == "initials":
+        player.tap(pygame.K_SPACE)
+    player.tap(pygame.K_d)
+    player.tap(pygame.K_SPACE)  # watch it
+    assert player.menus.page == "transport"
+    assert player.game.score == 0
+    player.tap(pygame.K_d)
+    assert player.program.speed == 2.0
+    for _ in range(3):
+        player.tap(pygame.K_d)
+    assert player.program.speed == 16.0
+    player.until(lambda: player.program.stage.has_ended)
+    assert player.game.score == score
+    player.tap(pygame.K_a)  # at its end the paddles jump
+    assert not player.program.stage.has_ended
+    player.tap(pygame.K_ESCAPE)
+    assert player.menus.page == "over"
+
+
+def test_a_replay_stands_still_and_goes_on_tick_by_tick(open_window):
+    first = open_window(seed=5)
+    first.tap(pygame.K_SPACE)
+    first.press(pygame.K_a)
+    first.seconds(3.0)
+    replay = first.game.replay
+    first.release(pygame.K_a)
+    player = open_window(replay=replay, table=None, mode=None)
+    assert player.menus.page == "transport"
+    player.seconds(1.0)
+    player.tap(pygame.K_SPACE)
+    tick = player.world.tick
+    player.seconds(0.5)
+    assert player.world.tick == tick
+    player.tap(pygame.K_n)
+    assert player.world.tick == tick + 1
+    player.tap(pygame.K_SPACE)
+    player.until(lambda: player.program.stage.has_ended)
+    assert player.game.digest() == replay.digest
+
+
+def test_a_remapped_key_works_at_once_and_at_the_next_start(open_window):
+    player = open_window(mode=None)
+    for _ in range(5):
+        player.tap(pygame.K_d)
+    player.tap(pygame.K_SPACE)  # settings
+    while "keys" not in str(player.menus.signature):
+        before = player.menus.signature
+        player.tap(pygame.K_d)
+        if player.menus.page == "settings" and player.menus.signature[-1][1][0] == 6:
+            player.tap(pygame.K_SPACE)
+        assert player.menus.signature != before
+    player.tap(pygame.K_SPACE)  # the left paddle
+    player.tap(pygame.K_SPACE)
+    player.until(lambda: player.menus.wants_key or not player.tap(pygame.K_SPACE), 5.0)
+    player.tap(pygame.K_q)
+    player.frames(2)
+    assert "q" in player.program.settings.keys["left"]
+    player.window.close()
+    again = open_window()
+    rest = again.world.paddles[0].angle
+    again.press(pygame.K_q)
+    again.seconds(0.1)
+    assert again.world.paddles[0].angle > rest
+    again.release(pygame.K_q)
+    again.frames(1)
+
+
+def test_attract_mode_plays_by_itself_after_half_a_minute_and_any_button_ends_it(open_window):
+    player = open_window(mode=None)
+    player.seconds(29.0)
+    assert player.menus.page == "main"
+    player.seconds(3.0)
+    assert player.menus.page == "attract"
+    tick = player.world.tick
+    player.seconds(3.0)
+    assert player.world.tick > tick
+    assert player.world.balls
+    player.tap(pygame.K_a)
+    assert player.menus.page == "main"
+
+
+def test_a_slowed_game_is_not_in_the_score_table(open_window):
+    player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    player.tap(pygame.K_COMMA)
+    player.tap(pygame.K_PERIOD)
+    play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
+    player.until(lambda: player.menus.page == "over")
+    assert player.window.store.scores() == []
+
+
+def test_free_play_has_no_end_and_no_place_in_the_score_table(open_window):
+    player = open_window(leaky(), seed=3)
+    for _ in range(5):
+        player.tap(pygame.K_SPACE)
+        player.until(lambda: player.game.phase is not Phase.PLAY)
+    assert not player.game.is_over
+    assert player.window.store.scores() == []
+
+
+def test_two_windows_on_one_score_database_lose_nothing(open_window, tmp_path):
+    first = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    play_all_balls(first, lambda: first.tap(pygame.K_SPACE))
+    first.frames(1)
+    second = open_window(leaky(), seed=4, mode=Mode.ARCADE)
+    play_all_balls(second, lambda: second.tap(pygame.K_SPACE))
+    second.frames(1)
+    with Store(tmp_path / "data") as store:
+        assert len(store.scores()) == 2

@@ -1,0 +1,168 @@
+"""The real window on a real X server, worked with real keys: Xvfb shows it, xdotool presses.
+
+Needs Debian's packages xvfb and xdotool, which `.ci/run` installs; without them these tests are skipped.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from machines import leaky
+
+from silverball.app.program import OVER_SECONDS
+from silverball.game.news import Mode
+from silverball.game.replay import Replay, verify
+from silverball.game.store import Store
+from silverball.table import save_table
+
+pytestmark = pytest.mark.skipif(
+    shutil.which("Xvfb") is None or shutil.which("xdotool") is None,
+    reason="needs the programs Xvfb and xdotool",
+)
+PATIENCE = 120.0  # [s] for anything to happen, on a busy machine that compiles for the first time
+
+
+class Machine:
+    """A running program and the hands on its keys."""
+
+    def __init__(self, folder: Path, display: str, *options: str) -> None:
+        self.data = folder / "data"
+        self._environment = os.environ | {
+            "DISPLAY": display,
+            "SILVERBALL_DATA": str(self.data),
+            "SDL_AUDIODRIVER": "dummy",
+        }
+        self._environment.pop("SDL_VIDEODRIVER", None)
+        self._environment.pop("WAYLAND_DISPLAY", None)
+        self.log = folder / "log.txt"
+        with open(self.log, "wb") as log:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "silverball", "play", *options],
+                env=self._environment,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+            )
+        until(lambda: self._xdotool("search", "--name", "^Silverball$").stdout.strip() != "")
+        self._window = self._xdotool("search", "--name", "^Silverball$").stdout.split()[0]
+        self._xdotool("windowfocus", "--sync", self._window)
+
+    def _xdotool(self, *words: str) -> subprocess.CompletedProcess[str]:
+        assert self.process.poll() is None, self.log.read_text(encoding="utf-8")
+        command = ["xdotool", *words]
+        return subprocess.run(
+            command, env=self._environment, capture_output=True, text=True, timeout=PATIENCE, check=False
+        )
+
+    def tap(self, key: str) -> None:
+        """Press and release a key as a person does."""
+        self._xdotool("keydown", key)
+        time.sleep(0.06)
+        self._xdotool("keyup", key)
+        time.sleep(0.06)
+
+    def close(self) -> int:
+        """End the program as a terminal does."""
+        if self.process.poll() is None:
+            self.process.send_signal(signal.SIGTERM)
+        return self.process.wait(timeout=PATIENCE)
+
+
+def until(is_reached: Callable[[], bool]) -> None:
+    """Wait until something is reached."""
+    limit = time.monotonic() + PATIENCE
+    while not is_reached():
+        assert time.monotonic() < limit, "nothing happened"
+        time.sleep(0.1)
+
+
+@pytest.fixture
+def display() -> Iterator[str]:
+    read, write = os.pipe()
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x800x24", "-nolisten", "tcp"]
+    server = subprocess.Popen(command, pass_fds=(write,), stderr=subprocess.DEVNULL)
+    os.close(write)
+    with os.fdopen(read) as number:
+        name = f":{number.readline().strip()}"
+    yield name
+    server.terminate()
+    server.wait()
+
+
+@pytest.fixture
+def start(tmp_path, display) -> Iterator[Callable[..., Machine]]:
+    started = []
+
+    def starter(*options: str, folder: Path = tmp_path) -> Machine:
+        folder.mkdir(exist_ok=True)
+        started.append(Machine(folder, display, *options))
+        return started[-1]
+
+    yield starter
+    for machine in started:
+        machine.close()
+
+
+def scores(data: Path):
+    with Store(data) as store:
+        return store.scores()
+
+
+def test_a_whole_arcade_game_with_real_keys_from_the_menu_to_the_score_table(start, tmp_path):
+    table = tmp_path / "leaky.toml"
+    save_table(leaky(), table)
+    machine = start("--table", str(table), "--seed", "3")
+    # Space chooses "play", then brings ball after ball; pressed too often it does no harm.
+    for _ in range(300):
+        if (machine.data / "silverball.sqlite3").exists() and scores(machine.data):
+            break
+        machine.tap("space")
+        time.sleep(0.3)
+    (score,) = scores(machine.data)
+    assert score.score > 0
+    assert score.initials == "AAA"
+    time.sleep(OVER_SECONDS + 1.0)  # the end is looked at first
+    machine.tap("d")  # A → B
+    for _ in range(4):
+        machine.tap("space")
+        time.sleep(0.3)
+    until(lambda: [row.initials for row in scores(machine.data)] == ["BAA"])
+    with Store(machine.data) as store:
+        verdict = verify(Replay.from_text(store.replay(score.id)))
+    assert (verdict.ok, verdict.score) == (True, score.score)
+    assert score.mode == Mode.ARCADE
+
+
+def test_losing_the_focus_pauses_a_real_game(start, tmp_path):
+    table = tmp_path / "leaky.toml"
+    save_table(leaky(), table)
+    machine = start("--table", str(table), "--seed", "3", "--mode", "arcade")
+    other = start("--table", str(table), "--seed", "4", folder=tmp_path / "other")  # takes the focus
+    for _ in range(40):
+        other.tap("space")
+        if scores(other.data):
+            break
+        time.sleep(0.5)
+    assert scores(other.data)
+    assert scores(machine.data) == []
+
+
+def test_a_program_that_is_ended_in_a_game_has_kept_it(start, tmp_path):
+    table = tmp_path / "slow.toml"
+    save_table(leaky().model_copy(update={"board": leaky().board.model_copy(update={"gravity": 0.1})}), table)
+    machine = start("--table", str(table), "--seed", "3", "--mode", "free")
+    for _ in range(20):
+        machine.tap("space")
+        time.sleep(0.3)
+    assert machine.close() == 128 + signal.SIGTERM
+    with Store(machine.data) as store:
+        text = store.last_game()
+    assert text is not None
+    assert verify(Replay.from_text(text)).ok
