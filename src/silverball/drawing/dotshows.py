@@ -6,11 +6,12 @@ Every one draws over what is there, `at` seconds after it began. There is no cha
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from silverball.drawing.dotfonts import BOLD, NORMAL
-from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots, picture
+from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots, Levels, picture
 
 BALL = picture(
     """
@@ -137,14 +138,20 @@ def tilt(dots: Dots, at: float) -> None:
     for number, letter in enumerate("TILT"):
         lean = round(1.5 * math.sin(23.0 * at + 1.7 * number))
         x += dots.text(letter, x + shake, 5 + lean, BOLD, scale=2) + 4
-    for side in (0, 1):
-        for stripe in range(0, 34, 6):
-            start = stripe if side == 0 else WIDTH - 1 - stripe
-            slope = 8 if side == 0 else -8
-            dots.line(start, 0, start - slope, HEIGHT - 1, 110)
-            dots.line(start + 1, 0, start + 1 - slope, HEIGHT - 1, 110)
+    dots.sprite(_stripes(), 0, 0)
     if at % 0.4 < 0.2:
         dots.invert()
+
+
+@lru_cache(maxsize=1)
+def _stripes() -> Levels:
+    """Warning stripes on both sides."""
+    dots = Dots()
+    for stripe in range(0, 34, 6):
+        for start, slope in ((stripe, 8), (WIDTH - 2 - stripe, -8)):
+            dots.line(start, 0, start - slope, HEIGHT - 1, 110)
+            dots.line(start + 1, 0, start + 1 - slope, HEIGHT - 1, 110)
+    return dots.pixels
 
 
 def shaken(dots: Dots, at: float, text: str, y: int) -> None:
