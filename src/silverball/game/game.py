@@ -83,7 +83,7 @@ class Game:
         self.mode = Mode(mode)
         self.fault: str | None = None
         self._laws = rules.Laws.of(self.world.table, self.mode, self.world.tick_rate)
-        self._points = points_by_part(self.world.table)
+        self._points = rules.points_by_part(self.world.table)
         self._scores = any(self._points.values())
         self._now = rules.Standing()
         self._waits = False  # whether a ball is to be put back: read in every tick, so kept beside
@@ -471,11 +471,3 @@ class Game:
         self._now, news = outcome
         self._waits = bool(self._now.waiting)
         self._news.extend(news)
-
-
-def points_by_part(table: Table) -> dict[str, int]:
-    """The points for a hit, by the path of the part, as events give it."""
-    points = {f"paddle.{paddle.side}": paddle.points for paddle in table.paddle}
-    for kind in ("slant_wall", "triangular_prism", "cylinder"):
-        points |= {f"{kind}[{number}]": part.points for number, part in enumerate(getattr(table, kind))}
-    return points

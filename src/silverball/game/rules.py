@@ -238,3 +238,11 @@ def ended(now: Standing, tick: int) -> Outcome:
     if now.over:
         return now, ()
     return now._replace(over=True), (News(NewsKind.OVER, tick, now.score),)
+
+
+def points_by_part(table: Table) -> dict[str, int]:
+    """The points for a hit, by the path of the part, as events give it."""
+    points = {f"paddle.{paddle.side}": paddle.points for paddle in table.paddle}
+    for kind in ("slant_wall", "triangular_prism", "cylinder"):
+        points |= {f"{kind}[{number}]": part.points for number, part in enumerate(getattr(table, kind))}
+    return points

@@ -20,7 +20,7 @@ from silverball.errors import SilverballError
 from silverball.game.game import Game
 from silverball.game.news import Mode
 from silverball.game.replay import Replay, compare, verify
-from silverball.game.replay_file import _checksum
+from silverball.game.replay_reader import checksum
 from silverball.table import generate_table, table_digest
 
 SECONDS_PER_FILE = 5.0  # a file of a few kilobytes must be done with long before
@@ -198,7 +198,7 @@ def mutated(number: int) -> tuple[str, bytes]:
             break  # nothing is left that this kind of damage could be done to
     if draw.random() < 0.85 and "checksum = " in text:
         body = text[: text.rindex("checksum = ")]
-        text = f"{body}checksum = {_checksum(body)}\n"
+        text = f"{body}checksum = {checksum(body)}\n"
     return mutate.__name__, text.encode("utf-8", "surrogateescape")
 
 

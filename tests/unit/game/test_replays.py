@@ -18,7 +18,7 @@ from silverball.game.game import Game
 from silverball.game.news import Mode, NewsKind
 from silverball.game.replay import InputRefusedError, Replay, ReplayPlayer, Verdict, compare, verify
 from silverball.game.replay_digest import GROUPS
-from silverball.game.replay_file import _checksum
+from silverball.game.replay_reader import checksum
 from silverball.game.rules import RULES_VERSION
 from silverball.physics import PHYSICS_VERSION
 from silverball.table import Cylinder, generate_table
@@ -32,7 +32,7 @@ LINES = TEXT.split("\n")
 def resealed(text: str) -> str:
     """The text with the checksum that belongs to it."""
     body = text[: text.rindex("checksum = ")]
-    return f"{body}checksum = {_checksum(body)}\n"
+    return f"{body}checksum = {checksum(body)}\n"
 
 
 def line_of(text: str) -> int:
