@@ -2,18 +2,22 @@
 
     python benchmarks/window.py [--seconds 60]
 
-Opens the real window (under Xvfb: `xvfb-run -a python benchmarks/window.py`), plays with real key events
-and two balls, and prints the frames a second, the percentiles of the time between frames and of the work in
-a frame, and the time from the start of Python to the first picture and to the first game. For a cold start
-set SILVERBALL_CACHE to an empty folder.
+Opens the real window (under Xvfb: `xvfb-run -a python benchmarks/window.py`), plays with key events and two
+balls, and prints the frames a second, the percentiles of the time between frames and of the work in a frame,
+the latency from a button to the simulation and to the picture, and the time from the start of Python to the
+first picture, to the first game and to the table in full quality. For a cold start set SILVERBALL_CACHE to an
+empty folder. Scores go to a folder that is removed again.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import tempfile
 import time
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 STARTED = time.time()
 
@@ -38,58 +42,78 @@ def main() -> None:
     import pygame
 
     from silverball.app.window import Window
-
-    window = Window("random", seed=7)
-    window.frame(0.0)
-    first_picture = seconds_since_python_started()
-    while not window.is_ready:
-        window.frame(1 / 60)
-        time.sleep(0.005)
-    window.frame(1 / 60)
-    playable = seconds_since_python_started()
-
+    from silverball.game.news import Mode
     from silverball.players import make_player
 
-    player = make_player("reflex")
-    assert window.session is not None
-    player.press(window.session.world)  # loads its kernel now, not in the middle of a frame
-    keys = {0: pygame.K_a, 1: pygame.K_d}
-    down = [False, False]
-    work, between, balls = [], [], []
-    pacer = pygame.time.Clock()
-    end = time.perf_counter() + seconds
-    before = time.perf_counter()
-    while before < end:
-        world = window.session.world
-        if len(world.balls) < 2:
-            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
-        for side, held in enumerate(player.press(world)):
-            if held != down[side]:
-                down[side] = held
-                kind = pygame.KEYDOWN if held else pygame.KEYUP
-                pygame.event.post(pygame.Event(kind, key=keys[side], mod=0, scancode=0))
-        now = time.perf_counter()
-        window.frame(now - before)
-        work.append(time.perf_counter() - now)
-        between.append(now - before)
-        balls.append(len(window.session.world.balls))
-        before = now
-        pacer.tick(60)
-    size = window._screen.surface.get_size()
-    driver = pygame.display.get_driver()
-    window.close()
+    with tempfile.TemporaryDirectory() as folder:
+        window = Window("random", seed=7, mode=Mode.FREE, folder=Path(folder))
+        window.frame(0.0)
+        first_picture = seconds_since_python_started()
+        while not window.is_ready:
+            window.frame(1 / 20)
+            time.sleep(1 / 20)
+        window.frame(1 / 60)
+        playable = seconds_since_python_started()
+        hands = Hands(make_player("reflex"), window, pygame)
+        starts, work = [], []
+        sharp = 0.0
+        end = time.perf_counter() + seconds
+        before = time.perf_counter()
+        while before < end:
+            hands.move()
+            now = time.perf_counter()
+            window.frame(now - before)
+            starts.append(now)
+            work.append(time.perf_counter() - now)
+            if not sharp and window.is_sharp:
+                sharp = seconds_since_python_started()
+            before = window.beat_until(now + 1 / 60, now)
+        size = window.size
+        driver = pygame.display.get_driver()
+        latency = window.latency
+        window.close()
 
-    def row(values: list[float]) -> str:
-        return ", ".join(f"p{p:g} {np.percentile(values, p) * 1e3:.2f} ms" for p in (50, 90, 99, 99.9, 100))
+    def row(values: Iterable[float]) -> str:
+        return ", ".join(
+            f"p{p:g} {np.percentile(list(values), p) * 1e3:.2f} ms" for p in (50, 90, 99, 99.9, 100)
+        )
 
-    print(f"first picture {first_picture:.2f} s, playable {playable:.2f} s after the start of Python")
+    print(
+        f"first picture {first_picture:.2f} s, playable {playable:.2f} s after the start of Python, ", end=""
+    )
+    print(f"full quality {sharp:.2f} s" if sharp else "not yet in full quality")
     print(
         f"{len(work) / seconds:.1f} frames/s over {seconds:g} s at {size[0]} × {size[1]} on {driver}, ",
         end="",
     )
-    print(f"{np.mean(balls):.2f} balls on average")
-    print(f"work in a frame: {row(work)}")
-    print(f"between frames:  {row(between[1:])}")
+    print(f"{np.mean(hands.balls):.2f} balls on average")
+    print(f"work in a frame:   {row(work)}")
+    print(f"between frames:    {row(np.diff(starts))}")
+    print(f"button to tick:    {row(latency.to_tick)}  (of the last {len(latency.to_tick)} presses)")
+    print(f"button to picture: {row(latency.to_picture)}")
+
+
+class Hands:
+    """Presses keys as the reflex player says, and keeps two balls on the board."""
+
+    def __init__(self, player: Any, window: Any, pygame: Any) -> None:
+        self._player, self._window, self._pygame = player, window, pygame
+        self._down = [False, False]
+        self.balls: list[int] = []
+        player.press(window.program.stage.game.world)  # loads its kernel now, not in the middle of a frame
+
+    def move(self) -> None:
+        """Press and release what has changed."""
+        pygame, world = self._pygame, self._window.program.stage.game.world
+        self.balls.append(len(world.balls))
+        if len(world.balls) < 2:
+            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
+        for side, held in enumerate(self._player.press(world)):
+            if held != self._down[side]:
+                self._down[side] = held
+                kind = pygame.KEYDOWN if held else pygame.KEYUP
+                key = (pygame.K_a, pygame.K_d)[side]
+                pygame.event.post(pygame.Event(kind, key=key, mod=0, scancode=0))
 
 
 if __name__ == "__main__":

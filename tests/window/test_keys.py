@@ -223,7 +223,7 @@ def test_closing_the_window_ends_the_program(player, event):
 def test_escape_goes_back_step_by_step_and_never_ends_a_game_at_once(player):
     player.tap(pygame.K_F1)
     player.tap(pygame.K_ESCAPE)
-    assert not player.window.shows_help
+    assert not player.window.listener.shows_help
     player.tap(pygame.K_ESCAPE)
     assert player.menus.page == "pause"
     player.tap(pygame.K_ESCAPE)

@@ -1,15 +1,20 @@
-"""The window: the same world as everywhere, drawn sixty times a second and moved by keys.
+"""The window: the same world as everywhere, drawn as often as the screen shows it, and moved by buttons.
 
-controls.py  which key does what, and what is held
-clock.py     real time into ticks
-session.py   one game: a world, its inputs kept, what to tell the player
-inputlog.py  the kept inputs as data, and playing them again
-keep.py      where a log is written
+settings.py  what a player can choose
+controls.py  which key and which gamepad button (gamepad.py) asks for what, and what is held
+program.py   what is going on, and what a button means: games begin, pause, end
+             stages.py   play, a replay, or the program playing by itself
+             orders.py   what the commands of the menus bring about
+             keeping.py  what is kept of a game, and when
+             library.py  which tables and scores can be chosen
+menus/       the pages of the score display; display.py what it shows during a game
+sound/       from recipes to what is heard
+clock.py     real time into ticks; latency.py, framerate.py what is measured of it
 startup.py   loading the physics while the table is already on screen
-screen.py    the window of the operating system
-picture.py   the table in it
-overlay.py   everything written on top
-window.py    all of it together
+listener.py  what an event of the window asks for
+screen.py    the window of the operating system; picture.py the table in it
+overlay.py   what is written on top (layout.py, messages.py); debug.py what the physics sees
+window.py    all of it together, in beats and frames
 """
 
 from __future__ import annotations

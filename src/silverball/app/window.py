@@ -17,22 +17,11 @@ import pygame
 
 from silverball.app import overlay
 from silverball.app.clock import TickClock
-from silverball.app.controls import (
-    MENU_KEYS,
-    PADDLES,
-    Action,
-    Buttons,
-    Controls,
-    is_command,
-    is_latin,
-    key_name,
-    says_something,
-)
 from silverball.app.debug import DebugView
 from silverball.app.framerate import FrameTimes
-from silverball.app.gamepad import Gamepads, PadButton
 from silverball.app.latency import LatencyMeter
 from silverball.app.library import Library
+from silverball.app.listener import Listener
 from silverball.app.messages import Messages
 from silverball.app.picture import Picture
 from silverball.app.program import Program
@@ -44,6 +33,7 @@ from silverball.app.stages import Stage
 from silverball.app.startup import Startup, compiling_words
 from silverball.drawing import Moment, best_size
 from silverball.drawing.themes import THEMES
+from silverball.errors import SilverballError, TableError
 from silverball.game.folder import data_folder
 from silverball.game.news import Mode
 from silverball.game.store import Store
@@ -93,17 +83,15 @@ class Window:
         on_ready: Callable[[], None] = lambda: None,
     ) -> None:
         self._folder = folder or data_folder()
-        self.store = Store(self._folder)
-        settings = Settings.of(self.store.settings())
-        given = {}
-        if table is not None:
-            name = table if isinstance(table, str) else table.name
-            given = {} if isinstance(table, str) else {name: table}
-            settings = settings.changed(table=name, mode=mode or settings.mode)
-        library = Library(self.store, self._folder, given)
         self.messages = Messages()
-        self.program = _program(self.store, settings, library, seed, self.messages.say, table is None)
-        self._screen = Screen("Silverball", without_display=without_display)
+        self.store = Store(self._folder)
+        try:
+            self.program = self._new_program(table, seed, mode)
+            self._screen = Screen("Silverball", without_display=without_display)
+        except SilverballError:
+            self.store.close()
+            raise
+        settings = self.program.settings
         self._on_ready = on_ready
         self._startup: Startup | None = Startup(self.program.table, on_compile)
         self._screen.open(best_size(self.program.table.board, height or self._screen.first_height))
@@ -112,24 +100,41 @@ class Window:
         self._picture = Picture(self._screen.surface.get_size())
         self.sounds = Sounds(settings)
         self.sounds.open()
-        self._pads = Gamepads()
-        self._buttons = Buttons()
         self._clock = TickClock(TICK_RATE)
         self._frame_times = FrameTimes()
         self.latency = LatencyMeter()
         self.debug = DebugView()
-        self._controls = Controls(settings)
+        self.listener = Listener(self.program, self._screen, self.sounds, self.messages, self.latency)
         self._settings = settings
         self._stage: Stage | None = None
         self._before: Moment | None = None  # one tick before the present one
         self._seconds = 0.0  # real time so far
-        self.shows_help = self.shows_debug = False
         for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
             self.messages.say(trouble)
         if replay is not None:
             self.program.watch(replay)
         elif mode is not None:
             self.program.play(mode, settings.table, self.program.seed)
+
+    def _new_program(self, table: Table | str | None, seed: int | None, mode: Mode | None) -> Program:
+        """The program on a table; on the default one if a table chosen long ago is no longer there."""
+        settings = Settings.of(self.store.settings())
+        given = {}
+        if table is not None:
+            name = table if isinstance(table, str) else table.name
+            given = {} if isinstance(table, str) else {name: table}
+            settings = settings.changed(table=name)
+        if mode is not None:
+            settings = settings.changed(mode=mode)
+        library = Library(self.store, self._folder, given)
+        try:
+            return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
+        except TableError as error:
+            if table is not None:
+                raise
+            self.messages.say(str(error))
+            settings = settings.changed(table=Settings.model_fields["table"].default)
+            return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
 
     # --- the loop ---------------------------------------------------------------------------------
 
@@ -141,7 +146,7 @@ class Window:
                 now = time.perf_counter()
                 self.frame(now - before)
                 before = now
-                before = self._beat_until(now + 1.0 / self.frame_rate, before)
+                before = self.beat_until(now + 1.0 / self.frame_rate, before)
         except Exception:
             self._keep_after_crash()
             raise
@@ -153,7 +158,7 @@ class Window:
         self._seconds += elapsed
         self._begin_when_ready()
         for event in pygame.event.get():
-            self._answer(event)
+            self.listener.answer(event)
         self._play(elapsed)
 
     def frame(self, elapsed: float) -> None:
@@ -177,7 +182,7 @@ class Window:
         self.program.stage = self._stage = None
         self._picture.close()
         self.sounds.close()
-        self._pads.close()
+        self.listener.close()
         self.store.close()
         self._screen.close()
 
@@ -192,6 +197,16 @@ class Window:
         return self.program.is_ready
 
     @property
+    def size(self) -> tuple[int, int]:
+        """Width and height [pixel]."""
+        return self._screen.surface.get_size()
+
+    @property
+    def is_sharp(self) -> bool:
+        """Whether the table is drawn in full quality."""
+        return self._picture.is_sharp
+
+    @property
     def frame_rate(self) -> int:
         """Frames per second to aim at."""
         if not self.is_ready:
@@ -199,8 +214,16 @@ class Window:
         wanted = self.program.settings.frame_rate
         return self._screen.refresh_rate if wanted == "screen" else int(wanted)
 
-    def _beat_until(self, due: float, before: float) -> float:
-        """Go on beating until the next picture is due; the time of the last beat."""
+    def beat_until(self, due: float, before: float) -> float:
+        """Go on beating until the next picture is due.
+
+        Args:
+            due: When, by `time.perf_counter` [s].
+            before: When the last beat was.
+
+        Returns:
+            When the last beat was now.
+        """
         while (now := time.perf_counter()) < due and not self.is_over:
             time.sleep(min(BEAT, due - now) if self.is_ready else due - now)
             now = time.perf_counter()
@@ -223,15 +246,16 @@ class Window:
     def _play(self, elapsed: float) -> None:
         program = self.program
         self._follow_stage()
-        if not program.is_moving or self.shows_help:
-            self._buttons.forget_taps()
+        if not program.is_moving or self.listener.shows_help:
+            self.listener.buttons.forget_taps()
             self.latency.forget()
+            self._note_events()  # single ticks have some too
             return
         self._clock.speed = program.speed
         ticks = self._clock.advance(elapsed)
         if ticks == 0 or self._stage is None:
             return
-        held = self._buttons.take()
+        held = self.listener.buttons.take()
         if ticks > 1:
             program.advance(held, ticks - 1)
             held = held._replace(first=held.rest)
@@ -255,7 +279,7 @@ class Window:
         if stage.is_played:
             for event in events:
                 if event.kind == "hit" and event.part.startswith("cylinder"):
-                    self._pads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
+                    self.listener.pads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
 
     def _follow_stage(self) -> None:
         """Another game, replay or show has begun."""
@@ -274,14 +298,14 @@ class Window:
         if settings is self._settings:
             return
         before, self._settings = self._settings, settings
-        self._controls = Controls(settings)
+        self.listener.use(settings)
         self.sounds.change(settings)
         if settings.full_screen not in (before.full_screen, self._screen.is_full):
             self._screen.toggle_full()
 
     def _sound(self, elapsed: float) -> None:
         program, sounds = self.program, self.sounds
-        if not program.is_moving or self.shows_help or self._stage is None or not program.is_heard:
+        if not program.is_moving or self.listener.shows_help or self._stage is None or not program.is_heard:
             sounds.pause()
             sounds.rolling((), elapsed, self.program.table.board.width)
             return
@@ -305,104 +329,19 @@ class Window:
         target = self._picture.draw(moment, self._screen.surface, program.dots(self._seconds))
         renderer = self._picture.renderer
         scale, apron = self._picture.scale, self._picture.apron
-        if self.shows_debug and stage is not None:
+        if self.listener.shows_debug and stage is not None:
             self.debug.draw(target, renderer.camera, stage.game.world)
             self.debug.draw_figures(
                 target, stage.game.world, self._frame_times, self.latency, program.speed,
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
-        if self.shows_help:
-            overlay.draw_help(target, scale, program.seed, self._controls)
+        if self.listener.shows_help:
+            overlay.draw_help(target, scale, program.seed, self.listener.controls)
         if self.messages.strength > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
         self._screen.flip()
 
-    # --- answers to the player --------------------------------------------------------------------
-
-    def _answer(self, event: pygame.Event) -> None:
-        if event.type == pygame.KEYDOWN:
-            self._answer_key(event)
-        elif event.type == pygame.KEYUP:
-            name = key_name(event.key, event.scancode)
-            self._release(f"key {name}", self._controls.of_key(name))
-            if name in MENU_KEYS:
-                self.program.menus.release(MENU_KEYS[name])
-        elif event.type == pygame.WINDOWFOCUSLOST and self._screen.owns(event):
-            self._buttons.release_all()
-            self.program.lose_focus()
-        elif event.type in (pygame.QUIT, pygame.WINDOWCLOSE):
-            self.program.is_over = True
-        for button in self._pads.read(event):
-            self._answer_pad(button)
-
-    def _answer_key(self, event: pygame.Event) -> None:
-        name = key_name(event.key, event.scancode)
-        action = self._controls.of_key(name, event.mod)
-        if self.program.menus.wants_key and name != "escape" and not is_command(event.mod):
-            self.program.capture(name)
-        elif action is not None:
-            self._press(f"key {name}", action, again=bool(event.mod & pygame.KMOD_SHIFT))
-        elif name in MENU_KEYS and self.program.menus.is_open:
-            self.program.press_menu(MENU_KEYS[name])
-        elif says_something(event.key) and not is_command(event.mod):
-            shown = name.upper() if is_latin(event.key) else "this key"
-            helps = self._controls.keys(Action.HELP)
-            self.messages.say(
-                f"{shown} does nothing here; {helps[0].upper() if helps else 'F1'} shows the keys"
-            )
-
-    def _answer_pad(self, button: PadButton) -> None:
-        action = self._controls.of_pad(button.name)
-        if not button.down:
-            self._release(button.source, action)
-        elif self.program.menus.wants_pad:
-            self.program.capture(button.name)
-        elif action is not None:
-            self._press(button.source, action)
-
-    def _press(self, source: str, action: Action, *, again: bool = False) -> None:
-        if action is Action.HELP or (self.shows_help and action is Action.BACK):
-            self.shows_help = not self.shows_help
-            self.messages.clear()
-        elif action is Action.DEBUG:
-            self.shows_debug = not self.shows_debug
-        elif action is Action.FULL_SCREEN:
-            self._screen.toggle_full()
-        elif action is Action.MUTE:
-            self.program.set(muted=not self.program.settings.muted)
-            self.messages.say("sounds are off" if self.program.settings.muted else "sounds are on")
-        elif action in PADDLES:
-            if action is Action.LEFT or action is Action.RIGHT:
-                self._buttons.press(source, action)
-            if not self.program.is_playing or self.shows_help:
-                self._buttons.forget_taps()
-            else:
-                self.latency.heard()
-            self._pass_on(action)
-        elif action is Action.SINGLE_TICK:
-            self.program.single_tick(self._buttons.take())
-            self._note_events()
-        elif again and action is Action.NEW_BOARD:
-            self._buttons.release("key left shift")  # it was meant for R, not for a paddle
-            self._buttons.release("key right shift")
-            self.program.press(action, again=True)
-        else:
-            self._pass_on(action)
-
-    def _pass_on(self, action: Action) -> None:
-        """A button for the game or the menus, which wait while the keys are shown."""
-        if self.shows_help:
-            self.messages.say("the game waits while the keys are shown; F1 goes on")
-            return
-        was_open, page = self.program.menus.is_open, self.program.menus.signature
-        self.program.press(action)
-        if was_open and self.program.menus.signature != page:
-            self.sounds.menu("move" if action in PADDLES else "back" if action is Action.BACK else "choose")
-
-    def _release(self, source: str, action: Action | None) -> None:
-        self._buttons.release(source)
-        if action is not None:
-            self.program.release(action)
+    # --- what is left behind ----------------------------------------------------------------------
 
     def _keep_after_crash(self) -> None:
         stage = self._stage
@@ -410,25 +349,3 @@ class Window:
             path = self.program.keep_file("crash")
             where = f"A replay for a report is at {path}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)
-
-
-def _program(
-    store: Store,
-    settings: Settings,
-    library: Library,
-    seed: int | None,
-    say: Callable[[str], None],
-    may_fall_back: bool,
-) -> Program:
-    """The program on the chosen table; on the default one if a table chosen long ago is no longer there."""
-    from silverball.errors import TableError
-
-    themes = tuple(THEMES)
-    try:
-        return Program(store, settings, library, seed, say, themes)
-    except TableError as error:
-        if not may_fall_back:
-            raise
-        say(str(error))
-        default = Settings.model_fields["table"].default
-        return Program(store, settings.changed(table=default), library, seed, say, themes)
