@@ -10,5 +10,5 @@ def leaky() -> Table:
     return Table(
         name="Leaky",
         board=Board(gravity=40.0),
-        cylinder=tuple(Cylinder(center=(-2.0, z), radius=1.25) for z in (-3.2, 0.0, 3.2)),
+        cylinder=tuple(Cylinder(center=(-2.0, z), radius=1.15) for z in (-3.2, 0.0, 3.2)),
     )

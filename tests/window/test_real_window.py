@@ -50,9 +50,13 @@ class Machine:
                 stdout=log,
                 stderr=subprocess.STDOUT,
             )
-        until(lambda: self._xdotool("search", "--name", "^Silverball$").stdout.strip() != "")
-        self._window = self._xdotool("search", "--name", "^Silverball$").stdout.split()[0]
-        self._xdotool("windowfocus", "--sync", self._window)
+        # Without a window manager a new window takes the focus by itself.
+        until(self._has_focus)
+
+    def _has_focus(self) -> bool:
+        focused = self._xdotool("getwindowfocus").stdout.strip()
+        owner = self._xdotool("getwindowpid", focused).stdout.strip() if focused else ""
+        return owner == str(self.process.pid)
 
     def _xdotool(self, *words: str) -> subprocess.CompletedProcess[str]:
         assert self.process.poll() is None, self.log.read_text(encoding="utf-8")

@@ -103,6 +103,7 @@ def open_video(*, without_display: bool = False) -> None:
         NoDisplay: SDL finds no screen, or was told to use a driver that shows nothing.
     """
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # real pixels on Windows
+    os.environ.setdefault("SDL_VIDEO_X11_WMCLASS", "Silverball")  # what a desktop lists it under
     if sys.platform == "linux" and not {"XDG_RUNTIME_DIR", "WAYLAND_DISPLAY"} & os.environ.keys():
         # Wayland cannot work without these; asked nevertheless, its library prints an error of its own.
         os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
