@@ -391,7 +391,7 @@ class Game:
             self._tell(rules.ended(self._now, self.tick))
 
     def _play_singly(self, before: Any, count: int) -> None:
-        """Go back to where these ticks began and play them one by one."""
+        """Go back to where these ticks began and play them one by one; `world.hits` counts them twice."""
         saved = before.view(WORLD)[0]
         for name in WORLD.names or ():
             self._record[name] = saved[name]

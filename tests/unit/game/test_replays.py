@@ -93,6 +93,17 @@ def test_games_of_any_length_can_be_played_again(ticks: int):
     assert verify(replay).ok
 
 
+@pytest.mark.parametrize("rate", [10, 37, 60, 1000])
+def test_games_of_any_tick_rate_can_be_played_again(rate: int):
+    game = Game("classic", 3, tick_rate=rate)
+    game.create_ball()
+    for left, right, ticks in ((True, False, 3 * rate), (False, True, rate - 1), (False, False, 2 * rate)):
+        game.advance(left, right, ticks)
+    replay = Replay.from_text(game.replay.to_text())
+    assert (replay.tick_rate, replay.ticks) == (rate, 6 * rate - 1)
+    assert verify(replay).ok
+
+
 def test_a_replay_whose_last_inputs_come_after_its_last_tick_needs_them():
     game = Game("classic", 3)
     game.create_ball()
