@@ -298,6 +298,21 @@ def test_events_and_news_that_nobody_takes_are_dropped_in_the_end():
     assert len(game.take_events()) <= 4096
 
 
+def test_hits_and_lost_balls_that_found_no_room_in_the_log_count_all_the_same(monkeypatch):
+    game = Game(bare(bumper(30), ball_save=0.0))
+    game.create_ball()
+    monkeypatch.setattr(type(game.world), "events", ())
+    monkeypatch.setattr(type(game.world), "events_lost", 1)
+    put(game, 0.0, 1.2, vz=-10.0)
+    for _ in range(15):
+        game.advance()
+    assert game.score == 30
+    put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0)
+    for _ in range(5):
+        game.advance()
+    assert (game.face.on_board, game.phase) == (0, Phase.READY)
+
+
 def test_bad_arguments_are_refused():
     with pytest.raises(ValueError, match="tick_rate must be 10 to 1000"):
         Game(bare(), tick_rate=5000)
