@@ -391,7 +391,7 @@ class Game:
             self._tell(rules.ended(self._now, self.tick))
 
     def _play_singly(self, before: Any, count: int) -> None:
-        """Go back to where these ticks began and play them one by one."""
+        """Go back to where these ticks began and play them one by one; `world.hits` counts them twice."""
         saved = before.view(WORLD)[0]
         for name in WORLD.names or ():
             self._record[name] = saved[name]
@@ -423,6 +423,11 @@ class Game:
                 self._tell(rules.drained(self._laws, self._now, event.tick, event.ball))
         if untold > 0:
             self._tell(rules.hit(self._laws, self._now, self.tick - 1, untold, ""))
+        if self.world.events_lost:
+            here = self._board_id.tolist()
+            for ball in self._now.balls:
+                if ball.id and ball.id not in here:
+                    self._tell(rules.drained(self._laws, self._now, self.tick - 1, ball.id))
 
     def _put_back(self) -> None:
         """Put a ball that was saved back on the board, if there is a place for it."""
@@ -436,7 +441,7 @@ class Game:
 
     def _read_creation(self) -> None:
         """The ball that was just created is an event too; the log shows it behind those of the last tick."""
-        self._events.append(self.world.events[-1])
+        self._events.extend(event for event in self.world.events[-1:] if event.kind == "created")
         self._counted = self._counters.tobytes()
 
     def _look(self, tick: int) -> None:

@@ -163,7 +163,7 @@ class ReplayPlayer(Playback):
         if tick > self._ticks[-1] + self._every:
             self._scout_to(tick)
         number = bisect_right(self._ticks, tick) - 1
-        if not self._ticks[number] <= self.tick <= tick or self.at_end:
+        if not self._ticks[number] <= self.tick <= tick:
             self.jump(self._moments[number])
         self.advance(tick - self.tick)
         self.game.take_events()

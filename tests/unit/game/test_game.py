@@ -12,7 +12,7 @@ from silverball.game import rules
 from silverball.game.game import Game
 from silverball.game.news import Mode, NewsKind, Phase
 from silverball.game.stuck import LOOKS
-from silverball.table import generate_table, load_table
+from silverball.table import SlantWall, generate_table, load_table
 
 
 def test_a_new_game_is_ready_for_its_first_ball():
@@ -207,6 +207,13 @@ def test_with_tilt_the_paddles_are_dead_until_the_board_is_empty_whatever_is_pre
     assert [paddle.angle for paddle in game.world.paddles] == up
 
 
+LOW_POCKET = (
+    SlantWall(start=(-6.0, -1.5), end=(-7.5, 0.0)),
+    SlantWall(start=(-7.5, 0.0), end=(-6.0, 1.5)),
+)  # within reach of the paddles
+IN_LOW_POCKET = (-6.6, 0.0)
+
+
 def looks(seconds: float) -> int:
     """The ticks until a ball that lies still from the start must have been shoved: two looks more."""
     return round((seconds + 2 / LOOKS) * 240)
@@ -229,19 +236,41 @@ def test_a_still_ball_is_shoved_by_the_machine_again_and_again():
 
 
 def test_a_ball_caught_with_a_raised_paddle_is_let_be_until_nothing_has_scored_for_long():
-    wall = POCKET[0].model_copy(update={"start": (-6.0, -1.5), "end": (-7.5, 0.0)})
-    other = POCKET[1].model_copy(update={"start": (-7.5, 0.0), "end": (-6.0, 1.5)})
-    table = bare(*PADDLES, wall, other, bumper(), un_stick=2.0, stall=8.0)
+    table = bare(*PADDLES, *LOW_POCKET, bumper(), un_stick=2.0, stall=8.0)
     for held, expected in ((True, 8.0), (False, 2.0)):
         game = Game(table)
         game.create_ball()
-        put(game, -6.6, 0.0)
+        put(game, *IN_LOW_POCKET)
         game.take_news()
         while not (news := game.take_news()):
             game.advance(left=held)
             assert game.tick < 3000
         assert kinds(news) == [NewsKind.UN_STUCK]
         assert expected * 240 <= news[0].tick <= (expected + 1.0) * 240
+
+
+def test_a_ball_that_is_let_go_is_not_shoved_at_once():
+    game = Game(bare(*PADDLES, *LOW_POCKET, bumper(), un_stick=2.0, stall=60.0))
+    game.create_ball()
+    put(game, *IN_LOW_POCKET)
+    game.take_news()
+    game.advance(left=True, ticks=5 * 240)
+    assert game.take_news() == []
+    released = game.tick
+    game.advance(ticks=5 * 240)
+    assert released + 2 * 240 <= game.take_news()[0].tick <= released + looks(2.0)
+
+
+def test_who_holds_a_ball_for_too_long_is_shoved_again_and_again_but_not_at_every_look():
+    game = Game(bare(*PADDLES, *LOW_POCKET, bumper(), un_stick=2.0, stall=5.0))
+    game.create_ball()
+    put(game, *IN_LOW_POCKET)
+    game.take_news()
+    for _ in range(12 * 240):
+        game.advance(left=True)
+        put(game, *IN_LOW_POCKET)
+    ticks = [one.tick for one in game.take_news()]
+    assert [tick // 240 for tick in ticks] == [5, 7, 9, 11]
 
 
 def test_a_ball_that_no_paddle_reaches_is_shoved_however_the_player_bangs_the_paddles():
@@ -296,6 +325,21 @@ def test_events_and_news_that_nobody_takes_are_dropped_in_the_end():
         game.advance(ticks=15)
     assert len(game.take_news()) == 4096
     assert len(game.take_events()) <= 4096
+
+
+def test_hits_and_lost_balls_that_found_no_room_in_the_log_count_all_the_same(monkeypatch):
+    game = Game(bare(bumper(30), ball_save=0.0))
+    game.create_ball()
+    monkeypatch.setattr(type(game.world), "events", ())
+    monkeypatch.setattr(type(game.world), "events_lost", 1)
+    put(game, 0.0, 1.2, vz=-10.0)
+    for _ in range(15):
+        game.advance()
+    assert game.score == 30
+    put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0)
+    for _ in range(5):
+        game.advance()
+    assert (game.face.on_board, game.phase) == (0, Phase.READY)
 
 
 def test_bad_arguments_are_refused():

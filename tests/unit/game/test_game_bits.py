@@ -8,10 +8,11 @@ import pytest
 from games import IN_POCKET, POCKET, bare, bring, bumper, put, ruled
 
 from boards import PADDLES, full_table, table_of
-from silverball.errors import SilverballError, StateError
+from silverball.errors import NoRoom, SilverballError, StateError
 from silverball.game.game import Game
 from silverball.game.news import Mode, NewsKind
 from silverball.table import Cylinder, SlantWall, Table
+from silverball.world import Ball, World
 
 QUICK = {
     "ball_save": 8.0,
@@ -99,6 +100,31 @@ def test_a_leap_that_loses_events_is_played_again_tick_by_tick():
         assert at_once.digest() == singly.digest()
         assert at_once.take_events() == singly.take_events()
     assert at_once.score == singly.score > 0
+
+
+def test_a_saved_ball_that_finds_no_room_comes_at_the_same_tick_however_ticks_are_played(monkeypatch):
+    create = World.create_ball
+
+    def create_later(world: World) -> Ball:
+        if 0 < world.tick < 310:
+            raise NoRoom("not yet")
+        return create(world)
+
+    monkeypatch.setattr(World, "create_ball", create_later)
+    at_once, singly = Game(bare(ball_save=9.0)), Game(bare(ball_save=9.0))
+    for game in (at_once, singly):
+        game.create_ball()
+        put(game, -8.9, 0.0)
+        game.advance(ticks=200)
+        assert game.face.on_board == 0
+        with pytest.raises(SilverballError, match="not yet"):
+            game.create_ball()
+    at_once.advance(ticks=150)
+    for _ in range(150):
+        singly.advance()
+    assert at_once.face.on_board == 1
+    assert [event.tick for event in singly.take_events() if event.kind == "created"] == [0, 310]
+    assert at_once.digest() == singly.digest()
 
 
 @pytest.mark.parametrize("name", TABLES)

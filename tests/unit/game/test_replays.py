@@ -12,6 +12,7 @@ from games import IN_POCKET, POCKET, bare, bumper, frantic_game, put, reflex_gam
 from hypothesis import given
 from hypothesis import strategies as st
 
+from boards import PADDLES
 from silverball.errors import StateError
 from silverball.game import replay_lines, replay_record
 from silverball.game.game import Game
@@ -90,6 +91,17 @@ def test_games_of_any_length_can_be_played_again(ticks: int):
     game.end()
     replay = Replay.from_text(game.replay.to_text())
     assert replay.ended == "stopped"
+    assert verify(replay).ok
+
+
+@pytest.mark.parametrize("rate", [10, 37, 60, 1000])
+def test_games_of_any_tick_rate_can_be_played_again(rate: int):
+    game = Game("classic", 3, tick_rate=rate)
+    game.create_ball()
+    for left, right, ticks in ((True, False, 3 * rate), (False, True, rate - 1), (False, False, 2 * rate)):
+        game.advance(left, right, ticks)
+    replay = Replay.from_text(game.replay.to_text())
+    assert (replay.tick_rate, replay.ticks) == (rate, 6 * rate - 1)
     assert verify(replay).ok
 
 
@@ -259,6 +271,23 @@ def test_seeking_anywhere_shows_the_same_moment_as_playing_there():
     player.seek(100)
     player.advance(REPLAY.ticks)
     assert game.digest() == REPLAY.digest
+
+
+def test_a_button_that_is_held_stays_held_after_seeking():
+    game = Game(bare(*PADDLES, *POCKET))
+    game.create_ball()
+    put(game, *IN_POCKET)
+    game.advance(True, False, 6 * 240)
+    game.advance(False, False, 240)
+    player = ReplayPlayer(game.replay)
+    expected = states(player.replay, [1100, 1500])
+    player.seek(1500)
+    player.seek(1100)
+    assert player.game.held == (True, False)
+    assert player.game.digest() == expected[1100]
+    player.advance(400)
+    assert player.game.held == (False, False)
+    assert player.game.digest() == expected[1500]
 
 
 def test_preparing_plays_ahead_unseen():

@@ -208,6 +208,15 @@ def test_warnings_are_forgotten_when_the_board_is_empty():
     assert now.warnings == 0
 
 
+def test_a_combo_does_not_go_on_with_the_next_ball():
+    laws = laws_of(ball_save=0.0, combo_window=9.0)
+    now, _ = rules.hit(laws, with_balls(laws, 1), 10, 5, "")
+    now, _ = rules.drained(laws, now, 20, 1)
+    now, _ = rules.started(laws, now, 30, 2)
+    assert rules.running_combo(laws, now, 30) == 0
+    assert rules.hit(laws, now, 40, 5, "")[0].combo == 1
+
+
 def test_a_ball_that_the_game_does_not_know_changes_nothing():
     laws = laws_of()
     now = with_balls(laws, 1)
