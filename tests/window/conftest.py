@@ -9,6 +9,7 @@ import pygame
 import pytest
 
 from silverball.app.window import Window
+from silverball.drawing.compiling import is_compiled
 
 FRAME = 1 / 60  # [s]
 
@@ -65,6 +66,8 @@ def open_window(tmp_path) -> Iterator:
             assert time.monotonic() < limit, "the physics was not ready within a minute"
             window.frame(0.0)
             time.sleep(0.002)
+        if is_compiled():  # else the sketch stays; a picture that changes by itself would confuse the tests
+            window._picture.renderer.wait(60.0)
         pygame.event.clear()
         return Player(window)
 

@@ -128,6 +128,11 @@ class Renderer:
         pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
 
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait until all that is baked in the background is there, the paddles at every angle too."""
+        if self._background is not None:
+            self._background.wait(seconds)
+
     def close(self) -> None:
         """End the work in the background; keep what was baked."""
         if self._background is not None:

@@ -36,7 +36,7 @@ def test_there_is_a_picture_at_once_and_it_becomes_the_best_one(tmp_path):
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     rough = renderer.array(START).copy()
     assert made_sharp(renderer)
-    renderer._background.wait(PATIENCE)
+    renderer.wait(PATIENCE)
     best = Renderer(TABLE, SIZE, store=Store(tmp_path / "other")).array(START)
     assert (renderer.array(START) == best).all()
     assert (rough != best).any()
@@ -75,7 +75,7 @@ def test_closing_ends_the_work_soon(tmp_path):
     renderer = Renderer(TABLE, (720, 1152), background=True, store=Store(tmp_path))
     time.sleep(0.3)
     renderer.close()
-    renderer._background.wait(PATIENCE)
+    renderer.wait(PATIENCE)
     assert renderer._background.is_done
 
 
@@ -131,7 +131,7 @@ def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, faul
         assert not renderer._background.is_done
         renderer.close()
         assert killed
-    renderer._background.wait(PATIENCE)
+    renderer.wait(PATIENCE)
     assert renderer._background.is_done
     assert not renderer.is_sharp
     assert renderer.array(START).std() > 10
