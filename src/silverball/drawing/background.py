@@ -41,10 +41,12 @@ class Background:
 
     Attributes:
         painter: Draws the table at its best; None until it is ready.
+        error: What went wrong, if anything did.
     """
 
     def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, is_random: bool) -> None:
         self.painter: Composer | None = None
+        self.error: Exception | None = None
         self._table = table
         self._camera = camera
         self._theme = theme
@@ -82,8 +84,8 @@ class Background:
         from silverball.drawing.studio import Studio
 
         workshop = Workshop(stop=self._stop, is_behind=True)
-        studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
         try:
+            studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
             painter = Composer(self._table, self._camera, self._theme, studio.still(), studio.paddle)
             if self._stop.is_set():
                 return
@@ -93,6 +95,8 @@ class Background:
                 studio.bake_empty()
         except StoppedError:
             studio.save_paddles()
+        except Exception as error:  # the game goes on with the picture that there is
+            self.error = error
 
     def _compile(self) -> bool:
         """Whether compiled code is there, after it has been made if need be."""

@@ -22,9 +22,13 @@ def lettering(name: str, build: Build) -> NDArray[np.float32]:
     if not name.strip() or depth < 0.04 * width:
         return plate
     letters = "  ".join(name.upper().split())
-    image = font(LETTERS, bold=True).render(letters, True, (255, 255, 255), (0, 0, 0))
+    words = font(LETTERS, bold=True).render(letters, True, (255, 255, 255))
+    image = pygame.Surface(words.get_size(), 0, 24)
+    image.blit(words, (0, 0))
     if image.get_width() > 0.7 * columns:
-        image = pygame.transform.smoothscale_by(image, 0.7 * columns / image.get_width())
+        share = 0.7 * columns / image.get_width()
+        small = max(round(share * image.get_width()), 1), max(round(share * image.get_height()), 1)
+        image = pygame.transform.smoothscale(image, small)
     ink = pygame.surfarray.array3d(image)[:, :, 0].T.astype(np.float32) / np.float32(255.0)
     ink = ink[:ROWS, :columns]
     top, left = (ROWS - ink.shape[0]) // 2, (columns - ink.shape[1]) // 2

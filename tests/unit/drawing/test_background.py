@@ -37,6 +37,7 @@ def test_there_is_a_picture_at_once_and_it_becomes_the_best_one(tmp_path):
     rough = renderer.array(START).copy()
     assert made_sharp(renderer)
     renderer.wait(PATIENCE)
+    assert renderer._background.error is None
     best = Renderer(TABLE, SIZE, store=Store(tmp_path / "other")).array(START)
     assert (renderer.array(START) == best).all()
     assert (rough != best).any()
@@ -69,6 +70,18 @@ def background_module_studio():
     from silverball.drawing.studio import Studio
 
     return Studio
+
+
+def test_a_fault_in_the_background_leaves_the_sketch(tmp_path, monkeypatch):
+    def fault(self):
+        raise ValueError("a fault")
+
+    monkeypatch.setattr(background_module_studio(), "still", fault)
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    renderer.wait(PATIENCE)
+    assert not renderer.is_sharp
+    assert isinstance(renderer._background.error, ValueError)
+    assert renderer.array(START).std() > 10
 
 
 def test_closing_ends_the_work_soon(tmp_path):
