@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 import pygame
 from numpy.typing import NDArray
@@ -13,8 +15,12 @@ ROWS = 48  # [pixel] of the image
 LETTERS = 40  # [pixel] size of the letters in it
 
 
+@lru_cache(maxsize=8)
 def lettering(name: str, build: Build) -> NDArray[np.float32]:
-    """Brightness 0 to 1 of the name on the apron, shape [row, column]; the first row is the upper one."""
+    """Brightness 0 to 1 of the name on the apron, shape [row, column]; the first row is the upper one.
+
+    It is kept: fonts are not made for threads, so a program calls this once before it bakes in a thread.
+    """
     depth = build.apron_top + build.half_length
     width = 2.0 * (build.half_width - build.thickness)
     columns = min(max(round(ROWS * width / max(depth, 1e-3)), 1), 4096)

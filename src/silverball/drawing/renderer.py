@@ -88,7 +88,9 @@ class Renderer:
         self._painter: Painter
         if background:
             from silverball.drawing.background import Background
+            from silverball.drawing.lettering import lettering
 
+            lettering(table.name, self.camera.build)  # here, for fonts are not made for threads
             key = still_key(table, self.camera, self.theme)
             known = load_still(self._store, key)
             self._painter = Sketcher(table, self.camera, self.theme, None if known is None else known.pixels)
