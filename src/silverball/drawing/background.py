@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import os
 import subprocess
 import sys
 import threading
-import weakref
 from typing import TYPE_CHECKING
 
 from silverball.drawing.camera import Camera
@@ -53,9 +51,7 @@ class Background:
         self._store = store
         self._is_random = is_random
         self._stop = threading.Event()
-        self._compiler: subprocess.Popen[bytes] | None = None
         self._thread = threading.Thread(target=self._work, name="silverball drawing", daemon=True)
-        _running.add(self)
         self._thread.start()
 
     @property
@@ -68,11 +64,8 @@ class Background:
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Stop; what is not finished is dropped."""
+        """Stop; what is not finished is dropped. Compiling goes on, for the next picture needs it too."""
         self._stop.set()
-        if self._compiler is not None:
-            with contextlib.suppress(OSError):
-                self._compiler.kill()
 
     def _work(self) -> None:
         from silverball.drawing.workshop import StoppedError, Workshop, stand_back
@@ -104,32 +97,51 @@ class Background:
 
         if is_compiled():
             return True
-        low: dict[str, object] = {}
-        if os.name == "nt":
-            low["creationflags"] = subprocess.BELOW_NORMAL_PRIORITY_CLASS  # type: ignore[attr-defined,unused-ignore]
         try:
-            self._compiler = subprocess.Popen(
-                [sys.executable, "-m", "silverball.drawing.compiling"],
-                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                **low,  # type: ignore[call-overload]
-            )  # fmt: skip
+            process = _compiler.process()
         except OSError:
             return False
         waited = 0.0
-        while self._compiler.poll() is None:
-            if self._stop.wait(POLL_SECONDS) or waited > COMPILE_SECONDS:
-                self._compiler.kill()
-                self._compiler.wait()
+        while process.poll() is None:
+            if self._stop.wait(POLL_SECONDS):
                 return False
             waited += POLL_SECONDS
-        return self._compiler.returncode == 0 and not self._stop.is_set() and is_compiled()
+            if waited > COMPILE_SECONDS:
+                _compiler.kill()
+                return False
+        return process.returncode == 0 and is_compiled()
 
 
-_running: weakref.WeakSet[Background] = weakref.WeakSet()
+class _Compiler:
+    """The one process that compiles, whichever renderers wait for it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def process(self) -> subprocess.Popen[bytes]:
+        """The process, started if none runs."""
+        with self._lock:
+            if self._process is None or self._process.poll() is not None:
+                # Its priority is low: compiling.py sees to that, and here Windows has to be asked.
+                flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
+                self._process = subprocess.Popen(
+                    [sys.executable, "-m", "silverball.drawing.compiling"],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    creationflags=flags,
+                )
+            return self._process
+
+    def kill(self) -> None:
+        """End it if it runs."""
+        with self._lock:
+            if self._process is not None and self._process.poll() is None:
+                with contextlib.suppress(OSError):
+                    self._process.kill()
+                    self._process.wait()
 
 
-@atexit.register
-def _close_all() -> None:
-    """No compiler outlives the program."""
-    for background in list(_running):
-        background.close()
+_compiler = _Compiler()
+atexit.register(_compiler.kill)  # no compiler outlives the program
