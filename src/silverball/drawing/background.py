@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
 POLL_SECONDS = 0.1
-COMPILE_SECONDS = 300.0  # after which compiling is given up
+COMPILE_SECONDS = 1800.0  # after which compiling is given up; 35 s of a processor, if it gets one
 
 
 class Background:
