@@ -13,8 +13,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import pygame
-
 from silverball.benchmarks.marks import Figure
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.renderer import rgb_surface
@@ -99,6 +97,8 @@ def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
             renderer.note(events, TICK_RATE)
             renderer.draw(moment, target)
         times.append((time.process_time() - before) / len(play))
+    import pygame
+
     window = pygame.Surface(renderer.camera.size, 0, 32)
     blit = statistics.median(_seconds(lambda: window.blit(target, (0, 0))) for _ in range(60))
     return [

@@ -10,11 +10,9 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import os
 import subprocess
 import sys
 import threading
-import weakref
 from typing import TYPE_CHECKING
 
 from silverball.drawing.camera import Camera
@@ -26,7 +24,7 @@ if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
 POLL_SECONDS = 0.1
-COMPILE_SECONDS = 300.0  # after which compiling is given up
+COMPILE_SECONDS = 1800.0  # after which compiling is given up; 35 s of a processor, if it gets one
 
 
 class Background:
@@ -41,19 +39,19 @@ class Background:
 
     Attributes:
         painter: Draws the table at its best; None until it is ready.
+        error: What went wrong, if anything did.
     """
 
     def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, is_random: bool) -> None:
         self.painter: Composer | None = None
+        self.error: Exception | None = None
         self._table = table
         self._camera = camera
         self._theme = theme
         self._store = store
         self._is_random = is_random
         self._stop = threading.Event()
-        self._compiler: subprocess.Popen[bytes] | None = None
         self._thread = threading.Thread(target=self._work, name="silverball drawing", daemon=True)
-        _running.add(self)
         self._thread.start()
 
     @property
@@ -66,11 +64,8 @@ class Background:
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Stop; what is not finished is dropped."""
+        """Stop; what is not finished is dropped. Compiling goes on, for the next picture needs it too."""
         self._stop.set()
-        if self._compiler is not None:
-            with contextlib.suppress(OSError):
-                self._compiler.kill()
 
     def _work(self) -> None:
         from silverball.drawing.workshop import StoppedError, Workshop, stand_back
@@ -82,8 +77,8 @@ class Background:
         from silverball.drawing.studio import Studio
 
         workshop = Workshop(stop=self._stop, is_behind=True)
-        studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
         try:
+            studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
             painter = Composer(self._table, self._camera, self._theme, studio.still(), studio.paddle)
             if self._stop.is_set():
                 return
@@ -93,6 +88,8 @@ class Background:
                 studio.bake_empty()
         except StoppedError:
             studio.save_paddles()
+        except Exception as error:  # the game goes on with the picture that there is
+            self.error = error
 
     def _compile(self) -> bool:
         """Whether compiled code is there, after it has been made if need be."""
@@ -100,32 +97,51 @@ class Background:
 
         if is_compiled():
             return True
-        low: dict[str, object] = {}
-        if os.name == "nt":
-            low["creationflags"] = subprocess.BELOW_NORMAL_PRIORITY_CLASS  # type: ignore[attr-defined,unused-ignore]
         try:
-            self._compiler = subprocess.Popen(
-                [sys.executable, "-m", "silverball.drawing.compiling"],
-                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                **low,  # type: ignore[call-overload]
-            )  # fmt: skip
+            process = _compiler.process()
         except OSError:
             return False
         waited = 0.0
-        while self._compiler.poll() is None:
-            if self._stop.wait(POLL_SECONDS) or waited > COMPILE_SECONDS:
-                self._compiler.kill()
-                self._compiler.wait()
+        while process.poll() is None:
+            if self._stop.wait(POLL_SECONDS):
                 return False
             waited += POLL_SECONDS
-        return self._compiler.returncode == 0 and not self._stop.is_set() and is_compiled()
+            if waited > COMPILE_SECONDS:
+                _compiler.kill()
+                return False
+        return process.returncode == 0 and is_compiled()
 
 
-_running: weakref.WeakSet[Background] = weakref.WeakSet()
+class _Compiler:
+    """The one process that compiles, whichever renderers wait for it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def process(self) -> subprocess.Popen[bytes]:
+        """The process, started if none runs."""
+        with self._lock:
+            if self._process is None or self._process.poll() is not None:
+                # Its priority is low: compiling.py sees to that, and here Windows has to be asked.
+                flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
+                self._process = subprocess.Popen(
+                    [sys.executable, "-m", "silverball.drawing.compiling"],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    creationflags=flags,
+                )
+            return self._process
+
+    def kill(self) -> None:
+        """End it if it runs."""
+        with self._lock:
+            if self._process is not None and self._process.poll() is None:
+                with contextlib.suppress(OSError):
+                    self._process.kill()
+                    self._process.wait()
 
 
-@atexit.register
-def _close_all() -> None:
-    """No compiler outlives the program."""
-    for background in list(_running):
-        background.close()
+_compiler = _Compiler()
+atexit.register(_compiler.kill)  # no compiler outlives the program

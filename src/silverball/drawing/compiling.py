@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 LAST_KERNEL = "draw_ball"  # that a moment calls: when it is compiled, all are
-NICENESS = 10
+NICENESS = 5
 
 
 def is_compiled() -> bool:

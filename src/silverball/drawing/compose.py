@@ -62,18 +62,22 @@ class Composer:
         self._frame = np.frombuffer(self._bytes, np.uint8).reshape(height, width, 3)
         self._rows = self._frame.reshape(height, 3 * width)
         self._height = still.height.copy()
-        self._changed: list[Box] = []
+        self._changed: list[Box] = []  # where colours differ from the still table's,
+        self._raised: list[Box] = []  # and where heights do: paddles alone change them
         self._spots = np.zeros((MOST_SPOTS, 7))
         self._before = np.zeros((1, 1, 3), np.uint8)
         self.surface = pygame.image.frombuffer(self._bytes, camera.size, "RGB")
 
     def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
-        for left, top, right, bottom in self._changed:
-            box = (slice(max(top, 0), max(bottom, 0)), slice(max(left, 0), max(right, 0)))
-            self._frame[box] = self._still.pixels[box]
-            self._height[box] = self._still.height[box]
+        for box in self._changed:
+            at = _within(box)
+            self._frame[at] = self._still.pixels[at]
+        for box in self._raised:
+            at = _within(box)
+            self._height[at] = self._still.height[at]
         self._changed.clear()
+        self._raised.clear()
         for part, strength in effects.flashes(moment.time):
             self._light_up(part, strength)
         for side, angle in zip(("left", "right"), moment.angles, strict=True):
@@ -111,7 +115,9 @@ class Composer:
             return
         lay_paddle(self._frame, self._height, *sprite)
         rows, columns = sprite.stays.shape
-        self._changed.append((sprite.left, sprite.top, sprite.left + columns, sprite.top + rows))
+        box = (sprite.left, sprite.top, sprite.left + columns, sprite.top + rows)
+        self._changed.append(box)
+        self._raised.append(box)
 
     def _shade(self, ball: BallAt) -> None:
         r = self._camera.build.ball
@@ -138,3 +144,9 @@ class Composer:
             shine = light * spot.strength
             row[:] = (*spot[:4], shine * color[0], shine * color[1], shine * color[2])
         self._changed.append(add_spots(self._frame, self._height, self._stage, self._spots, count))
+
+
+def _within(box: Box) -> tuple[slice, slice]:
+    """The index of a rectangle; what hangs over the frame's left and upper edge is left out."""
+    left, top, right, bottom = box
+    return slice(max(top, 0), max(bottom, 0)), slice(max(left, 0), max(right, 0))

@@ -88,7 +88,9 @@ class Renderer:
         self._painter: Painter
         if background:
             from silverball.drawing.background import Background
+            from silverball.drawing.lettering import lettering
 
+            lettering(table.name, self.camera.build)  # here, for fonts are not made for threads
             key = still_key(table, self.camera, self.theme)
             known = load_still(self._store, key)
             self._painter = Sketcher(table, self.camera, self.theme, None if known is None else known.pixels)
@@ -127,6 +129,11 @@ class Renderer:
         width, height = self.camera.size
         pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Wait until all that is baked in the background is there, the paddles at every angle too."""
+        if self._background is not None:
+            self._background.wait(seconds)
 
     def close(self) -> None:
         """End the work in the background; keep what was baked."""

@@ -41,6 +41,9 @@ class ScorePanel:
 
     def draw(self, target: pygame.Surface, moment: Moment, dots: Any = None) -> None:
         """Draw the panel: a picture of dots, or the moment's score."""
+        if self._frame.get_masks() != target.get_masks() or self._frame.get_bitsize() != target.get_bitsize():
+            self._frame = self._frame.convert(target)  # once: the same format is copied fastest
+            self._plain = None
         if dots is not None:
             if self._dot_panel is None:
                 from silverball.drawing.dotpanel import DotPanel

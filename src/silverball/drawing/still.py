@@ -6,6 +6,8 @@ else is baked, and the result is the same to the last bit.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,6 +22,7 @@ from silverball.drawing.workshop import Workshop
 from silverball.physics.layout import Part
 from silverball.table import Table
 
+SLACK = 0.05  # [u] added to a reach, for what lies between two heights that are looked at
 FLASH_REACH = 1.9  # [u] around a part that its flash is baked for
 
 
@@ -73,13 +76,30 @@ def _rounded(height: NDArray[np.float32]) -> NDArray[np.float32]:
 
 def _around_obstacles(scene: Scene, camera: Camera) -> NDArray[np.bool_]:
     """The pixels that prisms and cylinders can change: all within the reach of their light."""
-    mask = np.zeros((camera.size[1], camera.size[0]), np.bool_)
-    reach = HALO * scene.stage[0]["unit"]
+    width, height = camera.size
+    mask = np.zeros((height, width), np.bool_)
+    reach = HALO * float(scene.stage[0]["unit"])
     for look, shape in zip(scene.looks, scene.shapes, strict=True):
         if look["form"] in (Form.PRISM, Form.CYLINDER):
             left, top, right, bottom = _box(camera, shape, reach)
-            mask[top:bottom, left:right] = True
+            across = np.arange(left, right)[None, :] + 0.5
+            down = np.arange(top, bottom)[:, None] + 0.5
+            # A ray passes what is in reach somewhere between the playfield and the greatest height.
+            for share in (0.0, 0.25, 0.5, 0.75, 1.0):
+                x, z = _places(camera, across, down, share * camera.build.top)
+                size = shape["reach"] + reach + SLACK
+                mask[top:bottom, left:right] |= (x - shape["x"]) ** 2 + (z - shape["z"]) ** 2 < size**2
     return mask
+
+
+def _places(
+    camera: Camera, across: NDArray[Any], down: NDArray[Any], y: float
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Where the rays through pixels are at a height; the same as `Camera.to_board`, for many."""
+    f = camera.frustum
+    u, v = (across - f.across) / f.focal, (f.down - down) / f.focal
+    way = (y - f.eye_y) / (v * f.sine - f.cosine)
+    return f.eye_x + way * (f.sine + v * f.cosine), way * u
 
 
 def _box(camera: Camera, shape: np.void, reach: float) -> tuple[int, int, int, int]:

@@ -25,6 +25,12 @@ def _compiled():
     compiling.compile_all()
 
 
+@pytest.fixture(autouse=True)
+def _no_compiler(monkeypatch):
+    """Each test has a compiler of its own."""
+    monkeypatch.setattr(background_module, "_compiler", background_module._Compiler())
+
+
 def made_sharp(renderer):
     limit = time.monotonic() + PATIENCE
     while not renderer.is_sharp and time.monotonic() < limit:
@@ -36,7 +42,8 @@ def test_there_is_a_picture_at_once_and_it_becomes_the_best_one(tmp_path):
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     rough = renderer.array(START).copy()
     assert made_sharp(renderer)
-    renderer._background.wait(PATIENCE)
+    renderer.wait(PATIENCE)
+    assert renderer._background.error is None
     best = Renderer(TABLE, SIZE, store=Store(tmp_path / "other")).array(START)
     assert (renderer.array(START) == best).all()
     assert (rough != best).any()
@@ -71,11 +78,23 @@ def background_module_studio():
     return Studio
 
 
+def test_a_fault_in_the_background_leaves_the_sketch(tmp_path, monkeypatch):
+    def fault(self):
+        raise ValueError("a fault")
+
+    monkeypatch.setattr(background_module_studio(), "still", fault)
+    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    renderer.wait(PATIENCE)
+    assert not renderer.is_sharp
+    assert isinstance(renderer._background.error, ValueError)
+    assert renderer.array(START).std() > 10
+
+
 def test_closing_ends_the_work_soon(tmp_path):
     renderer = Renderer(TABLE, (720, 1152), background=True, store=Store(tmp_path))
     time.sleep(0.3)
     renderer.close()
-    renderer._background.wait(PATIENCE)
+    renderer.wait(PATIENCE)
     assert renderer._background.is_done
 
 
@@ -91,9 +110,6 @@ def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeyp
         def poll(self):
             return 0
 
-        def kill(self):
-            raise OSError("it is gone")
-
     answers = iter([False, True])
     monkeypatch.setattr(compiling, "is_compiled", lambda: next(answers))
     monkeypatch.setattr(background_module.subprocess, "Popen", Process)
@@ -103,7 +119,7 @@ def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeyp
     renderer.close()
 
 
-@pytest.mark.parametrize("fault", ["no process", "a failure", "too slow and closed"])
+@pytest.mark.parametrize("fault", ["no process", "a failure", "too slow"])
 def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, fault):
     killed = []
 
@@ -115,7 +131,7 @@ def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, faul
                 raise OSError
 
         def poll(self):
-            return None if fault.startswith("too slow") and not killed else 1
+            return None if fault == "too slow" and not killed else 1
 
         def kill(self):
             killed.append(1)
@@ -124,20 +140,17 @@ def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, faul
             return 1
 
     monkeypatch.setattr(compiling, "is_compiled", lambda: False)
+    monkeypatch.setattr(background_module, "COMPILE_SECONDS", 0.3)
     monkeypatch.setattr(background_module.subprocess, "Popen", Process)
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
-    if fault.startswith("too slow"):
-        time.sleep(0.2)
-        assert not renderer._background.is_done
-        renderer.close()
-        assert killed
-    renderer._background.wait(PATIENCE)
+    renderer.wait(PATIENCE)
     assert renderer._background.is_done
+    assert bool(killed) == (fault == "too slow")
     assert not renderer.is_sharp
     assert renderer.array(START).std() > 10
 
 
-def test_a_compiler_that_runs_is_killed_when_the_renderer_is_closed(tmp_path, monkeypatch):
+def test_one_compiler_serves_all_renderers_and_is_killed_at_the_end(tmp_path, monkeypatch):
     processes = []
     popen = subprocess.Popen
 
@@ -147,10 +160,17 @@ def test_a_compiler_that_runs_is_killed_when_the_renderer_is_closed(tmp_path, mo
 
     monkeypatch.setattr(compiling, "is_compiled", lambda: False)
     monkeypatch.setattr(background_module.subprocess, "Popen", start)
-    renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    first = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     limit = time.monotonic() + PATIENCE
     while not processes and time.monotonic() < limit:
         time.sleep(0.01)
-    time.sleep(0.1)
-    renderer.close()
+    first.close()
+    first.wait(PATIENCE)
+    assert processes[0].poll() is None  # the next picture needs it too
+    second = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
+    time.sleep(0.3)
+    assert len(processes) == 1
+    background_module._compiler.kill()  # as at the program's end
     assert processes[0].wait(PATIENCE) != 0
+    second.close()
+    second.wait(PATIENCE)

@@ -167,6 +167,21 @@ def test_a_mirrored_table_has_a_mirrored_picture():
     assert np.abs(one - other).max() > 100  # it is another picture, before it is turned round
 
 
+@pytest.mark.parametrize("name", ["", "A name " * 11, "Ж ★ 球", "x"])
+def test_a_table_of_any_name_can_be_baked_and_its_name_is_read_on_the_apron(name):
+    table = Table(name=name)
+    camera = Camera(table.board, (150, 240))
+    named, bare = (
+        bake_still(table.model_copy(update={"name": words}), camera, CLEAR, Workshop()).pixels.astype(int)
+        for words in (name, "")
+    )
+    rows = np.flatnonzero(np.abs(named - bare).max(axis=(1, 2)) > 30)
+    assert bool(len(rows)) == bool(name)
+    if name:
+        build = camera.build
+        assert rows.min() >= camera.to_pixel(build.apron_top, 0.0, build.apron_height)[1] - 1.0
+
+
 def test_every_generated_board_and_one_full_of_parts_can_be_baked():
     parts = tuple(Cylinder(center=(x, z), radius=1.0) for x in (-10.0, 10.0) for z in (-5.0, 5.0))
     for table in (generate_table(1), Table(cylinder=parts), Table()):

@@ -15,7 +15,7 @@ from typing import Any
 
 from silverball.drawing.kernels.patches import way_to
 from silverball.drawing.kernels.stage import Ink
-from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth
+from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth, times
 from silverball.physics.kernel import inlined, internal, kernel
 
 SHADOW = 0.72  # how much of the light a ball takes away at most
@@ -113,7 +113,8 @@ def _mirrored(
         way = min(py / max(-ry, 0.02), 5.0 * r / 0.25)
         at_x = min(max(x + r * nx + way * rx, -s.half_length), s.half_length - s.thickness)
         at_z = min(max(z + r * nz + way * rz, s.thickness - s.half_width), s.half_width - s.thickness)
-        table = _taken(frame, before, s, at_x, at_z, left, top, right, bottom)
+        spread = 1 + int(0.05 * way / s.pixel)
+        table = _taken(frame, before, s, at_x, at_z, spread, left, top, right, bottom)
         # Close to the point it lies on, the ball mirrors its own shadow.
         table = plus(scaled(table, 0.30 + 1.10 * smooth(0.0, 1.1 * r, way)), ink(inks, Ink.SKY_LOW), 0.05)
         light = mixed(table, room, smooth(-0.12, 0.05, ry))
@@ -128,26 +129,34 @@ def _mirrored(
 def _room(inks: Any, rx: float, ry: float, rz: float) -> RGB:
     """The room above the table: bright overhead, two long lamps, a darker horizon."""
     high, low = ink(inks, Ink.SKY), ink(inks, Ink.SKY_LOW)
-    light = mixed(scaled(low, 0.45), scaled(high, 0.86), smooth(0.0, 0.62, ry))
+    light = mixed(scaled(low, 0.30), scaled(high, 0.84), smooth(0.0, 0.66, ry))
     along = rx / (ry + 0.15)
     lamp = smooth(0.34, 0.22, abs(along + 0.55)) * smooth(1.3, 1.0, abs(rz) / (ry + 0.15))
     return plus(light, high, 0.6 * lamp)
 
 
-@inlined
+@internal
 def _taken(
-    frame: Any, before: Any, s: Any, x: float, z: float, left: int, top: int, right: int, bottom: int
-) -> RGB:
-    """The linear light of the pixel that shows the playfield at (x, z), from before the ball was drawn."""
+    frame: Any, before: Any, s: Any, x: float, z: float, spread: int,
+    left: int, top: int, right: int, bottom: int,
+) -> RGB:  # fmt: skip
+    """The linear light of the playfield around (x, z) in the picture from before the ball was drawn.
+
+    The mean of four pixels, `spread` away from the middle: a ball shrinks what it mirrors, and single pixels
+    would flicker.
+    """
     depth = (x - s.eye_x) * s.sine + s.eye_y * s.cosine
-    column = int(s.across + s.focal * z / depth)
-    row = int(s.down - s.focal * ((x - s.eye_x) * s.cosine - s.eye_y * s.sine) / depth)
-    column = min(max(column, 0), frame.shape[1] - 1)
-    row = min(max(row, 0), frame.shape[0] - 1)
-    if left <= column < right and top <= row < bottom:
-        red, green, blue = before[row - top, column - left, 0], before[row - top, column - left, 1], (
-            before[row - top, column - left, 2]
-        )  # fmt: skip
-    else:
-        red, green, blue = frame[row, column, 0], frame[row, column, 1], frame[row, column, 2]
-    return (red / 255.0) ** 2, (green / 255.0) ** 2, (blue / 255.0) ** 2
+    across = int(s.across + s.focal * z / depth)
+    down = int(s.down - s.focal * ((x - s.eye_x) * s.cosine - s.eye_y * s.sine) / depth)
+    light = (0.0, 0.0, 0.0)
+    for corner in range(4):
+        column = across + (spread if corner % 2 == 0 else -spread)
+        row = down + (spread if corner < 2 else -spread)
+        column = min(max(column, 0), frame.shape[1] - 1)
+        row = min(max(row, 0), frame.shape[0] - 1)
+        pixels = frame[row, column]
+        if left <= column < right and top <= row < bottom:
+            pixels = before[row - top, column - left]
+        tone = (pixels[0] / 255.0, pixels[1] / 255.0, pixels[2] / 255.0)
+        light = plus(light, times(tone, tone), 0.25)
+    return light

@@ -219,7 +219,8 @@ def _prism(
         return Surface(nx, ny, nz, paint, plus(light, tone, 0.5 * line), 0.07, 0.0)
     if ny > 0.25:  # the bevelled edge, where the light comes out
         white = mixed(tone, (1.0, 1.0, 1.0), 0.42)
-        return Surface(nx, ny, nz, tone, scaled(white, 1.05), 0.10, 0.0)
+        away = 1.0 - 0.65 * max(nx, 0.0)  # less at the far edges, which are thinner than a pixel
+        return Surface(nx, ny, nz, tone, scaled(white, 1.05 * away), 0.10, 0.0)
     up = clamped(y / look.height)
     return Surface(nx, ny, nz, scaled(tone, 0.8), scaled(tone, 0.16 + 0.42 * up * up), 0.10, 0.0)
 
