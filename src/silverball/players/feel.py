@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from silverball.players.feelgames import CELLS, GAPS, TICK_RATE, Games, kind_of, play_games
 from silverball.players.feelshots import Aim, Shots, shots_of
 from silverball.table import Table, generate_table
+from silverball.world import WorldBatch
 
 PLAYERS = ("idle", "random", "beginner", "reflex")
 NORMAL = 1.96  # standard deviations on either side that hold 95 %
@@ -116,11 +117,11 @@ def measure(
         for number in range(games):
             boards.append(generate_table(seed + number, table))
             said("making boards", (number + 1) / games)
+    batch = WorldBatch(boards, games, seed, TICK_RATE)
     found = {}
     for name in players:
         played = play_games(
-            boards,
-            seed,
+            batch,
             kind_of(name),
             lambda done, name=name: said(f"{name} games", done),  # type: ignore[misc]
         )
