@@ -33,7 +33,7 @@ class Estimate(NamedTuple):
 
 
 def ratio(above: ArrayLike, below: ArrayLike) -> Estimate:
-    """Σ above / Σ below over independent games; NaN where nothing is below.
+    """Σ above / Σ below over independent games, neither ever negative; NaN where nothing is below.
 
     The interval is that of the residuals, above − ratio·below, whose sum is nearly normal.
     Source: W. G. Cochran, "Sampling Techniques" (1977), chapter 6, the ratio estimate.
@@ -44,7 +44,7 @@ def ratio(above: ArrayLike, below: ArrayLike) -> Estimate:
         return Estimate(float("nan"), float("nan"), float("nan"))
     value = float(a.sum()) / total
     wide = NORMAL * sqrt(float(((a - value * b) ** 2).sum())) / total
-    return Estimate(value, value - wide, value + wide)
+    return Estimate(value, max(0.0, value - wide), value + wide)
 
 
 def share(count: int, of: int) -> Estimate:
