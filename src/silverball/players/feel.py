@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from silverball.players.feelgames import CELLS, GAPS, TICK_RATE, Games, kind_of, play_games
 from silverball.players.feelshots import Aim, Shots, shots_of
 from silverball.table import Table, generate_table
+from silverball.world import WorldBatch
 
 PLAYERS = ("idle", "random", "beginner", "reflex")
 NORMAL = 1.96  # standard deviations on either side that hold 95 %
@@ -32,7 +33,7 @@ class Estimate(NamedTuple):
 
 
 def ratio(above: ArrayLike, below: ArrayLike) -> Estimate:
-    """Σ above / Σ below over independent games; NaN where nothing is below.
+    """Σ above / Σ below over independent games, neither ever negative; NaN where nothing is below.
 
     The interval is that of the residuals, above − ratio·below, whose sum is nearly normal.
     Source: W. G. Cochran, "Sampling Techniques" (1977), chapter 6, the ratio estimate.
@@ -43,7 +44,7 @@ def ratio(above: ArrayLike, below: ArrayLike) -> Estimate:
         return Estimate(float("nan"), float("nan"), float("nan"))
     value = float(a.sum()) / total
     wide = NORMAL * sqrt(float(((a - value * b) ** 2).sum())) / total
-    return Estimate(value, value - wide, value + wide)
+    return Estimate(value, max(0.0, value - wide), value + wide)
 
 
 def share(count: int, of: int) -> Estimate:
@@ -116,11 +117,11 @@ def measure(
         for number in range(games):
             boards.append(generate_table(seed + number, table))
             said("making boards", (number + 1) / games)
+    batch = WorldBatch(boards, games, seed, TICK_RATE)
     found = {}
     for name in players:
         played = play_games(
-            boards,
-            seed,
+            batch,
             kind_of(name),
             lambda done, name=name: said(f"{name} games", done),  # type: ignore[misc]
         )

@@ -9,7 +9,7 @@ Lengths are [u], times are counted in ticks of 1/`TICK_RATE` s. Maps have one ce
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from math import sqrt
 from typing import Any, NamedTuple
@@ -24,7 +24,6 @@ from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
 from silverball.physics.step import step_world
 from silverball.players.press import LOOK_AHEAD, PlayerKind, pressed, strikes
-from silverball.table import Table
 from silverball.world import WorldBatch
 
 TICK_RATE = 240
@@ -86,30 +85,29 @@ class Games(NamedTuple):
 
 
 def play_games(
-    tables: Sequence[Table],
-    seed: int,
+    batch: WorldBatch,
     player: int,
     progress: Callable[[float], None] | None = None,
     longest: float = LONGEST,
 ) -> Games:
-    """Play one ball on each table.
+    """Play one ball in each world of a batch, which is as it was afterwards.
 
     Args:
-        tables: Finished tables, one a game; the same one may stand for many.
-        seed: Of the first game; the next has the next.
+        batch: Worlds at their beginning, TICK_RATE ticks a second.
         player: A `PlayerKind`, or BEGINNER.
         progress: Called now and then with the share of the games that are over.
         longest: The time at which a game is cut short [s].
 
     Returns:
-        What came of it; the same for the same arguments, on any number of threads.
+        What came of it; the same for the same worlds, on any number of threads.
     """
-    count = len(tables)
-    batch = WorldBatch(tables, count, seed, TICK_RATE)
+    if batch.tick_rate != TICK_RATE:
+        raise ValueError(f"a feel needs {TICK_RATE} ticks a second, the batch has {batch.tick_rate}")
+    count, beginning = batch.count, batch.save()
     game: NDArray[Any] = records(count, GAME)
     wishes = np.zeros((count, 2, MEMORY), np.bool_)
     reached, seen = np.zeros_like(batch.tallies), np.zeros_like(batch.tallies)
-    board = tables[0].board
+    board = batch.tables[0].board
     shape = (int(CELLS * board.length) + 1, int(CELLS * board.width) + 1)
     heat, stays, gaps = np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(GAPS, np.int64)
     limit = round(longest * TICK_RATE)
@@ -124,7 +122,9 @@ def play_games(
         left = np.nonzero(game["over"] == 0)[0]
         if progress is not None:
             progress(1.0 - len(left) / count)
-    return Games(batch.state, game, heat, stays, gaps, reached)
+    end = batch.state.copy()
+    batch.restore(beginning)
+    return Games(end, game, heat, stays, gaps, reached)
 
 
 class Notes(NamedTuple):

@@ -23,9 +23,14 @@ from silverball.players.feelgames import (
     play_games,
 )
 from silverball.players.press import PlayerKind
-from silverball.world import World
+from silverball.world import World, WorldBatch
 
 TABLE = full_table()
+
+
+def games_of(count: int, seed: int, player: int, **options):
+    """Games on the same table."""
+    return play_games(WorldBatch(TABLE, count, seed, TICK_RATE), player, **options)
 
 
 def gap_to_triangle(point: tuple[float, float], corners) -> float:
@@ -70,14 +75,14 @@ def watched(seed: int, player: str) -> dict[str, float]:
 
 @pytest.mark.parametrize("player", ["idle", "reflex"])
 def test_a_game_is_watched_as_one_would_watch_it_from_outside(player: str) -> None:
-    games = play_games([TABLE] * 4, 20, kind_of(player))
+    games = games_of(4, 20, kind_of(player))
     for index in range(4):
         for name, value in watched(20 + index, player).items():
             assert games.game[name][index] == value, name
 
 
 def test_the_maps_and_the_gaps_count_every_tick_and_every_hit_once() -> None:
-    games = play_games([TABLE] * 16, 5, PlayerKind.RANDOM)
+    games = games_of(16, 5, PlayerKind.RANDOM)
     assert games.heat.sum() == (games.game["ticks"] - (games.game["over"] == 1)).sum()
     hits = sum(games.state[f"{kind}_hits"] for kind in ("wall", "slant_wall", "paddle", "cylinder"))
     assert games.gaps.sum() == (hits + games.state["triangular_prism_hits"]).sum()
@@ -89,19 +94,19 @@ def test_the_maps_and_the_gaps_count_every_tick_and_every_hit_once() -> None:
 
 
 def test_a_game_is_the_same_alone_and_among_others() -> None:
-    many, one = play_games([TABLE] * 8, 0, BEGINNER), play_games([TABLE], 5, BEGINNER)
+    many, one = games_of(8, 0, BEGINNER), games_of(1, 5, BEGINNER)
     assert [many.game[name][5] for name in GAME.names] == [one.game[name][0] for name in GAME.names]
     assert (many.reached[5] == one.reached[0]).all()
 
 
 def test_a_game_that_does_not_end_is_cut_short() -> None:
-    games = play_games([TABLE] * 3, 0, PlayerKind.IDLE, longest=0.5)
+    games = games_of(3, 0, PlayerKind.IDLE, longest=0.5)
     assert (games.game["over"] == 2).all()
     assert (games.game["ticks"] == TICK_RATE // 2).all()
 
 
 def test_what_a_struck_ball_reaches_is_no_more_than_there_are_strikes() -> None:
-    games = play_games([TABLE] * 32, 0, PlayerKind.REFLEX)
+    games = games_of(32, 0, PlayerKind.REFLEX)
     strikes = games.game["strikes"]
     assert strikes.sum() > 100
     assert (games.reached <= strikes[:, None]).all()
@@ -124,3 +129,14 @@ def test_the_beginner_presses_a_reaction_time_after_the_ball_could_be_seen_comin
         world.step(*(bool(button) for button in buttons))
     late = (pressed[0] - wished[0]) / TICK_RATE
     assert REACTION[0] - UNSTEADY - 1.0 / TICK_RATE <= late <= REACTION[1] + UNSTEADY
+
+
+def test_the_worlds_are_as_they_were_after_their_games_are_played() -> None:
+    batch = WorldBatch(TABLE, 4, 7, TICK_RATE)
+    before = batch.digests()
+    first, second = play_games(batch, PlayerKind.IDLE), play_games(batch, PlayerKind.IDLE)
+    assert batch.digests() == before
+    assert (first.game["ticks"] == second.game["ticks"]).all()
+    assert (first.state["score"] == second.state["score"]).all()
+    with pytest.raises(ValueError, match="240 ticks a second"):
+        play_games(WorldBatch(TABLE, 1, 0, 60), PlayerKind.IDLE)
