@@ -8,13 +8,14 @@ rest, and compiled code is made in another process, for a compiler in a thread w
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
+from silverball.drawing.dots import Dots
 from silverball.drawing.effects import Effects
 from silverball.drawing.moment import Moment
 from silverball.drawing.pictures import load_still, still_key
@@ -108,7 +109,7 @@ class Renderer:
         """Tell what happened since the last picture, so that it can be seen in the next ones."""
         self.effects.note(events, tick_rate)
 
-    def draw(self, moment: Moment, target: pygame.Surface, dots: Any = None) -> None:
+    def draw(self, moment: Moment, target: pygame.Surface, dots: Dots | None = None) -> None:
         """Draw a moment onto a surface of the renderer's size.
 
         Args:
@@ -118,13 +119,13 @@ class Renderer:
         """
         target.blit(self._compose(moment, dots), (0, 0))
 
-    def surface(self, moment: Moment, dots: Any = None) -> pygame.Surface:
+    def surface(self, moment: Moment, dots: Dots | None = None) -> pygame.Surface:
         """A moment as a new surface of 24 bits, whose bytes are RGB."""
         target = rgb_surface(self.camera.size)
         self.draw(moment, target, dots)
         return target
 
-    def array(self, moment: Moment, dots: Any = None) -> NDArray[np.uint8]:
+    def array(self, moment: Moment, dots: Dots | None = None) -> NDArray[np.uint8]:
         """A moment as RGB, uint8, shape [row, column, 3]."""
         width, height = self.camera.size
         pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
@@ -142,7 +143,7 @@ class Renderer:
         if self._studio is not None:
             self._studio.save_paddles()
 
-    def _compose(self, moment: Moment, dots: Any) -> pygame.Surface:
+    def _compose(self, moment: Moment, dots: Dots | None) -> pygame.Surface:
         self._take_over()
         surface = self._painter.compose(moment, self.effects)
         self._panel.draw(surface, moment, dots)
