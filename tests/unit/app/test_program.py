@@ -1,0 +1,190 @@
+"""What the program does when buttons are pressed and time goes on, without a window."""
+
+from __future__ import annotations
+
+import pytest
+
+from silverball.app.controls import Action, Held
+from silverball.app.library import Library
+from silverball.app.program import OVER_SECONDS, Program
+from silverball.app.settings import Settings
+from silverball.errors import TableError
+from silverball.game.news import Mode, Phase
+from silverball.game.replay import Replay, verify
+from silverball.game.store import Store
+from silverball.table import Board, Cylinder, Table
+
+NOTHING = Held((False, False), (False, False))
+LEAKY = Table(
+    name="Leaky",
+    board=Board(gravity=40.0),
+    cylinder=tuple(Cylinder(center=(-2.0, z), radius=1.15) for z in (-3.2, 0.0, 3.2)),
+)
+
+
+class Evening:
+    """A program, and an evening at it."""
+
+    def __init__(self, folder, settings=None, table=LEAKY) -> None:
+        self.said: list[str] = []
+        self.store = Store(folder)
+        library = Library(self.store, folder, {table.name: table})
+        chosen = settings or Settings(table=table.name)
+        self.program = Program(self.store, chosen, library, seed=3, say=self.said.append)
+        self.seconds = 0.0
+
+    def go(self, seconds: float) -> None:
+        for _ in range(round(seconds * 30)):
+            self.seconds += 1 / 30
+            self.program.pass_time(self.seconds)
+            self.program.advance(NOTHING, 8)
+            self.program.dots(self.seconds)
+
+    def tap(self, *actions: Action) -> None:
+        for action in actions:
+            self.program.press(action)
+            self.program.release(action)
+            self.go(1 / 30)
+
+    def play_to_the_end(self) -> None:
+        for _ in range(30):
+            if self.program.stage.has_ended:
+                return
+            self.tap(Action.CREATE)
+            for _ in range(60):
+                if self.program.stage.game.phase is not Phase.PLAY:
+                    break
+                self.go(0.5)
+
+
+@pytest.fixture
+def evening(tmp_path):
+    made = Evening(tmp_path)
+    made.program.get_ready()
+    yield made
+    made.store.close()
+
+
+def test_a_score_is_kept_before_anything_of_it_is_shown(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.play_to_the_end()
+    score = evening.program.stage.game.score
+    assert score > 0
+    assert evening.program.menus.page == ""
+    assert [row.score for row in evening.store.scores()] == [score]
+    evening.go(OVER_SECONDS + 0.1)
+    assert evening.program.menus.page == "initials"
+    (row,) = evening.store.scores()
+    verdict = verify(Replay.from_text(evening.store.replay(row.id)))
+    assert (verdict.ok, verdict.score) == (True, score)
+
+
+def test_what_is_asked_for_before_the_physics_is_ready_is_done_when_it_is(tmp_path):
+    evening = Evening(tmp_path)
+    evening.program.play(Mode.FREE, "Leaky", 3)
+    assert evening.program.stage is None
+    assert "one moment" in evening.said[-1]
+    evening.program.get_ready()
+    assert evening.program.is_playing
+    evening.store.close()
+
+
+def test_the_board_that_is_seen_in_the_menu_is_the_one_that_is_played_first(tmp_path):
+    from silverball.table import load_table
+
+    evening = Evening(tmp_path, Settings(table="Random"), load_table("random"))
+    evening.program.get_ready()
+    seen = evening.program.table
+    evening.tap(Action.CREATE)
+    assert evening.program.stage.game.table == seen
+    evening.tap(Action.NEW_BOARD)
+    assert evening.program.table != seen
+    evening.store.close()
+
+
+def test_a_game_that_is_left_is_the_last_game(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.tap(Action.CREATE)
+    evening.go(0.2)
+    evening.tap(Action.PAUSE, Action.LEFT, Action.CREATE, Action.RIGHT, Action.CREATE)  # end game, yes
+    assert evening.program.menus.page == "main"
+    assert evening.program.stage is None
+    replay = Replay.from_text(evening.store.last_game())
+    assert replay.ended == "stopped"
+    assert verify(replay).ok
+
+
+def test_a_replay_that_was_tampered_with_is_refused_in_one_sentence_and_the_menu_stays(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.play_to_the_end()
+    (row,) = evening.store.scores()
+    text = evening.store.replay(row.id).replace("seed = 3", "seed = 4")
+    evening.program.watch_text(text, "score 1")
+    assert "changed or damaged" in evening.said[-1]
+    assert evening.program.menus.is_open
+
+
+def test_settings_are_kept_with_every_change(evening):
+    evening.program.set(volume=3)
+    assert Settings.of(evening.store.settings()).volume == 3
+    assert evening.program.menus.settings.volume == 3
+
+
+def test_losing_the_focus_pauses_play_and_nothing_else(evening):
+    evening.program.lose_focus()
+    assert evening.program.menus.page == "main"
+    evening.program.play(Mode.FREE, "Leaky", 3)
+    evening.program.lose_focus()
+    assert evening.program.is_paused
+
+
+def test_a_table_file_that_cannot_be_used_is_not_offered_and_a_good_one_is(evening, tmp_path):
+    from silverball.table import dump_table
+
+    (tmp_path / "tables").mkdir()
+    (tmp_path / "tables" / "bad.toml").write_text("format = 99", encoding="utf-8")
+    (tmp_path / "tables" / "good.toml").write_text(dump_table(LEAKY), encoding="utf-8")
+    library = Library(evening.store, tmp_path)
+    names = [entry.name for entry in library.entries()]
+    assert str(tmp_path / "tables" / "good.toml") in names
+    assert str(tmp_path / "tables" / "bad.toml") not in names
+
+
+def test_a_table_that_is_not_there_is_an_error_at_the_start_and_a_message_later(tmp_path, evening):
+    with pytest.raises(TableError):
+        Evening(tmp_path / "other", Settings(table="nowhere.toml"))
+    before = evening.program.table
+    evening.program.play(Mode.FREE, "nowhere.toml")
+    assert "nowhere.toml" in evening.said[-1]
+    assert evening.program.table == before
+
+
+def test_nobody_there_lets_the_program_play_and_a_button_brings_the_menu_back(evening):
+    evening.go(31.0)
+    assert evening.program.menus.page == "attract"
+    assert not evening.program.is_heard
+    tick = evening.program.stage.game.tick
+    evening.go(1.0)
+    assert evening.program.stage.game.tick > tick
+    evening.tap(Action.RIGHT)
+    assert evening.program.menus.page == "main"
+
+
+def test_a_replay_goes_faster_and_slower_holds_and_jumps(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.play_to_the_end()
+    replay = Replay.from_text(evening.store.last_game())
+    evening.program.watch(replay)
+    player = evening.program.stage.player
+    evening.tap(*[Action.FASTER] * 9)
+    assert evening.program.speed == 16.0
+    evening.tap(*[Action.SLOWER] * 9)
+    assert evening.program.speed == 0.25
+    evening.tap(Action.CREATE)
+    held = player.tick
+    evening.go(1.0)
+    assert player.tick == held
+    evening.program.single_tick(NOTHING)
+    assert player.tick == held + 1
+    evening.tap(Action.RIGHT)
+    assert player.tick == min(held + 1 + 5 * replay.tick_rate, replay.ticks)
