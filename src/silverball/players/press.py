@@ -25,11 +25,13 @@ STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
 class PlayerKind(IntEnum):
-    """The simple players."""
+    """All players; the planner, which is not simple, is in planner.py."""
 
     IDLE = 0
     RANDOM = 1
     REFLEX = 2
+    HOLD = 3  # both paddles up for ever
+    PLANNER = 4
 
 
 class Player:
@@ -55,7 +57,8 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
         left = colliders[board.collider_first + Part.LEFT_PADDLE]
         right = colliders[board.collider_first + Part.RIGHT_PADDLE]
         return strikes(world, board, left), strikes(world, board, right)
-    return False, False
+    held = player == PlayerKind.HOLD
+    return held, held
 
 
 @kernel
