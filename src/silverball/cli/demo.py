@@ -31,13 +31,14 @@ def demo(
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
+    player: str = typer.Option("reflex", help="Who presses: idle, random, reflex, hold or planner."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
 ) -> None:
     """Let the program play by itself and make a film of it; no display is needed.
 
     Example: `silverball demo --out demo.gif --seconds 20`
     """
-    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, force=force)
+    make_demo(out or free_name("demo.gif"), seconds, table, seed, size, player, force=force)
 
 
 def make_demo(
@@ -46,6 +47,7 @@ def make_demo(
     table: str = "classic",
     seed: int = 7,
     size: int | None = None,
+    player: str = "reflex",
     *,
     force: bool = False,
 ) -> None:
@@ -56,6 +58,7 @@ def make_demo(
     from silverball.drawing import Renderer, best_size
     from silverball.drawing.film import FILM_RATES, check_output, write_film, write_picture
     from silverball.errors import OutputError
+    from silverball.players import make_player, player_kind
     from silverball.table import generate_table, load_table
 
     check_output(out, (".gif", ".mp4", ".png"), force=force)
@@ -71,13 +74,13 @@ def make_demo(
             f"{out}: a GIF of {seconds:g} s at {width} × {height} pixels is too large to make; "
             "ask for fewer --seconds, a smaller --size, or an .mp4"
         )
-    with compiling():
+    player_kind(player)
+    with compiling("plan_worlds" if player == "planner" else "run_worlds"):
         from silverball.app.startup import warm_up
-        from silverball.players import make_player
         from silverball.world import World
 
         warm_up(board)
-        make_player("reflex").press(World(board))
+        make_player(player).press(World(board))
     renderer = Renderer(board, (width, height), board_seed=board_seed)
     with Progress(console=errors, transient=True) as bar:
         task = bar.add_task(f"playing into {out.name}", total=seconds)
@@ -86,14 +89,14 @@ def make_demo(
             bar.update(task, completed=done)
 
         if ending == ".png":
-            write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, advance))[-1])
+            write_picture(out, list(film(renderer, seed, seconds, 1.0 / seconds, player, advance))[-1])
         else:
-            write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], advance))
+            write_film(out, film(renderer, seed, seconds, FILM_RATES[ending], player, advance))
     typer.echo(f"wrote {out}")
 
 
 def film(
-    renderer: Renderer, seed: int, seconds: float, rate: float, advance: Callable[[float], None]
+    renderer: Renderer, seed: int, seconds: float, rate: float, player: str, advance: Callable[[float], None]
 ) -> Iterator[Picture]:
     """The pictures of the program playing, `rate` for every second of play."""
     from silverball.drawing import Moment
@@ -101,13 +104,13 @@ def film(
     from silverball.world import World
 
     world = World(renderer.table, seed, TICK_RATE)
-    player = make_player("reflex")
+    hand = make_player(player)
     for number in range(1, max(round(seconds * rate), 1) + 1):
         while world.tick < round(number * TICK_RATE / rate):
             wanted = 2 if world.time > SECOND_BALL_AFTER else 1
             if len(world.balls) < min(wanted, world.table.board.max_balls):
                 world.create_ball()
-            world.step(*player.press(world))
+            world.step(*hand.press(world))
             renderer.note(world.events, TICK_RATE)
         yield renderer.array(Moment.of(world))
         advance(number / rate)

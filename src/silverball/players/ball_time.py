@@ -21,16 +21,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.balls import create_ball
-from silverball.physics.kernel import kernel
-from silverball.physics.layout import Fault, records
-from silverball.physics.step import step_world
-from silverball.players.planner import Notes, planned
-from silverball.players.press import PlayerKind, pressed
+from silverball.physics.layout import BALL, Fault, records
+from silverball.players.planner import Notes, beat_of, plan_batch
+from silverball.players.press import PlayerKind, press_all
 from silverball.world import WorldBatch
 
 STALL = 15.0  # [s] without points after which a ball is counted as lost; the environments end it alike
-CHUNK = 0.25  # [s] of play of all worlds, between two calls of `progress`
 NORMAL_95 = 1.959963984540054  # quantile of the normal distribution: 95 % lie within ± this
 
 
@@ -87,10 +83,10 @@ def time_balls(
     seconds: float,
     progress: Callable[[float], None] | None = None,
 ) -> BallTimes:
-    """Watch one ball in each world of a fresh batch.
+    """Watch one ball in each world of a batch.
 
     Args:
-        batch: The worlds, without balls.
+        batch: The worlds, without points so far; a ball is created where none has been.
         player: Who presses.
         seconds: For which a ball is watched at most [s].
         progress: Called now and then with the simulated seconds so far.
@@ -99,68 +95,50 @@ def time_balls(
         Lives and points of the balls.
     """
     lives = records(batch.count, LIFE)
-    notes = Notes(batch.count, batch.tallies.shape[1])
+    every = beat_of(batch.tick_rate) if player == PlayerKind.PLANNER else 1
+    notes = Notes(batch.count if player == PlayerKind.PLANNER else 1, batch.tallies.shape[1])
+    actions = np.zeros((1, batch.count, 3), np.bool_)
+    batch.create_balls(batch.state["created"] == 0)
+    alive = batch.state["created"] > 0
+    lives["end"][~alive] = End.NOT_BORN
     ticks = round(seconds * batch.tick_rate)
-    _run(batch, player, lives, notes, 0)
     started = time.perf_counter()
-    chunk = max(1, round(CHUNK * batch.tick_rate))
-    for done in range(0, ticks, chunk):
-        _run(batch, player, lives, notes, min(chunk, ticks - done))
-        if progress is not None:
-            progress(min(done + chunk, ticks) / batch.tick_rate)
-        if (lives["end"] != End.ALIVE).all():
+    for done in range(every, ticks + 1, every):
+        if player == PlayerKind.PLANNER:
+            actions[0, :, :2] = plan_batch(batch, notes)
+        else:
+            _press(batch, player, actions)
+        batch.run(actions, every)
+        alive = note_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
+        if progress is not None and done % batch.tick_rate < every:
+            progress(done / batch.tick_rate)
+        if not alive.any():
             break
     return _summary(lives, seconds, batch.tick_rate, time.perf_counter() - started)
 
 
-def _run(batch: WorldBatch, player: PlayerKind, lives: Any, notes: Notes, ticks: int) -> None:
+def _press(batch: WorldBatch, player: PlayerKind, actions: NDArray[np.bool_]) -> None:
+    """Let a simple player choose the next tick's actions of all worlds."""
     boards = batch.boards
-    batch.on_threads(
-        lambda first, end: time_lives(
-            batch.state, boards.board, batch.board_of, boards.collider, boards.grid, boards.place,
-            batch.logs, batch.tallies, *notes.arrays, lives, first, end, ticks, 1.0 / batch.tick_rate,
-            round(STALL * batch.tick_rate), int(player),
-        ),
-        batch.count * ticks,
+    press_all(
+        int(player), batch.state, boards.board, batch.board_of, boards.collider, 1.0 / batch.tick_rate,
+        actions,
     )  # fmt: skip
 
 
-@kernel
-def time_lives(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, places: Any, logs: Any, tallies: Any,
-    memories: Any, plans: Any, copies: Any, copy_logs: Any, copy_tallies: Any, lives: Any,
-    first: int, end: int, ticks: int, tick: float, stall: int, player: int,
-) -> None:  # fmt: skip
-    """Go on with the balls of the worlds first … end − 1; most arguments as in `play_worlds`.
+def note_lives(state: Any, lives: Any, alive: NDArray[np.bool_], ticks: int, stall: int) -> NDArray[np.bool_]:
+    """Write down what the last ticks did to the balls; which of them are alive, bool [ball].
 
-    Five are the arrays of the planners' `Notes`, `lives` [world] is written, `stall` is in ticks.
+    A ball that is counted as lost is taken off its board, so that nobody plays on with it.
     """
-    for index in range(first, end):
-        world, log, tally, life = worlds[index], logs[index], tallies[index], lives[index]
-        board = boards[board_of[index]]
-        if ticks > 0 and world.created == 0 and life.end == End.ALIVE:
-            create_ball(world, board, colliders, places, log)
-            if world.created == 0:
-                life.end = End.NOT_BORN + 0
-        for _ in range(ticks):
-            if life.end != End.ALIVE:
-                break
-            if player == PlayerKind.PLANNER:
-                left, right = planned(
-                    world, board, colliders, grid, index, memories, plans, copies, copy_logs, copy_tallies,
-                    tick,
-                )  # fmt: skip
-            else:
-                left, right = pressed(player, world, board, colliders, tick)
-            log.count, log.lost = 0, 0
-            step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
-            life.ticks += 1
-            if world.score != life.score:
-                life.score, life.scored = world.score, life.ticks
-            if world.drained > 0 or world.fault != Fault.NONE:
-                life.end = End.DRAINED + 0
-            elif life.ticks - life.scored >= stall:
-                life.end = End.STALLED + 0
+    lives["ticks"][alive] += ticks
+    scored = alive & (state["score"] != lives["score"])
+    lives["score"][scored], lives["scored"][scored] = state["score"][scored], lives["ticks"][scored]
+    lost = alive & ((state["drained"] > 0) | (state["fault"] != Fault.NONE))
+    stalled = alive & ~lost & (lives["ticks"] - lives["scored"] >= stall)
+    lives["end"][lost], lives["end"][stalled] = End.DRAINED, End.STALLED
+    state["ball"][stalled] = np.zeros((), BALL)
+    return alive & ~lost & ~stalled
 
 
 def _summary(lives: Any, seconds: float, tick_rate: int, wall: float) -> BallTimes:

@@ -34,15 +34,16 @@ FIRST_SPAN = 90  # within which a new press begins: long enough to let a caught 
 SHORT, LONG = 10, 90  # the longest short press (a shot) and the longest long one (a catch)
 GAP = 30  # at most, between two presses of a new plan
 SHIFT = 8  # at most, by which a press is shifted to make another plan
+FRESH = 0.3  # of the plans are new, the others vary the best one
 
 
 @internal
 def is_held(plan: Any, side: int, beat: int) -> bool:
     """Whether a plan holds a paddle's button in a beat."""
+    held = False
     for press in range(PRESSES):
-        if plan.start[side, press] <= beat < plan.end[side, press]:
-            return True
-    return False
+        held = held or plan.start[side, press] <= beat < plan.end[side, press]
+    return held
 
 
 @internal
@@ -80,6 +81,12 @@ def hold_all(plan: Any, left: bool, right: bool, beat: int, beats: int) -> None:
 def draw(seed: int, beat: int, count: int, below: int) -> int:
     """The count-th random whole number of a beat, from 0 to below − 1."""
     return int(uniform(seed ^ PLANNER_KEY, beat * DRAWS + count) * below)
+
+
+@internal
+def wants_new_plan(seed: int, beat: int, count: int) -> bool:
+    """Whether to try something new with the count-th random number of a beat, or to vary the best plan."""
+    return uniform(seed ^ PLANNER_KEY, beat * DRAWS + count) < FRESH
 
 
 @internal

@@ -62,6 +62,17 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
 
 
 @kernel
+def press_all(
+    player: int, worlds: Any, boards: Any, board_of: Any, colliders: Any, tick: float, actions: Any
+) -> None:
+    """Write what a player holds in the next tick of each world into actions, bool [1, world, 3]."""
+    for index in range(len(worlds)):
+        board = boards[board_of[index]]
+        left, right = pressed(player, worlds[index], board, colliders, tick)
+        actions[0, index, 0], actions[0, index, 1] = left, right
+
+
+@kernel
 def strikes(world: Any, board: Any, c: Any) -> bool:
     """Whether the reflex player lifts this paddle: a ball will be just above its outer half in a moment."""
     if c.kind != Kind.PADDLE:
