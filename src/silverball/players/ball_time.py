@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.layout import BALL, Fault, records
-from silverball.players.planner import Notes, beat_of, plan_batch
+from silverball.players.planner import BRANCHES, Notes, beat_of, plan_batch
 from silverball.players.press import PlayerKind, press_all
 from silverball.world import WorldBatch
 
@@ -82,6 +82,7 @@ def time_balls(
     player: PlayerKind,
     seconds: float,
     progress: Callable[[float], None] | None = None,
+    branches: int = BRANCHES,
 ) -> BallTimes:
     """Watch one ball in each world of a batch.
 
@@ -90,13 +91,14 @@ def time_balls(
         player: Who presses.
         seconds: For which a ball is watched at most [s].
         progress: Called now and then with the simulated seconds so far.
+        branches: That the planner tries at a decision.
 
     Returns:
         Lives and points of the balls.
     """
     lives = records(batch.count, LIFE)
     every = beat_of(batch.tick_rate) if player == PlayerKind.PLANNER else 1
-    notes = Notes(batch.count if player == PlayerKind.PLANNER else 1, batch.tallies.shape[1])
+    notes = Notes(batch.count if player == PlayerKind.PLANNER else 1, batch.tallies.shape[1], branches)
     actions = np.zeros((1, batch.count, 3), np.bool_)
     batch.create_balls(batch.state["created"] == 0)
     alive = batch.state["created"] > 0
@@ -138,7 +140,8 @@ def note_lives(state: Any, lives: Any, alive: NDArray[np.bool_], ticks: int, sta
     stalled = alive & ~lost & (lives["ticks"] - lives["scored"] >= stall)
     lives["end"][lost], lives["end"][stalled] = End.DRAINED, End.STALLED
     state["ball"][stalled] = np.zeros((), BALL)
-    return alive & ~lost & ~stalled
+    still: NDArray[np.bool_] = alive & ~lost & ~stalled
+    return still
 
 
 def _summary(lives: Any, seconds: float, tick_rate: int, wall: float) -> BallTimes:
@@ -146,10 +149,14 @@ def _summary(lives: Any, seconds: float, tick_rate: int, wall: float) -> BallTim
     times = born["ticks"] / tick_rate
     ended = born["end"] != End.ALIVE
     points = born["score"].astype(np.float64)
-    counts = [int((born["end"] == end).sum()) for end in (End.DRAINED, End.STALLED, End.ALIVE)]
+    drained, stalled, alive = (
+        int((born["end"] == end).sum()) for end in (End.DRAINED, End.STALLED, End.ALIVE)
+    )
     return BallTimes(
         len(born),
-        *counts,
+        drained,
+        stalled,
+        alive,
         seconds,
         median_life(times, ended),
         _mean(times),

@@ -49,7 +49,7 @@ def is_held(plan: Any, side: int, beat: int) -> bool:
 @internal
 def next_change(plan: Any, beat: int) -> int:
     """The first beat after this one in which the plan's buttons may change."""
-    change = plan.until
+    change: int = plan.until
     for side in range(2):
         for press in range(PRESSES):
             for edge in (plan.start[side, press], plan.end[side, press]):

@@ -17,9 +17,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.physics.horizon import free_ticks
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import BOARD, LOG, LOG_SIZE, WORLD, Part, records
-from silverball.physics.step import end_ticks, free_ticks, is_inside, is_ready, play_tick, turn_paddles
+from silverball.physics.step import end_ticks, is_inside, is_ready, play_tick, turn_paddles
 from silverball.players.plan import (
     PLAN,
     clear_plan,
@@ -49,9 +50,8 @@ MEMORY = np.dtype(
     [
         ("beat", "i8"),  # of the last decision
         ("score", "i8"), ("scored_tick", "i8"),  # the last score seen, and when it changed
-        ("branches", "i8"), ("step_limit", "i8"),  # to try at a decision, and their steps
+        ("branches", "i8"), ("step_limit", "i8"),  # to try at a decision, and steps to take in all of them
         ("tried", "i8"), ("steps", "i8"),  # branches and steps of the last decision
-        ("knob", "f8", (16,)),
     ],
     align=True,
 )  # fmt: skip
@@ -81,7 +81,7 @@ class Notes:
         self.buttons = np.zeros((count, 2), np.bool_)
 
     @property
-    def arrays(self) -> tuple[Any, ...]:
+    def arrays(self) -> tuple[Any, Any, Any, Any, Any, Any]:
         """All of them, as `plan_worlds` takes them."""
         return self.memories, self.plans, self.copies, self.logs, self.tallies, self.buttons
 
@@ -257,7 +257,7 @@ def buttons_of(
 def is_above(world: Any, board: Any) -> bool:
     """Whether no ball is in reach of a paddle."""
     a, b = world.ball[0], world.ball[1]
-    return (a.id == 0 or a.x > board.paddle_top) and (b.id == 0 or b.x > board.paddle_top)
+    return not (a.id != 0 and a.x <= board.paddle_top) and not (b.id != 0 and b.x <= board.paddle_top)
 
 
 @internal

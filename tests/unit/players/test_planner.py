@@ -174,10 +174,10 @@ def test_a_board_without_paddles_is_no_trouble() -> None:
 
 def test_it_plays_alone_what_it_plays_in_a_batch() -> None:
     batch = WorldBatch(full_table(), count=2, seed=6, tick_rate=120)
-    play(batch, PlayerKind.PLANNER, 5.0, balls=2)
+    play(batch, PlayerKind.PLANNER, 3.0, balls=2)
     for index in range(2):
         world, player = World(full_table(), seed=6 + index, tick_rate=120), make_player("planner")
-        for _ in range(600):
+        for _ in range(360):
             if len(world.balls) < 2:
                 world.create_ball()
             world.step(*player.press(world))
@@ -188,7 +188,7 @@ def test_balls_live_longer_than_under_the_reflex_player() -> None:
     ends = {}
     for kind in (PlayerKind.REFLEX, PlayerKind.PLANNER):
         batch = WorldBatch("random", count=8, seed=20, tick_rate=60)
-        ends[kind] = time_balls(batch, kind, 40.0)
+        ends[kind] = time_balls(batch, kind, 30.0, branches=FEW)
     reflex, planner = ends[PlayerKind.REFLEX], ends[PlayerKind.PLANNER]
     assert planner.drained + planner.stalled < reflex.drained + reflex.stalled
     assert planner.mean[0] > reflex.mean[0]

@@ -15,7 +15,6 @@ from silverball.players.press import RANDOM_HOLD, PlayerKind
 from silverball.world import World, WorldBatch
 from silverball.world.state import digest
 
-
 SIMPLE = ("idle", "random", "reflex", "hold")  # the planner has tests of its own
 
 
