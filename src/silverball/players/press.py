@@ -30,8 +30,8 @@ class PlayerKind(IntEnum):
     IDLE = 0
     RANDOM = 1
     REFLEX = 2
-    HOLD = 3  # both paddles up for ever
-    PLANNER = 4
+    HOLD = 4  # both paddles up for ever
+    PLANNER = 5
 
 
 class Player:
