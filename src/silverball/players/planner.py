@@ -36,8 +36,9 @@ from silverball.world import World, WorldBatch
 
 DECISIONS = 60  # a second
 BRANCHES = 60  # tried at one decision
-STEPS = 6000  # that all branches of a decision may take together; a leap over many beats counts as one
-HORIZON = 5.0  # [s] to which a branch is played at most
+STEPS = 10_000  # that all branches of a decision may take together; a leap over many beats counts as one
+HORIZON = 10.0  # [s] to which a branch is played at most: a shot may come back after 7 s, down the middle
+LOW_HORIZON = 4.0  # [s] of these, with a ball in reach of the paddles
 RISES = 2  # a branch ends when every ball has risen from the paddles so often
 RISE = 1.0  # [u] above the reach of the paddles to which a ball must rise
 LEAD = 12  # beats before a ball is in reach of the paddles at which branches begin to differ
@@ -273,12 +274,17 @@ def look_ahead(
         What the plan is worth, and how many beats were played. A ball lost after t seconds counts
         −1/(1 + t/LOSS_TIME), points up to GAIN, a long time without points up to −1.
     """
-    value, step, scored_at = 0.0, 0, 0
+    value, step, scored_at, low = 0.0, 0, 0, 0
+    lowest = int(LOW_HORIZON / length)
     start, score, drained = world.score, world.score, world.drained
     line = board.paddle_top + RISE
     a, b = world.ball[0], world.ball[1]
     low_a, low_b, rises_a, rises_b = a.x < line, b.x < line, 0, 0
-    while step < horizon and is_inside(world, board) and not (scouts and not is_above(world, board)):
+    while step < horizon and low < lowest and is_inside(world, board):
+        if not is_above(world, board):
+            low += 1
+            if scouts:
+                break
         now = beat + step
         left, right = buttons_of(plan, world, board, colliders, now, length)
         most = horizon - step

@@ -79,8 +79,8 @@ def test_the_cost_of_a_decision_is_bounded_by_its_branches_and_their_steps(branc
         assert memory["tried"] == (branches if world.balls else 0)
         longest = max(longest, int(memory["steps"]))
         world.step(*buttons)
-    # A branch takes at most a step for every beat of its five seconds, and so do the two scouts.
-    assert branches < longest <= 300 * (branches + 2)
+    # A branch takes at most a step for every beat of its ten seconds, and so do the two scouts.
+    assert branches < longest <= 600 * (branches + 2)
 
 
 def test_a_decision_stops_at_its_limit_of_steps() -> None:
@@ -89,7 +89,7 @@ def test_a_decision_stops_at_its_limit_of_steps() -> None:
     planner.press(world)
     memory = planner.notes.memories[0]
     assert memory["tried"] < 10**5
-    assert memory["step_limit"] <= memory["steps"] < memory["step_limit"] + 300
+    assert memory["step_limit"] <= memory["steps"] < memory["step_limit"] + 600
 
 
 def test_it_decides_sixty_times_a_second_and_holds_its_buttons_in_between() -> None:
