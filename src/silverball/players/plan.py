@@ -29,7 +29,7 @@ PLAN = np.dtype(
     align=True,
 )  # fmt: skip
 
-# All that follow are in beats, chosen, and have been varied by a factor of two without a clear gain.
+# All that follow are in beats, and chosen, not tuned.
 FIRST_SPAN = 90  # within which a new press begins: long enough to let a caught ball come to rest
 SHORT, LONG = 10, 90  # the longest short press (a shot) and the longest long one (a catch)
 GAP = 30  # at most, between two presses of a new plan

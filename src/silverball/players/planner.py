@@ -99,7 +99,7 @@ class Planner:
     it in another way.
 
     Args:
-        branches: Futures to try at a decision. More make it stronger and slower.
+        branches: Futures to try at a decision, at most; it also ends after STEPS steps. Fewer are faster.
     """
 
     kind = PlayerKind.PLANNER
