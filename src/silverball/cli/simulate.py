@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
+
+if TYPE_CHECKING:
+    from rich.progress import Progress
+
+    from silverball.table import Table
 
 # What stands for an option of a soak that was not given, and which options belong to one kind of run alone.
 SOAK_DEFAULTS = {"table": "random", "worlds": 256, "tick_rate": 60}
 SOAK_ONLY = ("frames", "hostile", "progress", "again")
-PLAY_ONLY = ("seconds", "player", "balls", "audit")
+PLAY_ONLY = ("seconds", "player", "balls", "audit", "ball_time")
 FEEL_ONLY = ("games",)
 NOT_FEEL = (*PLAY_ONLY, *SOAK_ONLY, "soak", "worlds", "tick_rate")
 
@@ -23,7 +28,7 @@ def simulate(
         0, min=0, max=2**63 - 1_000_001, help="Of the board and of everything random on it."
     ),
     seconds: float = typer.Option(60.0, min=0.01, max=1e9, help="To simulate in each world."),
-    player: str = typer.Option("reflex", help="Who presses the buttons: idle, random or reflex."),
+    player: str = typer.Option("reflex", help="Who presses: idle, random, reflex, hold or planner."),
     worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side (of a soak: 256)."),
     balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board, if the table allows them."),
     tick_rate: int = typer.Option(
@@ -33,6 +38,11 @@ def simulate(
         True, help="Check every tick, independently of the solver, for a ball inside anything."
     ),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+    ball_time: bool = typer.Option(
+        False,
+        "--ball-time",
+        help="How long does a ball live? Watch one in each world, for --seconds at most.",
+    ),
     soak: bool = typer.Option(
         False, "--soak", help="Try to break the solver: random boards, presses and speeds; 1 if it breaks."
     ),
@@ -48,6 +58,8 @@ def simulate(
     """Let a player play without a window and say what came of it; soak the solver; or feel how a table plays.
 
     Example: `silverball simulate --table random --seed 7 --seconds 600 --player reflex --json`
+
+    Example: `silverball simulate --ball-time --table random --worlds 1000 --player reflex`
 
     Example: `silverball simulate --soak --frames 1000000000`
 
@@ -71,8 +83,8 @@ def simulate(
 
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
-    from silverball.players import player_kind
-    from silverball.table import generate_table, load_table
+    from silverball.players import PlayerKind, player_kind
+    from silverball.table import load_table
 
     if not seconds * tick_rate >= 1.0:  # also refuses what is no number
         raise SilverballError(
@@ -80,17 +92,22 @@ def simulate(
         )
     kind = player_kind(player)
     loaded = load_table(table)
-    with compiling("play_worlds"):
+    if ball_time:
+        from silverball.cli.ball_time import print_ball_times, time_of_balls
+
+        if {"balls", "audit"} & given:
+            raise SilverballError("silverball simulate: --balls and --audit do not go with --ball-time")
+        print_ball_times(time_of_balls(loaded, table, seed, seconds, kind, worlds, tick_rate), as_json)
+        return
+    with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "play_worlds"):
         from silverball.players.games import play
         from silverball.world import WorldBatch
 
         play(WorldBatch("classic"), kind, 0.0, 0, audit)
+        if kind == PlayerKind.PLANNER:
+            play(WorldBatch("classic"), kind, 1.0 / 60.0, 1, audit)
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        boards = [loaded] * worlds
-        if loaded.random is not None:
-            numbers = bar.track(range(seed, seed + worlds), description="making boards")
-            boards = [generate_table(number, loaded) for number in numbers]
-        batch = WorldBatch(boards, worlds, seed, tick_rate)
+        batch = WorldBatch(boards_of(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"simulating {worlds} world{'s' * (worlds > 1)}", total=seconds)
         played = play(batch, kind, seconds, balls, audit, lambda done: bar.update(task, completed=done))
     report: dict[str, Any] = {
@@ -133,6 +150,16 @@ def refuse_what_does_not_fit(given: set[str], soak: bool, feel: bool) -> None:
             raise SilverballError(f"silverball simulate: --{name.replace('_', '-')} {kind}")
     if {"hostile", "table"} <= given:
         raise SilverballError("silverball simulate: --table does not go with --hostile, which makes its own")
+
+
+def boards_of(loaded: Table, seed: int, worlds: int, bar: Progress) -> list[Table]:
+    """A board for each world, showing progress: the same for all, or one for each seed from a recipe."""
+    from silverball.table import generate_table
+
+    if loaded.random is None:
+        return [loaded] * worlds
+    numbers = bar.track(range(seed, seed + worlds), description="making boards")
+    return [generate_table(number, loaded) for number in numbers]
 
 
 def digest_of(batch: Any) -> str:

@@ -1,7 +1,7 @@
-"""Who presses the buttons? The players: idle, random, reflex.
+"""Who presses the buttons? The players: idle, random, reflex, hold and the planner, which looks ahead.
 
-`make_player(name)` gives one for a single `World`; `silverball.players.games.play` runs any of them
-compiled, over many worlds.
+`make_player(name)` gives one for a single `World`; `silverball.players.games.play` runs any of them over many
+worlds, `silverball.players.ball_time.time_balls` measures how long they keep a ball.
 
 The soak, which presses at random to break the solver, lives here too: `hostile.py` makes its boards,
 `drive.py` presses, `watch.py` looks, `soak.py` runs the rounds, `soaklog.py` and `finding.py` keep what was
@@ -11,9 +11,13 @@ found.
 from __future__ import annotations
 
 import difflib
+from typing import TYPE_CHECKING
 
 from silverball.errors import SilverballError
 from silverball.players.press import Player, PlayerKind
+
+if TYPE_CHECKING:
+    from silverball.players.planner import Planner
 
 __all__ = ["PLAYERS", "Player", "PlayerKind", "make_player", "player_kind"]
 
@@ -34,10 +38,16 @@ def player_kind(name: str) -> PlayerKind:
     raise SilverballError(f"no player is called {name!r}, there are {', '.join(PLAYERS)}{hint}")
 
 
-def make_player(name: str) -> Player:
+def make_player(name: str) -> Player | Planner:
     """A player for a single world.
 
     Args:
-        name: "idle" (presses nothing), "random" (holds and releases at random) or "reflex" (hits what comes).
+        name: "idle" (presses nothing), "random" (holds and releases at random), "reflex" (hits what comes),
+            "hold" (keeps both paddles up for ever) or "planner" (plays copies of the world ahead).
     """
-    return Player(player_kind(name))
+    kind = player_kind(name)
+    if kind == PlayerKind.PLANNER:
+        from silverball.players.planner import Planner
+
+        return Planner()
+    return Player(kind)

@@ -1,7 +1,8 @@
 """How do many worlds go on under a player, without a window?
 
 One compiled loop keeps the wanted number of balls on every board, lets the player press, moves the world
-and, if asked, has every tick audited for a ball inside anything.
+and, if asked, has every tick audited for a ball inside anything. Only the planner decides outside of it, for
+all worlds in one call, sixty times a second.
 """
 
 from __future__ import annotations
@@ -76,24 +77,47 @@ def play(
     """
     ticks = round(seconds * batch.tick_rate)
     depths = np.zeros(batch.count)
-    _run(batch, player, 0, balls, audit, depths)  # compiles, moves nothing
+    pressing = _Planning(batch, balls) if player == PlayerKind.PLANNER else None
+    buttons = np.zeros((batch.count, 2), np.bool_) if pressing is None else pressing.notes.buttons
+    _run(batch, player, 0, balls, audit, depths, buttons)  # compiles, moves nothing
     started = time.perf_counter()
-    chunk = max(1, CHUNK_TICKS // batch.count)
+    chunk = max(1, CHUNK_TICKS // batch.count) if pressing is None else pressing.every
     for done in range(0, ticks, chunk):
-        _run(batch, player, min(chunk, ticks - done), balls, audit, depths)
+        if pressing is not None:
+            pressing.decide()
+        _run(batch, player, min(chunk, ticks - done), balls, audit, depths, buttons)
         if progress is not None:
             progress(min(done + chunk, ticks) / batch.tick_rate)
     wall = time.perf_counter() - started
     return _totals(batch, ticks / batch.tick_rate, wall, float(depths.max()) if audit else float("nan"))
 
 
-def _run(batch: WorldBatch, player: PlayerKind, ticks: int, balls: int, audit: bool, depths: Any) -> None:
+class _Planning:
+    """The planners of a batch, which decide between two runs, once a beat."""
+
+    def __init__(self, batch: WorldBatch, balls: int) -> None:
+        from silverball.players.planner import Notes, beat_of
+
+        self.batch, self.balls, self.every = batch, balls, beat_of(batch.tick_rate)
+        self.notes = Notes(batch.count, batch.tallies.shape[1])
+
+    def decide(self) -> None:
+        """Create the balls that are wanted, and choose the buttons of the next beat."""
+        from silverball.players.planner import plan_batch
+
+        self.batch.create_balls((self.batch.state["ball"]["id"] != 0).sum(axis=1) < self.balls)
+        plan_batch(self.batch, self.notes)
+
+
+def _run(
+    batch: WorldBatch, player: PlayerKind, ticks: int, balls: int, audit: bool, depths: Any, buttons: Any
+) -> None:
     boards = batch.boards
     batch.on_threads(
         lambda first, end: play_worlds(
             batch.state, boards.board, batch.board_of, boards.collider, boards.grid, boards.place,
             batch.logs, batch.tallies, first, end, ticks, 1.0 / batch.tick_rate,
-            int(player), balls, audit, depths,
+            int(player), balls, audit, depths, buttons,
         ),
         batch.count * ticks,
     )  # fmt: skip
@@ -124,20 +148,26 @@ def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> Pla
 def play_worlds(
     worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, places: Any, logs: Any, tallies: Any,
     first: int, end: int, ticks: int, tick: float, player: int, balls: int, audit: bool, depths: Any,
+    buttons: Any,
 ) -> None:  # fmt: skip
     """Let a player play the worlds first … end − 1 for a number of ticks; most arguments as in `run_worlds`.
 
     `places` are the squares in which balls are created, `player` is a `PlayerKind`, `balls` how many to keep
     on the board. With `audit`, `depths` [world] is raised to the deepest that a ball was inside anything [u].
+    The planner decides elsewhere: it holds `buttons` [world, 2] in all ticks.
     """
     for index in range(first, end):
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
-        for _ in range(ticks):
+        for done in range(ticks):
             log.count, log.lost = 0, 0
-            if ball_count(world) < balls:
+            # The planner has decided before this call, and before it decided a ball was created.
+            if ball_count(world) < balls and (done > 0 or player != PlayerKind.PLANNER):
                 create_ball(world, board, colliders, places, log)
-            left, right = pressed(player, world, board, colliders, tick)
+            if player == PlayerKind.PLANNER:
+                left, right = buttons[index, 0], buttons[index, 1]
+            else:
+                left, right = pressed(player, world, board, colliders, tick)
             step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
             if audit:
                 depths[index] = max(depths[index], deepest(world, board, colliders))

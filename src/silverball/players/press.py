@@ -25,11 +25,13 @@ STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
 class PlayerKind(IntEnum):
-    """The simple players."""
+    """All players; the planner, which is not simple, is in planner.py."""
 
     IDLE = 0
     RANDOM = 1
     REFLEX = 2
+    HOLD = 4  # both paddles up for ever
+    PLANNER = 5
 
 
 class Player:
@@ -55,7 +57,19 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
         left = colliders[board.collider_first + Part.LEFT_PADDLE]
         right = colliders[board.collider_first + Part.RIGHT_PADDLE]
         return strikes(world, board, left, LOOK_AHEAD), strikes(world, board, right, LOOK_AHEAD)
-    return False, False
+    held = player == PlayerKind.HOLD
+    return held, held
+
+
+@kernel
+def press_all(
+    player: int, worlds: Any, boards: Any, board_of: Any, colliders: Any, tick: float, actions: Any
+) -> None:
+    """Write what a player holds in the next tick of each world into actions, bool [1, world, 3]."""
+    for index in range(len(worlds)):
+        board = boards[board_of[index]]
+        left, right = pressed(player, worlds[index], board, colliders, tick)
+        actions[0, index, 0], actions[0, index, 1] = left, right
 
 
 @kernel

@@ -245,6 +245,11 @@ class World:
         """The world's record, its board's and the colliders: what kernels of players and drawings read."""
         return self._record, *self._static
 
+    @property
+    def grid(self) -> NDArray[np.int32]:
+        """The grid of the board, which a kernel needs that plays copies of the record on."""
+        return self._batch.boards.grid
+
     # --- helpers
     # -------------------------------------------------------------------------------------------------
 

@@ -9,11 +9,13 @@ import pytest
 
 from boards import PADDLES, full_table, launched, table_of
 from silverball.errors import SilverballError
-from silverball.players import PLAYERS, make_player
+from silverball.players import make_player
 from silverball.players.games import play
 from silverball.players.press import RANDOM_HOLD, PlayerKind
 from silverball.world import World, WorldBatch
 from silverball.world.state import digest
+
+SIMPLE = ("idle", "random", "reflex", "hold")  # the planner has tests of its own
 
 
 def test_the_idle_player_presses_nothing() -> None:
@@ -73,13 +75,13 @@ def test_the_reflex_player_lifts_the_paddle_that_a_ball_comes_down_on(side: int)
 
 def test_the_reflex_player_keeps_its_balls_longer_than_nobody() -> None:
     drained = {}
-    for name in PLAYERS:
+    for name in SIMPLE:
         batch = WorldBatch(full_table(), count=32, seed=1)
         drained[name] = play(batch, PlayerKind[name.upper()], 60.0, balls=1).drained
     assert drained["reflex"] < drained["idle"]
 
 
-@pytest.mark.parametrize("name", PLAYERS)
+@pytest.mark.parametrize("name", SIMPLE)
 def test_a_player_alone_plays_the_same_game_as_in_the_compiled_loop(name: str) -> None:
     batch = WorldBatch(full_table(), count=3, seed=6)
     play(batch, PlayerKind[name.upper()], 20.0, balls=2)
@@ -113,5 +115,5 @@ def test_the_totals_of_a_play_add_up() -> None:
 def test_a_player_of_no_known_name_is_refused_with_the_nearest() -> None:
     with pytest.raises(SilverballError, match="reflex"):
         make_player("reflexx")
-    with pytest.raises(SilverballError, match="idle, random, reflex"):
+    with pytest.raises(SilverballError, match="idle, random, reflex, hold, planner"):
         make_player("somebody")

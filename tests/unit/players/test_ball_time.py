@@ -1,0 +1,103 @@
+"""Ball time: how long a ball lives, when it counts as lost, and what is said of balls not yet lost."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from boards import PADDLES, full_table, table_of
+from silverball.players.ball_time import STALL, median_life, time_balls
+from silverball.players.press import PlayerKind
+from silverball.table import SlantWall
+from silverball.world import World, WorldBatch
+
+CRADLE = (SlantWall(start=(0.0, 0.0), end=(1.5, -1.5)), SlantWall(start=(0.0, 0.0), end=(1.5, 1.5)))
+
+
+def cradled() -> WorldBatch:
+    """Two worlds in which a ball lies for ever."""
+    batch = WorldBatch(table_of(*CRADLE), count=2)
+    batch.state["created"] = batch.state["ball"]["id"][:, 0] = 1
+    batch.state["ball"]["x"][:, 0] = 1.0
+    return batch
+
+
+def test_a_ball_is_lost_when_it_is_in_the_gutter() -> None:
+    batch = WorldBatch(table_of(), count=5, seed=1, tick_rate=240)
+    times = time_balls(batch, PlayerKind.IDLE, 60.0)
+    seconds = []
+    for seed in range(1, 6):
+        world = World(table_of(), seed=seed)
+        world.create_ball()
+        while world.balls:
+            world.step()
+        seconds.append(world.time)
+    assert (times.balls, times.drained, times.stalled, times.alive) == (5, 5, 0, 0)
+    assert times.mean[0] == pytest.approx(sum(seconds) / 5, abs=1e-12)
+    assert times.median[0] == sorted(seconds)[2]
+
+
+def test_a_ball_that_makes_no_points_is_lost_after_fifteen_seconds() -> None:
+    batch = cradled()
+    times = time_balls(batch, PlayerKind.IDLE, 60.0)
+    assert (times.drained, times.stalled, times.alive) == (0, 2, 0)
+    assert times.median[0] == times.mean[0] == STALL
+    assert not batch.state["ball"]["id"].any()
+
+
+def test_both_paddles_held_up_for_ever_do_not_win() -> None:
+    lives = {}
+    for kind in (PlayerKind.HOLD, PlayerKind.REFLEX):
+        lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50), kind, 60.0)
+    held, reflex = lives[PlayerKind.HOLD], lives[PlayerKind.REFLEX]
+    assert held.stalled > 0
+    assert held.mean[0] < reflex.mean[0]
+    assert held.score[0] < reflex.score[0]
+
+
+def test_a_ball_that_outlives_the_time_is_censored() -> None:
+    times = time_balls(cradled(), PlayerKind.IDLE, 5.0)
+    assert times.alive == 2
+    assert times.median == (math.inf, math.inf, math.inf)
+    assert times.mean[0] == pytest.approx(5.0)
+
+
+def test_the_median_of_balls_that_all_ended_is_that_of_their_lives() -> None:
+    rng = np.random.default_rng(1)
+    times = rng.exponential(50.0, 401)
+    median, low, high = median_life(times, np.ones(401, np.bool_))
+    assert median == np.median(times)
+    assert low < median < high
+
+
+def test_the_median_takes_censored_balls_for_what_they_are() -> None:
+    # Lives of a known distribution, each watched for a random time only: the median of what was seen is far
+    # too short, the estimate is not.
+    rng = np.random.default_rng(2)
+    covered, medians = 0, []
+    for _ in range(200):
+        lives, watched = rng.exponential(60.0, 300), rng.uniform(20.0, 200.0, 300)
+        seen = np.minimum(lives, watched)
+        median, low, high = median_life(seen, lives <= watched)
+        medians.append(median)
+        covered += low <= 60.0 * math.log(2.0) <= high
+        assert np.median(seen) < median
+    # 200 intervals of 95 %: 190 hold the truth, give or take four times √(200·0.95·0.05).
+    assert abs(covered - 190) < 13
+    assert np.mean(medians) == pytest.approx(60.0 * math.log(2.0), rel=0.02)
+
+
+def test_the_median_of_a_worked_example() -> None:
+    # One of 6 censored at 3 s. Survival: 5/6 at 1, 4/6 at 2, then of the 3 left at risk 2/3 and 1/3 of it.
+    times = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+    ended = np.array([True, True, False, True, True, True])
+    assert median_life(times, ended)[0] == 4.0  # 4/6 · 2/3 = 0.444
+    ended[2] = True
+    assert median_life(times, ended)[0] == 3.0
+
+
+def test_a_board_with_paddles_and_nothing_else_gives_no_points() -> None:
+    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1), PlayerKind.REFLEX, 20.0)
+    assert times.score[0] == times.score_per_minute[0] == 0.0
