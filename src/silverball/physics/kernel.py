@@ -35,7 +35,12 @@ import numba.core.config
 from numba.core.registry import CPUDispatcher
 
 SETTINGS: Any = numba.core.config
-KERNEL_PACKAGES = ("physics", "world", "players")  # a kernel elsewhere must be added here; a test sees to it
+KERNEL_PACKAGES = (
+    "physics",
+    "world",
+    "players",
+    "envs",
+)  # a kernel elsewhere must be added here; a test sees to it
 KEEP_SECONDS = 30 * 24 * 3600.0
 
 
@@ -67,6 +72,14 @@ def internal(function: F) -> F:
 def inlined(function: F) -> F:
     """Compile a small helper of the hot loop into its callers, which are kernels."""
     return _compile(function, no_cpython_wrapper=True, forceinline=True)
+
+
+def pasted(function: F) -> F:
+    """Put a helper into its callers before they are compiled, so that it is not compiled by itself.
+
+    For what has one caller, or makes an array: without reference counting no compiled function returns one.
+    """
+    return _compile(function, inline="always")
 
 
 @cache
@@ -113,7 +126,7 @@ def forget_old_code() -> None:
             shutil.rmtree(other, ignore_errors=True)
 
 
-def _compile(function: F, **more: bool) -> F:
+def _compile(function: F, **more: bool | str) -> F:
     folder = cache_folder()
     options: dict[str, Any] = {
         "cache": folder is not None,
