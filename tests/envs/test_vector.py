@@ -30,7 +30,7 @@ def same(one, other) -> bool:
     "options",
     [
         SHORT,
-        {"table": "classic", "balls": 3, "jitter": True, "create": "button"},
+        {"table": "classic", "balls": 3, "jitter": True, "create": "button", "time_limit": 3.0},
         {**SHORT, "observation": "dict", "reward": "time", "frame_skip": 3},
         {**SHORT, "actions": "multibinary", "tick_rate": 240, "frame_skip": 4, "stall": 1.0},
         {**SHORT, "observation": "pixels", "size": (20, 12), "stack": 3},

@@ -7,25 +7,47 @@ the functions below make the array from it where one is needed. Whoever holds th
 
 from __future__ import annotations
 
+import ctypes
 from typing import Any
 
 import numpy as np
+from numba import types
 
 from silverball.envs.records import EPISODE, FILM, RULES, SCENE
-from silverball.physics.kernel import pasted
+from silverball.physics.kernel import SETTINGS, pasted
 from silverball.physics.layout import BOARD, COLLIDER, LOG, WORLD
-from silverball.world.alone import BOOL, INT, SHORT_INT, array_at
+from silverball.world.alone import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
 
 FLOAT, SMALL_FLOAT, BYTE = np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.uint8)
 
+
+@intrinsic  # type: ignore[untyped-decorator]
+def _compiled_copy(typing_context: Any, target: Any, source: Any, count: Any) -> Any:
+    """Copy bytes from an address to another; the two runs must not overlap."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        pointers = [builder.inttoptr(address, cgutils.voidptr_t) for address in arguments[:2]]
+        cgutils.raw_memcpy(builder, *pointers, arguments[2], 1)
+        return context.get_dummy_value()
+
+    return types.none(types.int64, types.int64, types.int64), generate
+
+
+def _interpreted_copy(target: int, source: int, count: int) -> None:
+    """The same without the compiler."""
+    ctypes.memmove(int(target), int(source), int(count))
+
+
+copy_bytes: Any = _interpreted_copy if SETTINGS.DISABLE_JIT else _compiled_copy
+
 ARRAYS = (
-    "worlds", "words", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
+    "worlds", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
     "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks",
     "observations", "rewards", "terminated", "truncated", "counts", "finals", "final_counts", "scenes",
     "final_scenes", "final_boards", "frames", "copies", "backgrounds", "balls", "paddles",
 )  # fmt: skip
 LENGTHS = (
-    "envs", "words", "boards", "colliders", "numbers", "places", "parts", "columns", "layout_columns", "counts",
+    "envs", "boards", "colliders", "numbers", "places", "parts", "columns", "layout_columns", "counts",
     "stack", "ring", "pixels", "ball_pixels", "paddle_pixels",
 )  # fmt: skip
 ADDRESSES = np.dtype(
@@ -37,12 +59,6 @@ ADDRESSES = np.dtype(
 def worlds(at: Any) -> Any:
     """Records [envs]."""
     return array_at(at.worlds_at, (at.envs,), WORLD)
-
-
-@pasted
-def words(at: Any) -> Any:
-    """The same bytes as integers [envs, words]."""
-    return array_at(at.words_at, (at.envs, at.words), INT)
 
 
 @pasted
@@ -106,12 +122,6 @@ def episodes(at: Any) -> Any:
 
 
 @pasted
-def blanks(at: Any) -> Any:
-    """Records of worlds in which nothing has happened yet, as integers [boards, words]."""
-    return array_at(at.blanks_at, (at.boards, at.words), INT)
-
-
-@pasted
 def layouts(at: Any) -> Any:
     """The obstacles of each board as they stand in an observation [boards, layout_columns]."""
     return array_at(at.layouts_at, (at.boards, at.layout_columns), SMALL_FLOAT)
@@ -167,8 +177,8 @@ def truncated(at: Any) -> Any:
 
 @pasted
 def counts(at: Any) -> Any:
-    """The events of each episode so far, see `COUNTS` [counts, envs]."""
-    return array_at(at.counts_at, (at.counts, at.envs), INT)
+    """The events of each episode so far, see `COUNTS` [envs, counts]."""
+    return array_at(at.counts_at, (at.envs, at.counts), INT)
 
 
 @pasted
@@ -179,8 +189,8 @@ def finals(at: Any) -> Any:
 
 @pasted
 def final_counts(at: Any) -> Any:
-    """Their counts [counts, envs]."""
-    return array_at(at.final_counts_at, (at.counts, at.envs), INT)
+    """Their counts [envs, counts]."""
+    return array_at(at.final_counts_at, (at.envs, at.counts), INT)
 
 
 @pasted

@@ -48,7 +48,7 @@ class Engine:
         observations: float32 [env, column]; empty for pictures.
         window: The pictures of the last observation, uint8 [env, stacked, pixel]; empty for states.
         rewards, terminated, truncated: Of the last step [env].
-        counts: Events so far, int64 [count, env]: `COUNTS`, then the board's seed and whether it stalled.
+        counts: Events so far, int64 [env, count]: `COUNTS`, then the board's seed and whether it stalled.
         finals, final_counts: The same of episodes that ended in the last step.
     """
 
@@ -67,10 +67,10 @@ class Engine:
         self.observations = np.zeros((count, columns), np.float32)
         self.rewards = np.zeros(count)
         self.terminated, self.truncated = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        self.counts = np.zeros((COUNT_ROWS, count), np.int64)
+        self.counts = np.zeros((count, COUNT_ROWS), np.int64)
         kept = count if mode == Mode.SAME_STEP else 0
         self.finals = np.zeros((kept, columns), np.float32)
-        self.final_counts = np.zeros((COUNT_ROWS, kept), np.int64)
+        self.final_counts = np.zeros((kept, COUNT_ROWS), np.int64)
         self.final_scenes = records(kept * self.stack, SCENE).reshape(kept, self.stack)
         self.final_boards = np.zeros(kept, np.int64)
         self._held = np.zeros((1, count, 3), np.bool_)
@@ -118,15 +118,12 @@ class Engine:
     def _write_addresses(self) -> None:
         """Write down where everything is."""
         boards, pictures, pool = self.pool.boards, self.pictures, self.pool
-        words = self.batch.state.view(np.int64).reshape(self.count, -1)
-        blanks = pool.blanks.view(np.int64).reshape(len(boards.board), -1)
-        self._held_by_kernels = (words, blanks)
         self.addresses = records(1, ADDRESSES)
         self._point_at(
-            worlds=self.batch.state, words=words, boards=boards.board, board_of=self.batch.board_of,
+            worlds=self.batch.state, boards=boards.board, board_of=self.batch.board_of,
             board_seeds=pool.seeds, colliders=boards.collider, grid=boards.grid, places=boards.place,
             logs=self.batch.logs, tallies=self.batch.tallies, held=self._held, episodes=self.episodes,
-            blanks=blanks, layouts=pool.layouts, rules=self.rules, film=self.film, actions=self.actions,
+            blanks=pool.blanks, layouts=pool.layouts, rules=self.rules, film=self.film, actions=self.actions,
             masks=self.masks, observations=self.observations, rewards=self.rewards,
             terminated=self.terminated, truncated=self.truncated, counts=self.counts, finals=self.finals,
             final_counts=self.final_counts, scenes=self.scenes, final_scenes=self.final_scenes,
@@ -134,7 +131,7 @@ class Engine:
             backgrounds=pictures.backgrounds, balls=pictures.balls, paddles=pictures.paddles,
         )  # fmt: skip
         lengths = {
-            "envs": self.count, "words": words.shape[1], "boards": len(boards.board),
+            "envs": self.count, "boards": len(boards.board),
             "colliders": len(boards.collider), "numbers": len(boards.grid), "places": len(boards.place),
             "parts": self.batch.tallies.shape[1], "columns": self.observations.shape[1],
             "layout_columns": pool.layouts.shape[1], "counts": COUNT_ROWS, "stack": self.stack,
@@ -183,7 +180,7 @@ class Engine:
         workers = pool_of_threads(self.batch.threads)
         others: list[Future[Any]] = [
             workers.submit(move, self.addresses, first, end, number)
-            for first, end in itertools.pairwise(edges)
+            for first, end in itertools.pairwise(edges[1:])
         ]
         move(self.addresses, 0, edges[1], number)
         for other in others:
@@ -205,7 +202,7 @@ class Engine:
             "rewards": np.empty(self.count),
             "terminated": np.empty(self.count, np.bool_),
             "truncated": np.empty(self.count, np.bool_),
-            "counts": np.empty((COUNT_ROWS, self.count), np.int64),
+            "counts": np.empty((self.count, COUNT_ROWS), np.int64),
         }
         if not self.shows_pictures:
             fresh["observations"] = np.empty_like(self.observations)
@@ -228,7 +225,7 @@ class Engine:
     def final_pictures(self, rows: NDArray[np.int64]) -> NDArray[np.uint8]:
         """The last pictures of the episodes that ended in these environments, uint8 [row, stacked, pixel]."""
         drawn = np.empty((len(rows), self.stack, self.frames.shape[2]), np.uint8)
-        draw_finals(self.addresses, rows, drawn)
+        draw_finals(self.addresses, rows, drawn.ctypes.data)
         return drawn
 
     # --- beginning and saving

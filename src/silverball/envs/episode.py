@@ -13,9 +13,10 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.envs import arrays as the
+from silverball.envs.arrays import SMALL_FLOAT, copy_bytes
 from silverball.envs.options import POINT
-from silverball.envs.pixels import copy_scene, film_step, show_again, show_first, wind
-from silverball.envs.records import End, Mode, Task
+from silverball.envs.pixels import SCENE_SIZE, film_step, show_again, show_first, wind
+from silverball.envs.records import COUNTS, EPISODE, End, Mode, Task
 from silverball.envs.slots import (
     BALLS,
     GAME,
@@ -27,11 +28,15 @@ from silverball.envs.slots import (
 )
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, kernel, pasted
-from silverball.physics.layout import BALL_COUNT, Fault, Outcome
+from silverball.physics.layout import BALL_COUNT, WORLD, Fault, Outcome
 from silverball.physics.random import WORD, threefry
 from silverball.physics.step import run_worlds
+from silverball.world.alone import array_at
 
 BLOCK = 64  # worlds that are moved before they are looked at: their records stay in the cache
+WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
+# The counters stand in a world's record in the order of `COUNTS`, the first two fields of an episode follow.
+COUNTS_AT, COUNTS_SIZE = int(WORLD.fields["score"][1]), 8 * len(COUNTS)  # type: ignore[index]
 BALL_WIDTH, PADDLE_WIDTH = len(BallSlot), len(PaddleSlot)
 
 
@@ -177,8 +182,7 @@ def begin(at: Any, rules: Any, index: int) -> None:
     choice, _ = threefry(key0, key1, episode.number & WORD, 1)
     which = (choice * rules.boards) >> 32
     the.board_of(at)[index] = which
-    for word in range(the.words(at).shape[1]):
-        the.words(at)[index, word] = the.blanks(at)[which, word]
+    copy_bytes(at.worlds_at + index * WORLD_SIZE, at.blanks_at + which * WORLD_SIZE, WORLD_SIZE)
     world, log = the.worlds(at)[index], the.logs(at)[index]
     world.seed = ((high & 0x7FFFFFFF) << 32) | low
     log.count, log.lost = 0, 0
@@ -193,65 +197,55 @@ def begin(at: Any, rules: Any, index: int) -> None:
 @internal
 def keep_final(at: Any, rules: Any, index: int) -> None:
     """Keep what the last observation and the counts of an episode are made of, before the next begins."""
-    write_counts(at, the.final_counts(at), index)
+    write_counts(at, at.final_counts_at, index)
     the.final_boards(at)[index] = the.board_of(at)[index]
     if rules.state != 0:
-        write_state(at, rules, the.finals(at), index)
+        write_state(at, rules, at.finals_at, index)
     if rules.pictures != 0:
-        for number in range(the.scenes(at).shape[1]):
-            copy_scene(the.scenes(at)[index, number], the.final_scenes(at)[index, number])
+        size = at.stack * SCENE_SIZE
+        copy_bytes(at.final_scenes_at + index * size, at.scenes_at + index * size, size)
 
 
 @inlined
 def observe(at: Any, rules: Any, index: int) -> None:
     """Write what an environment shows."""
-    write_counts(at, the.counts(at), index)
+    write_counts(at, at.counts_at, index)
     if rules.state != 0:
-        write_state(at, rules, the.observations(at), index)
-    if rules.pictures != 0:
-        wind(at, index, rules.copies != 0)
+        write_state(at, rules, at.observations_at, index)
+    if rules.copies != 0:
+        wind(at, index)
 
 
 @inlined
-def write_counts(at: Any, counts: Any, index: int) -> None:
+def write_counts(at: Any, address: int, index: int) -> None:
     """Write the events of the episode so far, in the order of `COUNTS`, then the board's seed and a stall."""
-    world, episode = the.worlds(at)[index], the.episodes(at)[index]
-    counts[0, index] = world.score
-    counts[1, index] = world.created
-    counts[2, index] = world.drained
-    counts[3, index] = world.wall_hits
-    counts[4, index] = world.slant_wall_hits
-    counts[5, index] = world.paddle_hits
-    counts[6, index] = world.triangular_prism_hits
-    counts[7, index] = world.cylinder_hits
-    counts[8, index] = world.ball_hits
-    counts[9, index] = world.touches
-    counts[10, index] = world.jams
-    counts[11, index] = episode.board_seed
-    counts[12, index] = episode.stalled
+    start = address + index * at.counts * 8
+    copy_bytes(start, at.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
+    copy_bytes(start + COUNTS_SIZE, at.episodes_at + index * EPISODE_SIZE, 16)
 
 
 @internal
-def write_state(at: Any, rules: Any, rows: Any, index: int) -> None:
-    """Write a state observation, slot by slot as `slots.py` has them."""
+def write_state(at: Any, rules: Any, address: int, index: int) -> None:
+    """Write a state observation among those at an address, slot by slot as `slots.py` has them."""
+    row = array_at(address + index * at.columns * 4, (at.columns,), SMALL_FLOAT)
     world, episode = the.worlds(at)[index], the.episodes(at)[index]
     for slot in range(BALL_COUNT):
         ball, start = world.ball[slot], BALLS + BALL_WIDTH * slot
         there = 0.0 if ball.id == 0 else 1.0
-        rows[index, start + BallSlot.ALIVE] = there
-        rows[index, start + BallSlot.X] = there * ball.x * rules.per_x
-        rows[index, start + BallSlot.Z] = there * ball.z * rules.per_z
-        rows[index, start + BallSlot.VX] = there * ball.vx * rules.per_speed
-        rows[index, start + BallSlot.VZ] = there * ball.vz * rules.per_speed
+        row[start + BallSlot.ALIVE] = there
+        row[start + BallSlot.X] = there * ball.x * rules.per_x
+        row[start + BallSlot.Z] = there * ball.z * rules.per_z
+        row[start + BallSlot.VX] = there * ball.vx * rules.per_speed
+        row[start + BallSlot.VZ] = there * ball.vz * rules.per_speed
     for side in range(2):
         paddle, start = world.paddle[side], PADDLES + PADDLE_WIDTH * side
-        rows[index, start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest[side]) * rules.per_angle[side]
-        rows[index, start + PaddleSlot.TURN] = paddle.angular_velocity * rules.per_turn[side]
+        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest[side]) * rules.per_angle[side]
+        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.per_turn[side]
         held = paddle.angle_commanded == rules.up[side] and rules.per_angle[side] != 0.0
-        rows[index, start + PaddleSlot.HELD] = 1.0 if held else 0.0
-    rows[index, GAME + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.quiet * rules.per_quiet)
-    rows[index, GAME + GameSlot.LEFT] = (rules.balls - world.created) * rules.per_ball
+        row[start + PaddleSlot.HELD] = 1.0 if held else 0.0
+    row[GAME + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.quiet * rules.per_quiet)
+    row[GAME + GameSlot.LEFT] = (rules.balls - world.created) * rules.per_ball
     if rules.layout != 0:
-        which = the.board_of(at)[index]
-        for column in range(the.layouts(at).shape[1]):
-            rows[index, LAYOUT + column] = the.layouts(at)[which, column]
+        size = at.layout_columns * 4
+        target = address + (index * at.columns + LAYOUT) * 4
+        copy_bytes(target, at.layouts_at + the.board_of(at)[index] * size, size)

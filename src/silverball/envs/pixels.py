@@ -10,16 +10,18 @@ slides along it, so that no picture is moved but when the window has come to the
 
 from __future__ import annotations
 
-from math import floor
 from typing import Any
 
 from silverball.envs import arrays as the
-from silverball.envs.records import LIT_BITS
+from silverball.envs.arrays import BYTE, copy_bytes
+from silverball.envs.records import LIT_BITS, SCENE
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import BALL_COUNT, EventKind, Kind, Part
 from silverball.physics.shapes import distance
+from silverball.world.alone import array_at
 
 FINE = 8  # places of a ball within a pixel, along each axis, that have a sprite of their own
+SCENE_SIZE = SCENE.itemsize
 ANGLES = 32  # angles of a paddle that have a sprite of their own
 
 
@@ -29,15 +31,11 @@ def film_step(at: Any, index: int) -> None:
     film = the.film(at)[0]
     last = film.stack - 1
     for number in range(last):
-        copy_scene(the.scenes(at)[index, number + 1], the.scenes(at)[index, number])
+        copy_scene(at, index, number + 1, number)
     look(at, index, last)
     if film.wraps != 0:
-        for number in range(last):
-            source = the.frames(at).shape[1] - last + number
-            for pixel in range(the.frames(at).shape[2]):
-                the.frames(at)[index, number, pixel] = the.frames(at)[index, source, pixel]
-    scene, board = the.scenes(at)[index, last], the.board_of(at)[index]
-    draw(at, scene, board, the.frames(at), index, film.at + last)
+        copy_bytes(frame(at, index, 0), frame(at, index, at.ring - last), last * at.pixels)
+    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], frame(at, index, film.at + last))
 
 
 @internal
@@ -47,12 +45,11 @@ def show_first(at: Any, index: int) -> None:
     last = film.stack - 1
     look(at, index, last)
     the.scenes(at)[index, last].lit = 0
+    newest = frame(at, index, film.at + last)
+    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], newest)
     for number in range(last):
-        copy_scene(the.scenes(at)[index, last], the.scenes(at)[index, number])
-    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], the.frames(at), index, film.at + last)
-    for number in range(last):
-        for pixel in range(the.frames(at).shape[2]):
-            the.frames(at)[index, film.at + number, pixel] = the.frames(at)[index, film.at + last, pixel]
+        copy_scene(at, index, last, number)
+        copy_bytes(frame(at, index, film.at + number), newest, at.pixels)
 
 
 @internal
@@ -61,34 +58,44 @@ def show_again(at: Any, index: int) -> None:
     film = the.film(at)[0]
     for number in range(film.stack):
         scene = the.scenes(at)[index, number]
-        draw(at, scene, the.board_of(at)[index], the.frames(at), index, film.at + number)
+        draw(at, scene, the.board_of(at)[index], frame(at, index, film.at + number))
 
 
 @kernel
-def draw_finals(addresses: Any, rows: Any, pictures: Any) -> None:
+def draw_finals(addresses: Any, rows: Any, pictures: int) -> None:
     """Draw the last observations of the episodes that ended in these environments.
 
     Args:
         addresses: One ADDRESSES record.
         rows: Which environments, int64 [row].
-        pictures: Written, uint8 [row, stacked, pixel].
+        pictures: Address of where they go, uint8 [row, stacked, pixel].
     """
     at = addresses[0]
     for row in range(len(rows)):
         index = rows[row]
-        for number in range(the.film(at)[0].stack):
+        for number in range(at.stack):
             scene, board = the.final_scenes(at)[index, number], the.final_boards(at)[index]
-            draw(at, scene, board, pictures, row, number)
+            draw(at, scene, board, pictures + (row * at.stack + number) * at.pixels)
 
 
-@internal
-def wind(at: Any, index: int, copies: bool) -> None:
-    """Copy the window of an environment to where its observation goes, if copies are wanted."""
-    if copies:
-        film = the.film(at)[0]
-        for number in range(film.stack):
-            for pixel in range(the.frames(at).shape[2]):
-                the.copies(at)[index, number, pixel] = the.frames(at)[index, film.at + number, pixel]
+@inlined
+def wind(at: Any, index: int) -> None:
+    """Copy the window of an environment to where its observation goes."""
+    size = at.stack * at.pixels
+    copy_bytes(at.copies_at + index * size, frame(at, index, the.film(at)[0].at), size)
+
+
+@inlined
+def frame(at: Any, index: int, number: int) -> int:
+    """The address of a picture in the ring."""
+    return int(at.frames_at + (index * at.ring + number) * at.pixels)
+
+
+@inlined
+def copy_scene(at: Any, index: int, number: int, to: int) -> None:
+    """Copy a scene of an environment to another place among its scenes."""
+    first = at.scenes_at + index * at.stack * SCENE_SIZE
+    copy_bytes(first + to * SCENE_SIZE, first + number * SCENE_SIZE, SCENE_SIZE)
 
 
 @internal
@@ -100,91 +107,66 @@ def look(at: Any, index: int, number: int) -> None:
         scene.x[slot], scene.z[slot], scene.alive[slot] = ball.x, ball.z, ball.id
         scene.angle[slot] = world.paddle[slot].angle
     lit = 0
-    for number in range(log.count):
-        event = log.event[number]
+    for entry in range(log.count):
+        event = log.event[entry]
         shape = event.part - Part.FIRST_SHAPE
         if event.kind == EventKind.HIT and 0 <= shape < LIT_BITS:
             lit |= 1 << shape
     scene.lit = lit
 
 
-@inlined
-def copy_scene(scene: Any, other: Any) -> None:
-    """Copy a SCENE record to another."""
-    for slot in range(BALL_COUNT):
-        other.x[slot], other.z[slot], other.alive[slot] = scene.x[slot], scene.z[slot], scene.alive[slot]
-        other.angle[slot] = scene.angle[slot]
-    other.lit = scene.lit
-
-
 @internal
-def draw(at: Any, scene: Any, board: int, frames: Any, index: int, number: int) -> None:
-    """Draw a scene on a board as the picture `number` of environment `index`."""
+def draw(at: Any, scene: Any, board: int, picture: int) -> None:
+    """Draw a scene on a board as the picture at this address."""
     film, rules = the.film(at)[0], the.rules(at)[0]
-    for pixel in range(frames.shape[2]):
-        frames[index, number, pixel] = the.backgrounds(at)[board, pixel]
+    copy_bytes(picture, at.backgrounds_at + board * at.pixels, at.pixels)
     if scene.lit != 0:
         first = the.boards(at)[board].collider_first + Part.FIRST_SHAPE
         for shape in range(LIT_BITS):
             if scene.lit >> shape & 1:
-                light_up(film, the.colliders(at)[first + shape], frames, index, number)
-    size = film.paddle_rows * film.paddle_columns * film.channels
+                light_up(film, the.colliders(at)[first + shape], array_at(picture, (at.pixels,), BYTE))
+    rows, columns = film.paddle_rows, film.paddle_columns
     for side in range(2):
-        if size == 0 or rules.per_angle[side] == 0.0:
+        if rows == 0 or rules.per_angle[side] == 0.0:
             continue
         turn = (scene.angle[side] - rules.rest[side]) * rules.per_angle[side]
-        sprite = (side * ANGLES + int(turn * (ANGLES - 1) + 0.5)) * size
-        row, column = film.paddle_row[side], film.paddle_column[side]
-        stamp(
-            film,
-            the.paddles(at),
-            sprite,
-            film.paddle_rows,
-            film.paddle_columns,
-            frames,
-            index,
-            number,
-            row,
-            column,
-        )
+        number = side * ANGLES + int(turn * (ANGLES - 1) + 0.5)
+        sprite = at.paddles_at + number * rows * columns * film.channels
+        stamp(film, sprite, rows, columns, picture, film.paddle_row[side], film.paddle_column[side])
     for slot in range(BALL_COUNT):
         if scene.alive[slot] != 0:
-            draw_ball(film, the.balls(at), scene.x[slot], scene.z[slot], frames, index, number)
+            draw_ball(film, at.balls_at, scene.x[slot], scene.z[slot], picture)
 
 
 @inlined
-def draw_ball(film: Any, sprites: Any, x: float, z: float, frames: Any, index: int, number: int) -> None:
+def draw_ball(film: Any, sprites: int, x: float, z: float, picture: int) -> None:
     """Draw a ball at (x, z) with the sprite of its place within the pixel."""
     row, column = (film.half_length - x) * film.rows, (film.half_width + z) * film.columns
-    whole_row, whole_column = floor(row), floor(column)
+    whole_row, whole_column = int(row), int(column)  # never negative on the board
     fine = int((row - whole_row) * FINE) * FINE + int((column - whole_column) * FINE)
     rows, columns = 2 * film.ball_rows + 1, 2 * film.ball_columns + 1
-    sprite = fine * rows * columns * film.channels
-    top, left = whole_row - film.ball_rows, whole_column - film.ball_columns
-    stamp(film, sprites, sprite, rows, columns, frames, index, number, top, left)
+    sprite = sprites + fine * rows * columns * film.channels
+    stamp(film, sprite, rows, columns, picture, whole_row - film.ball_rows, whole_column - film.ball_columns)
 
 
 @internal
-def stamp(
-    film: Any, sprites: Any, sprite: int, rows: int, columns: int, frames: Any, index: int, number: int,
-    top: int, left: int,
-) -> None:  # fmt: skip
-    """Put a sprite, which begins at `sprite`, onto a picture: of two values the brighter one stays."""
-    channels = film.channels
-    from_row, to_row = max(0, -top), min(rows, film.height - top)
-    from_byte, to_byte = max(0, -left) * channels, min(columns, film.width - left) * channels
-    for row in range(from_row, to_row):
-        source = sprite + row * columns * channels
-        target = ((top + row) * film.width + left) * channels
-        for byte in range(from_byte, to_byte):
-            frames[index, number, target + byte] = max(
-                frames[index, number, target + byte], sprites[source + byte]
-            )
+def stamp(film: Any, sprite: int, rows: int, columns: int, picture: int, top: int, left: int) -> None:
+    """Put the sprite at an address onto the picture at another: of two values the brighter one stays."""
+    channels, height, width = film.channels, film.height, film.width
+    first, last = max(0, -left), min(columns, width - left)
+    count = (last - first) * channels
+    if count <= 0:
+        return
+    for row in range(max(0, -top), min(rows, height - top)):
+        source = array_at(sprite + (row * columns + first) * channels, (count,), BYTE)
+        target = array_at(picture + ((top + row) * width + left + first) * channels, (count,), BYTE)
+        for byte in range(count):
+            target[byte] = max(target[byte], source[byte])
 
 
 @internal
-def light_up(film: Any, c: Any, frames: Any, index: int, number: int) -> None:
-    """Show a prism or cylinder in bright."""
+def light_up(film: Any, c: Any, picture: Any) -> None:
+    """Show a prism or cylinder in bright, in a picture [pixel]."""
     if c.kind not in (Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
         return
     top = max(0, int((film.half_length - c.x - c.reach) * film.rows))
@@ -199,10 +181,10 @@ def light_up(film: Any, c: Any, frames: Any, index: int, number: int) -> None:
             if outside > 0.0:
                 continue
             pixel = (row * film.width + column) * film.channels
-            frames[index, number, pixel] = film.red
+            picture[pixel] = film.red
             if film.channels == 3:
-                frames[index, number, pixel + 1] = film.green
-                frames[index, number, pixel + 2] = film.blue
+                picture[pixel + 1] = film.green
+                picture[pixel + 2] = film.blue
 
 
 @kernel

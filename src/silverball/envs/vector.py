@@ -278,12 +278,12 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return mask
 
     def _infos(self, counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
-        """Counts [count, env] as Gymnasium's infos: for each key an array, and where it holds."""
+        """Counts [env, count] as Gymnasium's infos: for each key an array, and where it holds."""
         infos: dict[str, Any] = {}
         if not mask.all():
-            counts = np.where(mask, counts, 0)
+            counts = np.where(mask[:, None], counts, 0)
             mask = mask.copy()
-        for name, row in zip(INFO, counts, strict=True):
+        for name, row in zip(INFO, counts.T, strict=True):
             infos[name] = row if name != "stalled" else row != 0
             infos[f"_{name}"] = mask
         return infos
