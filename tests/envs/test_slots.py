@@ -127,7 +127,7 @@ def test_the_world_under_an_environment_is_the_world_that_everybody_knows():
     world = World(TABLE, int(record["seed"]), 60)
     world.create_ball()
     random = np.random.default_rng(0)
-    for step in range(600):
+    for _ in range(600):
         action = int(random.integers(4))
         *_, over, _, info = env.step(action)
         world.step(left=bool(action & 1), right=bool(action & 2))
@@ -135,4 +135,4 @@ def test_the_world_under_an_environment_is_the_world_that_everybody_knows():
         assert record.tobytes() == world.records[0].tobytes()
         if over:
             break
-    assert step > 60
+    assert world.tick > 60

@@ -187,3 +187,33 @@ def test_all_tables_can_be_rendered():
     pictures = envs.render()
     assert [picture.shape for picture in pictures] == [(680, 330, 3)] * 2
     assert (pictures[0] != pictures[1]).any()
+
+
+@pytest.mark.parametrize("options", [{}, {"observation": "pixels", "stack": 1, "size": (20, 12)}], ids=str)
+def test_steps_can_write_to_the_arrays_of_a_trainer(options):
+    envs = gym.make_vec(CLASSIC, 3, zero_copy=True, **options)
+    plain = gym.make_vec(CLASSIC, 3, **options)
+    space = envs.observation_space
+    mine, over, cut = np.zeros(space.shape, space.dtype), np.zeros(3, bool), np.zeros(3, bool)
+    assert envs.write_to(mine, over, cut)
+    envs.reset(seed=0), plain.reset(seed=0)
+    ends = 0
+    for _ in range(600):
+        envs.step(np.zeros(3, int))
+        expected, _, terminated, truncated, _ = plain.step(np.zeros(3, int))
+        assert mine.tolist() == expected.tolist()
+        assert (over.tolist(), cut.tolist()) == (terminated.tolist(), truncated.tolist())
+        ends += terminated.sum()
+    assert ends
+
+
+def test_arrays_that_do_not_fit_are_left_alone():
+    flags = np.zeros(3, bool)
+    envs = gym.make_vec(CLASSIC, 3, zero_copy=True)
+    shape = envs.observation_space.shape
+    assert not envs.write_to(np.zeros(shape, np.float64), flags, flags)
+    assert not envs.write_to(np.zeros((3, 7), np.float32), flags, flags)
+    assert not envs.write_to(np.zeros((shape[0], 2 * shape[1]), np.float32)[:, ::2], flags, flags)
+    assert not gym.make_vec(CLASSIC, 3).write_to(np.zeros(shape, np.float32), flags, flags)
+    stacked = gym.make_vec(CLASSIC, 3, zero_copy=True, observation="pixels")
+    assert not stacked.write_to(np.zeros(stacked.observation_space.shape, np.uint8), flags, flags)

@@ -24,6 +24,11 @@ def bench(
     marks: bool = typer.Option(
         False, "--marks", help="Measure every place where the step could be slow; takes a minute or two."
     ),
+    envs: bool = typer.Option(
+        False,
+        "--envs",
+        help="Measure the environments for agents, and others that are installed.",
+    ),
     quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
     out: list[str] = typer.Option(
         [], metavar="FILE.png|.md", help="With --peers: also write a plot or a Markdown table; repeatable."
@@ -32,8 +37,9 @@ def bench(
 ) -> None:
     """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
 
-    Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`, or
-    beside other engines with `silverball bench --peers --out peers.png --out peers.md`
+    Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`, the
+    environments for agents with `silverball bench --envs`, or beside other engines with
+    `silverball bench --peers --out peers.png --out peers.md`
     """
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
@@ -52,6 +58,9 @@ def bench(
         return
     if marks:
         show_marks(rounds, as_json)
+        return
+    if envs:
+        show_envs(rounds, as_json)
         return
     if quick or out:
         raise SilverballError("--quick and --out belong to the comparison; add --peers or leave them out")
@@ -97,6 +106,26 @@ def show_marks(rounds: int, as_json: bool) -> None:
     for figure in figures:
         typer.echo(f"{figure.name:40} {figure.value:8.3g} {figure.unit}")
     typer.echo(f"medians of {rounds} rounds; {machine()}")
+
+
+def show_envs(rounds: int, as_json: bool) -> None:
+    """Measure and show the rates of the environments."""
+    from rich.progress import Progress
+
+    from silverball.benchmarks.envs import measure_envs
+    from silverball.benchmarks.speed import machine
+    from silverball.cli.console import errors
+
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+        task = bar.add_task("compiling …", total=None)
+        rates = measure_envs(rounds, lambda doing: bar.update(task, description=doing))
+    if as_json:
+        typer.echo(json.dumps([rate._asdict() for rate in rates], indent=2))
+        return
+    for rate in rates:
+        value = f"{rate.value:12,.0f}" if rate.unit == "steps/s" else f"{rate.value:12.3f}"
+        typer.echo(f"{rate.name:58} {value} {rate.unit}")
+    typer.echo(f"medians of {rounds} rounds, random actions; {machine()}")
 
 
 def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:

@@ -4,9 +4,10 @@
     silverball/PinballClassic-v0  the drawn table
     silverball/PinballPixels-v0   random boards, seen as the last four pictures of 84 × 84
 
-`gymnasium.make(id)` makes one (`single.py`), `gymnasium.make_vec(id, num_envs)` thousands that move with one call
-(`vector.py`). `options.py` says what can be chosen, `slots.py` what stands where in an observation, `episode.py`
-what happens in a step. `sb3.py` and `puffer.py` fit them to Stable-Baselines3 and PufferLib.
+`gymnasium.make(id)` makes one (`single.py`), `gymnasium.make_vec(id, num_envs)` thousands that move with
+one call (`vector.py`). `options.py` says what can be chosen, `slots.py` what stands where in an
+observation, `episode.py` what happens in a step. `sb3.py` and `puffer.py` fit them to Stable-Baselines3 and
+PufferLib.
 """
 
 from __future__ import annotations
@@ -34,16 +35,15 @@ IDS: dict[str, dict[str, Any]] = {
 }
 """Every environment with the options in which it differs."""
 
-for _id, _options in IDS.items():
-    if _id not in gymnasium.registry:
-        gymnasium.register(
-            _id,
-            entry_point="silverball.envs.single:PinballEnv",
-            vector_entry_point="silverball.envs.vector:PinballVectorEnv",
-            kwargs=_options,
-            # The wrappers of `gymnasium.make` would take three times as long as the step. None is needed: the
-            # environment itself asks for a reset, keeps its time limit and refuses impossible actions, and the
-            # tests let Gymnasium's checker look at every id.
-            disable_env_checker=True,
-            order_enforce=False,
-        )
+for _id in set(IDS) - set(gymnasium.registry):
+    gymnasium.register(
+        _id,
+        entry_point="silverball.envs.single:PinballEnv",
+        vector_entry_point="silverball.envs.vector:PinballVectorEnv",
+        kwargs=IDS[_id],
+        # The wrappers of `gymnasium.make` would take longer than the step. None is needed: the environment
+        # itself asks for a reset, keeps its time limit and refuses impossible actions, and the tests let
+        # Gymnasium's checker look at every id.
+        disable_env_checker=True,
+        order_enforce=False,
+    )

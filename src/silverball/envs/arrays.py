@@ -1,8 +1,9 @@
 """Where do the kernels find the arrays of the environments?
 
-A kernel with thirty arrays as arguments would be slow to call and slow to compile. So the addresses and lengths
-of all of them stand in one ADDRESSES record (see world/alone.py), which is what the kernels hand each other;
-the functions below make the array from it where one is needed. Whoever holds the record must hold the arrays.
+A kernel with thirty arrays as arguments would be slow to call and slow to compile. So the addresses and
+lengths of all of them stand in one ADDRESSES record (see world/alone.py), which is what the kernels hand
+each other; the functions below make the array from it where one is needed. Whoever holds the record must
+hold the arrays.
 """
 
 from __future__ import annotations

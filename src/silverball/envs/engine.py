@@ -1,8 +1,8 @@
 """How do Python's environments and the compiled step come together? An engine owns all arrays of both.
 
-A single environment is an engine of one, a vector environment an engine of many; there is no second path. The
-addresses of the arrays are written down once (see world/alone.py), so that a step is one short call, or one for
-each slice of environments on threads.
+A single environment is an engine of one, a vector environment an engine of many; there is no second path.
+The addresses of the arrays are written down once (see world/alone.py), so that a step is one short call, or
+one for each slice of environments on threads.
 
 An engine of one keeps all that changes in one run of bytes, so that saving it is copying them.
 """
@@ -88,9 +88,8 @@ class Engine:
         marks.reshape(self.count, MARK)[:] = np.frombuffer(self._mark(), np.uint8)
         self.episodes = _as_records(episodes, EPISODE)
         self.scenes = _as_records(scenes, SCENE).reshape(self.count, self.stack)
-        self.batch = PooledBatch(
-            self.pool, self.count, self.options.tick_rate, threads, _as_records(worlds, WORLD), board_of.view(np.int64)
-        )  # fmt: skip
+        state, board = _as_records(worlds, WORLD), board_of.view(np.int64)
+        self.batch = PooledBatch(self.pool, self.count, self.options.tick_rate, threads, state, board)
         self.parts = [part.reshape(self.count, -1) for part in (marks, worlds, episodes, board_of, scenes)]
 
     def _mark(self) -> bytes:
@@ -214,6 +213,28 @@ class Engine:
             setattr(self, name, array)
         self._point_at(**fresh)
 
+    def write_to(
+        self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
+    ) -> bool:
+        """Let the kernels write to these arrays for ever, if they can; see `PinballVectorEnv.write_to`."""
+        own = self.frames if self.shows_pictures else self.observations
+        pairs = ((observations, own), (terminated, self.terminated), (truncated, self.truncated))
+        fits = all(
+            given.dtype == mine.dtype and given.size == mine.size and given.flags.c_contiguous
+            for given, mine in pairs
+        )
+        if not (fits and self.owns_output and self.stack <= 1):
+            return False
+        self.terminated, self.truncated = terminated, truncated
+        if self.shows_pictures:
+            self.frames = observations.reshape(own.shape)
+            self._point_at(frames=self.frames)
+        else:
+            self.observations = observations.reshape(own.shape)
+            self._point_at(observations=self.observations)
+        self._point_at(terminated=terminated, truncated=truncated)
+        return True
+
     @property
     def window(self) -> NDArray[np.uint8]:
         """The pictures of the last observation, oldest first, uint8 [env, stacked, pixel]."""
@@ -266,7 +287,7 @@ class Engine:
                 f"a state of this environment has {need} bytes, as save_state made it; got {size}"
             )
         raise StateError(
-            "the state belongs to other boards, another tick rate or stack, or another version of Silverball; "
+            "the state belongs to other boards, another tick rate or stack, or another version; "
             "restore it into an environment made with the same options"
         )
 

@@ -138,7 +138,8 @@ def _ball_sprites(film: NDArray[Any], radius: float) -> Bytes:
     square = x[:, None, :, None, :, None] ** 2 + z[None, :, None, :, None, :] ** 2
     share = (square <= radius * radius).mean(axis=(-1, -2))[..., None]
     color = shade(palette.BALL_LIGHT, int(film["channels"][0]) == 3)
-    return np.rint(share * color).astype(np.uint8).reshape(-1)
+    sprites: Bytes = np.rint(share * color).astype(np.uint8).reshape(-1)
+    return sprites
 
 
 def _paddle_sprites(film: NDArray[Any], pool: Pool) -> Bytes:

@@ -1,11 +1,12 @@
 """How is a picture of a world drawn at a million a second?
 
-The board's background is drawn once for each board; a picture is a copy of it, then the parts that were hit in
-this step in bright, the paddles and the balls as sprites. Each is blended by taking the brighter value, so that
-the order does not matter. The board fills the picture: its top is the first row, its left the first column.
+The board's background is drawn once for each board; a picture is a copy of it, then the parts that were hit
+in this step in bright, the paddles and the balls as sprites. Each is blended by taking the brighter value,
+so that the order does not matter. The board fills the picture: its top is the first row, its left the first
+column.
 
-The last pictures of an environment lie in a ring that is longer than an observation: the window of the newest
-slides along it, so that no picture is moved but when the window has come to the end.
+The last pictures of an environment lie in a ring that is longer than an observation: the window of the
+newest slides along it, so that no picture is moved but when the window has come to the end.
 """
 
 from __future__ import annotations
@@ -189,7 +190,7 @@ def light_up(film: Any, c: Any, picture: Any) -> None:
 
 @kernel
 def cover(film: Any, c: Any, samples: int, covered: Any) -> None:
-    """Write for each pixel how many of samples × samples points in it lie within a still part [row, column]."""
+    """Count for each pixel how many of samples × samples points in it lie within a still part."""
     for row in range(film.height):
         for column in range(film.width):
             covered[row, column] = 0

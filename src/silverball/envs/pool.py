@@ -1,8 +1,8 @@
 """Which boards do the episodes draw from? A pool, made before the first step and shared by all environments.
 
 A board takes some 50 ms to make and check, a step a tenth of a microsecond; so episodes draw a board from a
-pool instead of making one. All boards of a pool have the same borders, slant walls and paddles: they come from
-one recipe and differ by their obstacles.
+pool instead of making one. All boards of a pool have the same borders, slant walls and paddles: they come
+from one recipe and differ by their obstacles.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """What does an environment remember besides its world, and what are its rules in numbers?
 
-An *episode* is one flat record per environment, all fields eight bytes wide, like the world's. *Rules* are the
-options as numbers, *film* is what the drawing of pictures needs.
+An *episode* is one flat record per environment, all fields eight bytes wide, like the world's. *Rules* are
+the options as numbers, *film* is what the drawing of pictures needs.
 """
 
 from __future__ import annotations

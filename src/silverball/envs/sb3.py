@@ -79,7 +79,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         self._actions = actions
 
     def step_wait(self) -> tuple[Any, NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
-        """Make the step: observations, rewards, which episodes have ended, and a dict for each environment."""
+        """Make the step: observations, rewards, which episodes ended, and a dict for each environment."""
         observations, rewards, terminated, truncated, infos = self.envs.step(self._actions)
         self._returns += rewards
         self._lengths += 1

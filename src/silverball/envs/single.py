@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from operator import index
-from typing import Any, NoReturn, SupportsFloat
+from typing import Any, NoReturn, SupportsFloat, cast
 
 import gymnasium
 import numpy as np
@@ -55,7 +55,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         # What the step needs, ready to hand.
         self._addresses, self._counts = engine.addresses, engine.counts.reshape(-1)
         self._row = engine.observations[0] if self.options.observation == "state" else None
-        self._memory = memoryview(engine.memory)
+        self._memory = memoryview(cast(Any, engine.memory))
         self._mark, self._size = bytes(engine.memory[:MARK]), len(engine.memory)
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  (Gymnasium's own)
@@ -112,7 +112,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
             _refuse_to_go_on()
         return observation, reward, ends & 1 == 1, ends & 2 == 2, info_of(self._counts.tolist())
 
-    def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
+    def render(self) -> NDArray[np.uint8] | None:
         """The table as the window draws it, RGB [row, column, 3]; None without a render mode."""
         if self.render_mode is None:
             return None

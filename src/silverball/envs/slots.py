@@ -1,7 +1,8 @@
 """What stands where in a state observation? The one table that the code, the spaces and the documents read.
 
-A state observation is one row of 32-bit floats: group after group, in each group item after item, in each item
-slot after slot. All values lie in −1 … 1. Whatever is absent (no second ball, no paddle on that side) is zeros.
+A state observation is one row of 32-bit floats: group after group, in each group item after item, in each
+item slot after slot. All values lie in −1 … 1. Whatever is absent (no second ball, no paddle on that side)
+is zeros.
 
 Places are shares of half the board: x = 1 is the top, x = −1 the bottom, z = −1 the left border, z = 1 the
 right one. What stands still and is the same on all boards of a recipe (borders, slant walls) is not shown.
@@ -107,7 +108,7 @@ GROUPS = (
         (
             (
                 0.0,
-                "what is left of the time to make a scoring hit in: 1 just after one, at 0 the ball is stalled",
+                "what is left of the time for a scoring hit: 1 just after one, at 0 the ball is stalled",
             ),
             (0.0, "balls still to come after those on the board, as a share of the game's"),
         ),

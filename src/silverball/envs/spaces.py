@@ -23,7 +23,7 @@ def observation_space(options: Options, pool: Pool) -> spaces.Space[Any]:
         return spaces.Box(0, 255, picture_shape(options), np.uint8)
     boxes = {field.group.name: spaces.Box(*bounds(field)) for field in pool.fields if field.items}
     if options.observation == "dict":
-        return spaces.Dict(boxes)
+        return spaces.Dict(dict[str, spaces.Space[Any]](boxes))
     low = np.concatenate([box.low.reshape(-1) for box in boxes.values()])
     high = np.concatenate([box.high.reshape(-1) for box in boxes.values()])
     return spaces.Box(low, high)

@@ -1,7 +1,8 @@
 """The environment for many agents at once: `PinballVectorEnv`, a `gymnasium.vector.VectorEnv`.
 
-One compiled call for each slice of environments does everything: actions, physics, rewards, ends, new episodes,
-observations and counts. Environment i is, bit for bit, the single environment with the seed of environment i.
+One compiled call for each slice of environments does everything: actions, physics, rewards, ends, new
+episodes, observations and counts. Environment i is, bit for bit, the single environment with the seed of
+environment i.
 """
 
 from __future__ import annotations
@@ -154,7 +155,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             self._add_finals(infos)
         return self._shown(), engine.rewards, engine.terminated, engine.truncated, infos
 
-    def render(self) -> tuple[NDArray[np.uint8], ...] | None:  # type: ignore[override]
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """All tables as the window draws them, RGB [row, column, 3] each; None without a render mode."""
         if self.render_mode is None:
             return None
@@ -210,6 +211,22 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._engine.observe()
         return self._shown()
 
+    def write_to(
+        self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
+    ) -> bool:
+        """Let all steps from now on write to these arrays; for trainers that bring their own (`zero_copy`).
+
+        Args:
+            observations: Of the type and shape of a step's.
+            terminated: bool [env].
+            truncated: bool [env].
+
+        Returns:
+            Whether they do. Not so, and nothing has changed, if the arrays are of other types or shapes, or
+            not in one piece, or if an observation is several pictures, which slide along a ring.
+        """
+        return self._engine.write_to(observations, terminated, truncated)
+
     # --- helpers
 
     def _shown(self) -> Any:
@@ -245,7 +262,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         over = np.flatnonzero(self._engine.episodes["over"])
         if len(over):
             raise ResetNeeded(
-                f"{len(over)} episodes are over or have not begun (environment {over[0]} is the first of them): "
+                f"{len(over)} episodes are over or have not begun, the first in environment {over[0]}: "
                 'call reset, with options={"reset_mask": terminated | truncated} to begin these alone'
             )
 

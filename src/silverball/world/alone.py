@@ -105,7 +105,8 @@ def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any
 def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
     """The same without the compiler."""
     size = math.prod(shape) * dtype.itemsize
-    array = np.frombuffer((ctypes.c_char * size).from_address(int(address)), dtype).reshape(shape)
+    memory: Any = (ctypes.c_char * size).from_address(int(address))
+    array: NDArray[Any] = np.frombuffer(memory, dtype).reshape(shape)
     return array.view(np.recarray) if dtype.names else array
 
 
