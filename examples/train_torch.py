@@ -25,7 +25,7 @@ chosen = parser.parse_args()
 LENGTH, EPOCHS, PARTS, GAMMA, LAMBDA, CLIP = 64, 4, 8, 0.995, 0.95, 0.2
 
 torch.manual_seed(0)
-# The library's own autoreset, NEXT_STEP: the step after an end begins the next episode and counts for nothing.
+# With NEXT_STEP, the default, the step after an end begins the next episode and counts for nothing.
 envs = gym.make_vec(chosen.id, chosen.envs, boards=chosen.boards, frame_skip=4)
 envs = gym.wrappers.vector.RecordEpisodeStatistics(envs)
 columns, actions = envs.single_observation_space.shape[0], int(envs.single_action_space.n)

@@ -71,8 +71,8 @@ def test_ppo_learns_on_states_and_on_pictures():
             options.get("observation"), "MlpPolicy"
         )
         model = sb3.PPO(policy, envs, n_steps=32, batch_size=32, n_epochs=1, device="cpu")
-        model.learn(256)
-        assert model.num_timesteps >= 256
+        model.learn(1024)
+        assert model.num_timesteps >= 1024
         assert len(model.ep_info_buffer) > 0, "returns of episodes are logged"
         mean, _ = evaluate_policy(model, envs, n_eval_episodes=4, warn=False)
         assert mean >= 0.0

@@ -77,8 +77,8 @@ def _observations(options: Options, sample: PinballEnv) -> str:
         )
     pool = pool_of(options.table, 1, options.board_seed)
     return (
-        f'`{sample.observation_space}`, a row of {pool.columns} numbers; with `observation="dict"` the same '
-        f"by group, [item, slot] each:\n\n{slot_table(pool.fields)}"
+        f"`Box(-1, 1, {sample.observation_space.shape}, float32)`, narrower where a slot says so; with "
+        f'`observation="dict"` the same by group, [item, slot] each:\n\n{slot_table(pool.fields)}'
     )
 
 
