@@ -19,11 +19,12 @@ config = (
     # The name of the module makes every worker register the environments.
     .environment("silverball.envs:silverball/PinballClassic-v0")
     .env_runners(num_env_runners=0, num_envs_per_env_runner=32, gym_env_vectorize_mode="vector_entry_point")
-    .training(train_batch_size_per_learner=4096, minibatch_size=512, num_epochs=4)
+    .training(train_batch_size_per_learner=16_384, minibatch_size=512, num_epochs=4)
 )
 algorithm = config.build_algo()
 for number in range(chosen.rounds):
     result = algorithm.train()
-    mean = result["env_runners"].get("episode_return_mean", 0.0)
-    print(f"round {number + 1}: {100 * mean:.0f} points a ball", flush=True)
+    mean = result["env_runners"].get("episode_return_mean")
+    told = "no ball has drained yet" if mean is None else f"{100 * mean:.0f} points a ball"
+    print(f"round {number + 1}: {told}", flush=True)
 algorithm.stop()
