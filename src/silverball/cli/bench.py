@@ -31,6 +31,9 @@ def bench(
     drawing: bool = typer.Option(
         False, "--drawing", help="Measure how fast pictures are made and drawn; takes a minute."
     ),
+    envs: bool = typer.Option(
+        False, "--envs", help="Measure the environments for agents, and others that are installed."
+    ),
     quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
     out: list[str] = typer.Option(
         [], metavar="FILE.png|.md", help="With --peers: also write a plot or a Markdown table; repeatable."
@@ -40,7 +43,8 @@ def bench(
     """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
 
     Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`,
-    the drawing with `silverball bench --drawing`, or beside other engines with
+    the drawing with `silverball bench --drawing`, the environments for agents with `silverball bench --envs`,
+    or beside other engines with
     `silverball bench --peers --out peers.png --out peers.md`
     """
     from silverball.cli.console import compiling, errors
@@ -63,6 +67,9 @@ def bench(
         return
     if drawing:
         show_drawing(rounds, as_json)
+        return
+    if envs:
+        show_envs(rounds, as_json)
         return
     if quick or out:
         raise SilverballError("--quick and --out belong to the comparison; add --peers or leave them out")
@@ -124,6 +131,26 @@ def show_figures(measure: Callable[..., list[Figure]], rounds: int, as_json: boo
     for figure in figures:
         typer.echo(f"{figure.name:40} {figure.value:8.3g} {figure.unit}")
     typer.echo(f"medians of {rounds} rounds; {machine()}")
+
+
+def show_envs(rounds: int, as_json: bool) -> None:
+    """Measure and show the rates of the environments."""
+    from rich.progress import Progress
+
+    from silverball.benchmarks.envs import measure_envs
+    from silverball.benchmarks.speed import machine
+    from silverball.cli.console import errors
+
+    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+        task = bar.add_task("compiling …", total=None)
+        rates = measure_envs(rounds, lambda doing: bar.update(task, description=doing))
+    if as_json:
+        typer.echo(json.dumps([rate._asdict() for rate in rates], indent=2))
+        return
+    for rate in rates:
+        value = f"{rate.value:12,.0f}" if rate.unit == "steps/s" else f"{rate.value:12.3f}"
+        typer.echo(f"{rate.name:58} {value} {rate.unit}")
+    typer.echo(f"medians of {rounds} rounds, random actions; {machine()}")
 
 
 def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:

@@ -39,7 +39,8 @@ from numba.core.registry import CPUDispatcher
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
 DRAWING = ("physics", "drawing/kernels")
-KERNEL_PACKAGES = (*PLAY, "drawing")  # a kernel elsewhere must be added here; a test sees to it
+AGENTS = (*PLAY, "envs")
+KERNEL_PACKAGES = (*AGENTS, "drawing")  # a kernel elsewhere must be added here; a test sees to it
 _ONE_AT_A_TIME = threading.Lock()
 KEEP_SECONDS = 30 * 24 * 3600.0
 
@@ -74,12 +75,20 @@ def inlined(function: F) -> F:
     return _compile(function, no_cpython_wrapper=True, forceinline=True)
 
 
+def pasted(function: F) -> F:
+    """Put a helper into its callers before they are compiled, so that it is not compiled by itself.
+
+    For what has one caller, or makes an array: without reference counting no compiled function returns one.
+    """
+    return _compile(function, inline="always")
+
+
 @cache
 def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     """The folder for compiled code of exactly these sources; None where no folder can be written.
 
     Args:
-        packages: Whose sources the code is made of: `PLAY` or `DRAWING`.
+        packages: Whose sources the code is made of: `PLAY`, `DRAWING` or `AGENTS`.
     """
     import platformdirs
 
@@ -117,15 +126,14 @@ def forget_old_code() -> None:
     folder = cache_folder()
     if folder is None:
         return
-    keep = (folder, cache_folder(DRAWING))
+    keep = (folder, cache_folder(DRAWING), cache_folder(AGENTS))
     for other in folder.parent.iterdir():
         if other not in keep and time.time() - other.stat().st_mtime > KEEP_SECONDS:
             shutil.rmtree(other, ignore_errors=True)
 
 
-def _compile(function: F, **more: bool) -> F:
-    in_drawing = function.__module__.startswith("silverball.drawing.kernels.")
-    folder = cache_folder(DRAWING if in_drawing else PLAY)
+def _compile(function: F, **more: bool | str) -> F:
+    folder = cache_folder(_packages_of(function.__module__))
     options: dict[str, Any] = {
         "cache": folder is not None,
         "error_model": "numpy",
@@ -150,6 +158,13 @@ def _compile(function: F, **more: bool) -> F:
     if hasattr(compiled, "_cache"):
         _save_if_possible(compiled._cache)
     return cast(F, compiled)
+
+
+def _packages_of(module: str) -> tuple[str, ...]:
+    """The packages whose sources the code of a module's kernels is made of."""
+    if module.startswith("silverball.drawing."):
+        return DRAWING
+    return AGENTS if module.startswith("silverball.envs.") else PLAY
 
 
 def _save_if_possible(store: Any) -> None:

@@ -7,6 +7,8 @@ there. Whoever holds the addresses must hold the arrays as well; `World` does.
 
 from __future__ import annotations
 
+import ctypes
+import math
 from typing import Any, cast
 
 import numpy as np
@@ -82,7 +84,7 @@ class Alone:
 
 
 @intrinsic  # type: ignore[untyped-decorator]
-def _array_at(typing_context: Any, address: Any, shape: Any, dtype: Any) -> Any:
+def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any) -> Any:
     """The array of this shape and element type at an address; `numba.carray` needs reference counting."""
     array_type = types.Array(dtype.dtype, len(shape), "C")
 
@@ -100,23 +102,34 @@ def _array_at(typing_context: Any, address: Any, shape: Any, dtype: Any) -> Any:
     return array_type(address, shape, dtype), generate
 
 
+def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """The same without the compiler."""
+    size = math.prod(shape) * dtype.itemsize
+    memory: Any = (ctypes.c_char * size).from_address(int(address))
+    array: NDArray[Any] = np.frombuffer(memory, dtype).reshape(shape)
+    return array.view(np.recarray) if dtype.names else array
+
+
+array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_array_at
+
+
 @kernel
 def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
     """Move the world on that lies at these addresses (see `ADDRESSES`); its fault."""
     at = addresses[0]
-    worlds = _array_at(at.world, (1,), WORLD)
-    action = _array_at(at.action, (1, 1, 3), BOOL)
+    worlds = array_at(at.world, (1,), WORLD)
+    action = array_at(at.action, (1, 1, 3), BOOL)
     action[0, 0, 0] = buttons & LEFT != 0
     action[0, 0, 1] = buttons & RIGHT != 0
     action[0, 0, 2] = buttons & JITTER != 0
     run_worlds(
         worlds,
-        _array_at(at.board, (1,), BOARD),
-        _array_at(at.board_of, (1,), INT),
-        _array_at(at.collider, (at.colliders,), COLLIDER),
-        _array_at(at.grid, (at.numbers,), SHORT_INT),
-        _array_at(at.log, (1,), LOG),
-        _array_at(at.tally, (1, at.parts), INT),
+        array_at(at.board, (1,), BOARD),
+        array_at(at.board_of, (1,), INT),
+        array_at(at.collider, (at.colliders,), COLLIDER),
+        array_at(at.grid, (at.numbers,), SHORT_INT),
+        array_at(at.log, (1,), LOG),
+        array_at(at.tally, (1, at.parts), INT),
         action,
         0,
         1,

@@ -67,7 +67,7 @@ class WorldBatch:
         """
         self.count = checked_int("count", count, 1, 2**22)
         self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
-        self.threads = _cores() if threads is None else checked_int("threads", threads, 1, 4096)
+        self.threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
         seeds = _seeds(seed, self.count)
         self.tables, self.board_of = _finished(table, seeds, self.count)
         self.boards: Boards = compile_tables(self.tables)
@@ -128,7 +128,7 @@ class WorldBatch:
             task(0, self.count)
             return
         edges = [self.count * number // slices for number in range(slices + 1)]
-        list(_pool(self.threads).map(task, edges[:-1], edges[1:]))
+        list(pool_of_threads(self.threads).map(task, edges[:-1], edges[1:]))
 
     def create_balls(self, mask: ArrayLike | None = None) -> NDArray[np.bool_]:
         """Create a ball in every world of the mask that has room for one.
@@ -211,7 +211,7 @@ def _create_balls(
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
 
 
-def _cores() -> int:
+def cores() -> int:
     """The cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
@@ -219,12 +219,13 @@ def _cores() -> int:
 
 
 @cache
-def _pool(threads: int) -> ThreadPoolExecutor:
+def pool_of_threads(threads: int) -> ThreadPoolExecutor:
+    """So many threads, which wait for work."""
     return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
 
 
 if hasattr(os, "register_at_fork"):  # threads do not survive a fork; the child makes its own
-    os.register_at_fork(after_in_child=_pool.cache_clear)
+    os.register_at_fork(after_in_child=pool_of_threads.cache_clear)
 
 
 def checked_int(name: str, value: Any, least: int, greatest: int) -> int:

@@ -1,0 +1,150 @@
+"""What can be chosen about an environment, and what does each choice mean? Checked once, here."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+import os
+from typing import Any, Literal
+
+import numpy as np
+
+from silverball.table import Table
+
+POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
+BUTTONS = ("left", "right", "jitter", "create")
+MOST_BOARDS = 2**16
+MOST_BALLS = 1000
+LONGEST = 1e7  # [s]
+LARGEST_PICTURE = 1024  # [pixel] a side
+MOST_STACKED = 16
+
+
+def option(default: Any, text: str) -> Any:
+    """A field with its description."""
+    return dataclasses.field(default=default, metadata={"text": text})
+
+
+@dataclasses.dataclass(frozen=True)
+class Options:
+    """The choices; `OPTIONS` describes each in a sentence.
+
+    Raises:
+        ValueError: One of them cannot be.
+    """
+
+    table: Table | str | os.PathLike[str] = option(
+        "random",
+        "a built-in name, a path or a table; a recipe gives every episode a random board",
+    )
+    boards: int = option(
+        64, "of a recipe: how many boards are made beforehand, for the episodes to draw from"
+    )
+    board_seed: int = option(
+        0, "of a recipe: the boards have the seeds board_seed, board_seed + 1, …; take others to evaluate"
+    )
+    observation: Literal["state", "dict", "pixels"] = option(
+        "state", '"state" (one row), "dict" (the same by name) or "pixels"'
+    )
+    actions: Literal["discrete", "multibinary"] = option(
+        "discrete",
+        '"discrete" (a number whose bits are the buttons) or "multibinary" (a bit for each button)',
+    )
+    jitter: bool = option(False, "whether there is a button that shoves the balls")
+    create: Literal["auto", "button"] = option(
+        "auto", '"auto": a ball comes by itself when none is on the board; "button": a button brings it'
+    )
+    balls: int = option(1, "balls of an episode: 1, or 3 for a game")
+    reward: Literal["score", "time"] = option(
+        "score", f'"score": points × {POINT}; "time": the seconds that a ball stays on the board'
+    )
+    stall: float | None = option(
+        15.0, "[s] without a scoring hit after which the episode ends as stalled; None: never"
+    )
+    time_limit: float | None = option(300.0, "[s] of play after which an episode is truncated; None: never")
+    tick_rate: int = option(60, "ticks of the physics a second")
+    frame_skip: int = option(1, "ticks of one step, in which the buttons are held")
+    size: tuple[int, int] = option((84, 84), "of pictures: height and width [pixel]")
+    rgb: bool = option(False, "of pictures: in colour instead of grey")
+    stack: int = option(4, "of pictures: how many of the last ones an observation shows, oldest first")
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be."""
+        _whole("boards", self.boards, 1, MOST_BOARDS)
+        _whole("board_seed", self.board_seed, 0, 2**62)
+        _one_of("observation", self.observation, ("state", "dict", "pixels"))
+        _one_of("actions", self.actions, ("discrete", "multibinary"))
+        _one_of("create", self.create, ("auto", "button"))
+        _one_of("reward", self.reward, ("score", "time"))
+        _flag("jitter", self.jitter)
+        _flag("rgb", self.rgb)
+        _whole("balls", self.balls, 1, MOST_BALLS)
+        _whole("tick_rate", self.tick_rate, 10, 100_000)
+        _whole("frame_skip", self.frame_skip, 1, 10_000)
+        _seconds("stall", self.stall)
+        _seconds("time_limit", self.time_limit)
+        size = tuple(self.size) if isinstance(self.size, (tuple, list)) else ()
+        if len(size) != 2:
+            raise ValueError(f"size must be a height and a width such as (84, 84), got {self.size!r}")
+        for side in size:
+            _whole("size", side, 8, LARGEST_PICTURE)
+        object.__setattr__(self, "size", size)
+        _whole("stack", self.stack, 1, MOST_STACKED)
+
+    @classmethod
+    def of(cls, given: dict[str, Any]) -> Options:
+        """The options of these keyword arguments.
+
+        Raises:
+            TypeError: There is no option of that name.
+        """
+        names = [field.name for field in dataclasses.fields(cls)]
+        for name in given:
+            if name not in names:
+                near = difflib.get_close_matches(name, names, 1)
+                hint = f"; did you mean {near[0]}?" if near else ""
+                raise TypeError(f"there is no option {name!r}, there are {', '.join(names)}{hint}")
+        return cls(**given)
+
+    @property
+    def buttons(self) -> tuple[str, ...]:
+        """The buttons there are, in the order of an action's bits."""
+        present = (True, True, self.jitter, self.create == "button")
+        return tuple(name for name, is_there in zip(BUTTONS, present, strict=True) if is_there)
+
+    @property
+    def step_seconds(self) -> float:
+        """Time of a step [s]."""
+        return self.frame_skip / self.tick_rate
+
+    def steps_in(self, seconds: float | None) -> int:
+        """The least number of whole steps that last so long; 2⁶² for None."""
+        return 2**62 if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))
+
+
+OPTIONS = tuple((field.name, field.default, field.metadata["text"]) for field in dataclasses.fields(Options))
+"""Name, default and description of every option."""
+
+
+def _whole(name: str, value: Any, least: int, greatest: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
+        raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
+
+
+def _one_of(name: str, value: Any, choices: tuple[str, ...]) -> None:
+    if value not in choices:
+        raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
+
+
+def _flag(name: str, value: Any) -> None:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} must be True or False, got {value!r}")
+
+
+def _seconds(name: str, value: Any) -> None:
+    if value is None:
+        return
+    number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+    if not number or not 0.0 < value <= LONGEST:
+        raise ValueError(f"{name} must be None or seconds above 0, at most {LONGEST:g}, got {value!r}")

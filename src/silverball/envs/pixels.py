@@ -1,0 +1,208 @@
+"""How is a picture of a world drawn at a million a second?
+
+The board's background is drawn once for each board; a picture is a copy of it, then the parts that were hit
+in this step in bright, the paddles and the balls as sprites. Each is blended by taking the brighter value,
+so that the order does not matter. The board fills the picture: its top is the first row, its left the first
+column.
+
+The last pictures of an environment lie in a ring that is longer than an observation: the window of the
+newest slides along it, so that no picture is moved but when the window has come to the end.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from silverball.envs import arrays as the
+from silverball.envs.arrays import BYTE, copy_bytes
+from silverball.envs.records import LIT_BITS, SCENE
+from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.layout import BALL_COUNT, EventKind, Kind, Part
+from silverball.physics.shapes import distance
+from silverball.world.alone import array_at
+
+FINE = 8  # places of a ball within a pixel, along each axis, that have a sprite of their own
+SCENE_SIZE = SCENE.itemsize
+ANGLES = 32  # angles of a paddle that have a sprite of their own
+
+
+@internal
+def film_step(at: Any, index: int) -> None:
+    """Write down what the next picture shows, and draw it."""
+    film = the.film(at)[0]
+    last = film.stack - 1
+    for number in range(last):
+        copy_scene(at, index, number + 1, number)
+    look(at, index, last)
+    if film.wraps != 0:
+        copy_bytes(frame(at, index, 0), frame(at, index, at.ring - last), last * at.pixels)
+    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], frame(at, index, film.at + last))
+
+
+@internal
+def show_first(at: Any, index: int) -> None:
+    """Fill the whole window with the first picture of an episode."""
+    film = the.film(at)[0]
+    last = film.stack - 1
+    look(at, index, last)
+    the.scenes(at)[index, last].lit = 0
+    newest = frame(at, index, film.at + last)
+    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], newest)
+    for number in range(last):
+        copy_scene(at, index, last, number)
+        copy_bytes(frame(at, index, film.at + number), newest, at.pixels)
+
+
+@internal
+def show_again(at: Any, index: int) -> None:
+    """Draw all pictures of the window from their scenes."""
+    film = the.film(at)[0]
+    for number in range(film.stack):
+        scene = the.scenes(at)[index, number]
+        draw(at, scene, the.board_of(at)[index], frame(at, index, film.at + number))
+
+
+@kernel
+def draw_finals(addresses: Any, rows: Any, pictures: int) -> None:
+    """Draw the last observations of the episodes that ended in these environments.
+
+    Args:
+        addresses: One ADDRESSES record.
+        rows: Which environments, int64 [row].
+        pictures: Address of where they go, uint8 [row, stacked, pixel].
+    """
+    at = addresses[0]
+    for row in range(len(rows)):
+        index = rows[row]
+        for number in range(at.stack):
+            scene, board = the.final_scenes(at)[index, number], the.final_boards(at)[index]
+            draw(at, scene, board, pictures + (row * at.stack + number) * at.pixels)
+
+
+@inlined
+def wind(at: Any, index: int) -> None:
+    """Copy the window of an environment to where its observation goes."""
+    size = at.stack * at.pixels
+    copy_bytes(at.copies_at + index * size, frame(at, index, the.film(at)[0].at), size)
+
+
+@inlined
+def frame(at: Any, index: int, number: int) -> int:
+    """The address of a picture in the ring."""
+    return int(at.frames_at + (index * at.ring + number) * at.pixels)
+
+
+@inlined
+def copy_scene(at: Any, index: int, number: int, to: int) -> None:
+    """Copy a scene of an environment to another place among its scenes."""
+    first = at.scenes_at + index * at.stack * SCENE_SIZE
+    copy_bytes(first + to * SCENE_SIZE, first + number * SCENE_SIZE, SCENE_SIZE)
+
+
+@internal
+def look(at: Any, index: int, number: int) -> None:
+    """Write down what is to be seen of a world now, as its scene of that number."""
+    world, scene, log = the.worlds(at)[index], the.scenes(at)[index, number], the.logs(at)[index]
+    for slot in range(BALL_COUNT):
+        ball = world.ball[slot]
+        scene.x[slot], scene.z[slot], scene.alive[slot] = ball.x, ball.z, ball.id
+        scene.angle[slot] = world.paddle[slot].angle
+    lit = 0
+    for entry in range(log.count):
+        event = log.event[entry]
+        shape = event.part - Part.FIRST_SHAPE
+        if event.kind == EventKind.HIT and 0 <= shape < LIT_BITS:
+            lit |= 1 << shape
+    scene.lit = lit
+
+
+@internal
+def draw(at: Any, scene: Any, board: int, picture: int) -> None:
+    """Draw a scene on a board as the picture at this address."""
+    film, rules = the.film(at)[0], the.rules(at)[0]
+    copy_bytes(picture, at.backgrounds_at + board * at.pixels, at.pixels)
+    if scene.lit != 0:
+        first = the.boards(at)[board].collider_first + Part.FIRST_SHAPE
+        for shape in range(LIT_BITS):
+            if scene.lit >> shape & 1:
+                light_up(film, the.colliders(at)[first + shape], array_at(picture, (at.pixels,), BYTE))
+    rows, columns = film.paddle_rows, film.paddle_columns
+    for side in range(2):
+        if rows == 0 or rules.per_angle[side] == 0.0:
+            continue
+        turn = (scene.angle[side] - rules.rest[side]) * rules.per_angle[side]
+        number = side * ANGLES + int(turn * (ANGLES - 1) + 0.5)
+        sprite = at.paddles_at + number * rows * columns * film.channels
+        stamp(film, sprite, rows, columns, picture, film.paddle_row[side], film.paddle_column[side])
+    for slot in range(BALL_COUNT):
+        if scene.alive[slot] != 0:
+            draw_ball(film, at.balls_at, scene.x[slot], scene.z[slot], picture)
+
+
+@inlined
+def draw_ball(film: Any, sprites: int, x: float, z: float, picture: int) -> None:
+    """Draw a ball at (x, z) with the sprite of its place within the pixel."""
+    row, column = (film.half_length - x) * film.rows, (film.half_width + z) * film.columns
+    whole_row, whole_column = int(row), int(column)  # never negative on the board
+    fine = int((row - whole_row) * FINE) * FINE + int((column - whole_column) * FINE)
+    rows, columns = 2 * film.ball_rows + 1, 2 * film.ball_columns + 1
+    sprite = sprites + fine * rows * columns * film.channels
+    stamp(film, sprite, rows, columns, picture, whole_row - film.ball_rows, whole_column - film.ball_columns)
+
+
+@internal
+def stamp(film: Any, sprite: int, rows: int, columns: int, picture: int, top: int, left: int) -> None:
+    """Put the sprite at an address onto the picture at another: of two values the brighter one stays."""
+    channels, height, width = film.channels, film.height, film.width
+    first, last = max(0, -left), min(columns, width - left)
+    count = (last - first) * channels
+    if count <= 0:
+        return
+    for row in range(max(0, -top), min(rows, height - top)):
+        source = array_at(sprite + (row * columns + first) * channels, (count,), BYTE)
+        target = array_at(picture + ((top + row) * width + left + first) * channels, (count,), BYTE)
+        for byte in range(count):
+            target[byte] = max(target[byte], source[byte])
+
+
+@internal
+def light_up(film: Any, c: Any, picture: Any) -> None:
+    """Show a prism or cylinder in bright, in a picture [pixel]."""
+    if c.kind not in (Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
+        return
+    top = max(0, int((film.half_length - c.x - c.reach) * film.rows))
+    bottom = min(film.height, int((film.half_length - c.x + c.reach) * film.rows) + 1)
+    left = max(0, int((film.half_width + c.z - c.reach) * film.columns))
+    right = min(film.width, int((film.half_width + c.z + c.reach) * film.columns) + 1)
+    for row in range(top, bottom):
+        for column in range(left, right):
+            x = film.half_length - (row + 0.5) / film.rows
+            z = (column + 0.5) / film.columns - film.half_width
+            outside, _, _ = distance(c, x, z)
+            if outside > 0.0:
+                continue
+            pixel = (row * film.width + column) * film.channels
+            picture[pixel] = film.red
+            if film.channels == 3:
+                picture[pixel + 1] = film.green
+                picture[pixel + 2] = film.blue
+
+
+@kernel
+def cover(film: Any, c: Any, samples: int, covered: Any) -> None:
+    """Count for each pixel how many of samples × samples points in it lie within a still part."""
+    for row in range(film.height):
+        for column in range(film.width):
+            covered[row, column] = 0
+            x = film.half_length - (row + 0.5) / film.rows
+            z = (column + 0.5) / film.columns - film.half_width
+            far = c.reach + 0.5 / film.rows + 0.5 / film.columns
+            if (x - c.x) ** 2 + (z - c.z) ** 2 > far * far:
+                continue
+            for up in range(samples):
+                for across in range(samples):
+                    at_x = x + ((up + 0.5) / samples - 0.5) / film.rows
+                    at_z = z + ((across + 0.5) / samples - 0.5) / film.columns
+                    outside, _, _ = distance(c, at_x, at_z)
+                    if outside <= 0.0:
+                        covered[row, column] += 1

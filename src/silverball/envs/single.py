@@ -1,0 +1,224 @@
+"""The environment for one agent: `PinballEnv`, a `gymnasium.Env`."""
+
+from __future__ import annotations
+
+from operator import index
+from typing import Any, NoReturn, SupportsFloat, cast
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.envs.engine import MARK, Engine
+from silverball.envs.episode import move
+from silverball.envs.options import Options
+from silverball.envs.records import Mode
+from silverball.envs.spaces import action_space, observation_space, shown_one
+from silverball.envs.viewer import Viewer
+from silverball.errors import StateError
+
+GREATEST_SEED = 2**63
+
+
+class PinballEnv(gymnasium.Env[Any, Any]):
+    """A pinball table as an environment; docs/agents.md describes it slot by slot.
+
+    Args:
+        render_mode: "rgb_array" or None.
+        options: See `silverball.envs.options.OPTIONS`.
+
+    Raises:
+        TypeError: There is no option of that name.
+        ValueError: An option cannot be.
+        TableError: The table cannot be used.
+
+    Example:
+        >>> import gymnasium as gym
+        >>> import silverball.envs
+        >>> env = gym.make("silverball/PinballClassic-v0")
+        >>> observation, info = env.reset(seed=7)
+        >>> observation, reward, terminated, truncated, info = env.step(1)  # 1: left, 2: right, 3: both
+        >>> info["created"]
+        1
+    """
+
+    def __init__(self, render_mode: str | None = None, **options: Any) -> None:
+        self.options = Options.of(options)
+        self.render_mode = checked_render_mode(render_mode)
+        self._engine = engine = Engine(self.options, 1, Mode.DISABLED, threads=1, owns_output=True)
+        self.observation_space = observation_space(self.options, engine.pool)
+        self.action_space = action_space(self.options)
+        self._viewer: Viewer | None = None
+        self._is_seeded = False
+        self._codes = 1 << len(self.options.buttons)
+        self._weights = 1 << np.arange(len(self.options.buttons))
+        # What the step needs, ready to hand.
+        self._addresses, self._counts = engine.addresses, engine.counts.reshape(-1)
+        self._row = engine.observations[0] if self.options.observation == "state" else None
+        self._memory = memoryview(cast(Any, engine.memory))
+        self._mark, self._size = bytes(engine.memory[:MARK]), len(engine.memory)
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  (Gymnasium's own)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begin an episode: the first of a seed, or the next one of the seed before.
+
+        Args:
+            seed: Decides all boards, places and shoves of the episodes that follow.
+            options: None are known; taken for the sake of the interface.
+
+        Returns:
+            The observation, and the counts of events, all zero but `created`.
+        """
+        super().reset(seed=seed)
+        if seed is not None:
+            self._engine.seed(seed % GREATEST_SEED)
+        elif not self._is_seeded:
+            self._engine.seed(self.np_random.integers(GREATEST_SEED, dtype=np.uint64).astype(np.int64))
+        self._is_seeded = True
+        self._engine.reset()
+        return self._shown(), info_of(self._counts.tolist())
+
+    def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
+        """Hold the action's buttons for one step.
+
+        Args:
+            action: A number whose bits are the buttons (1 left, 2 right, then jitter and create where they
+                are), or with `actions="multibinary"` a bit for each.
+
+        Returns:
+            Observation, reward, whether the episode is over by its rules, whether by the time limit, and the
+            counts of events of the episode so far. All are new objects, which no later step changes.
+
+        Raises:
+            ResetNeeded: The episode is over, or has never begun.
+            ValueError: There is no such action.
+        """
+        try:
+            number = index(action)
+        except TypeError:
+            number = self._number_of(action)
+        if not 0 <= number < self._codes:
+            self._refuse(action)
+        if self._row is not None:
+            reward, ends = move(self._addresses, 0, 1, number)
+            observation = self._row.copy()
+        else:
+            reward, ends = self._engine.step_one(number)
+            observation = self._shown()
+        if ends & 4:
+            _refuse_to_go_on()
+        return observation, reward, ends & 1 == 1, ends & 2 == 2, info_of(self._counts.tolist())
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """The table as the window draws it, RGB [row, column, 3]; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        if self._viewer is None:
+            self._viewer = Viewer(self._engine.batch)
+        return self._viewer.picture(0)
+
+    # --- saving
+
+    def save_state(self) -> bytes:
+        """Everything that decides what happens next, for `restore_state`; other processes can read it too."""
+        return self._memory.tobytes()
+
+    def restore_state(self, state: bytes) -> None:
+        """Go back to a saved state, bit for bit; `observe` gives its observation.
+
+        Args:
+            state: What `save_state` of an environment with the same boards, tick rate and stack returned.
+
+        Raises:
+            StateError: It is something else; nothing has changed.
+        """
+        if not isinstance(state, (bytes, bytearray, memoryview)):
+            raise StateError(f"a state is the bytes that save_state returned, got {type(state).__name__}")
+        if len(state) != self._size or state[:MARK] != self._mark:
+            self._engine.refuse(len(state))
+        self._memory[:] = state
+        self._is_seeded = True
+        if self._engine.shows_pictures:
+            self._engine.observe()
+
+    def observe(self) -> Any:
+        """The observation of the present state, as a new object."""
+        self._engine.observe()
+        return self._shown()
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the episode has ended, or none has begun."""
+        return bool(self._engine.episodes["over"][0])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """How `copy` and `pickle` make another: the arrays are known by address and must be made anew."""
+        chosen = {name: getattr(self.options, name) for name in self.options.__dataclass_fields__}
+        kept = (self.save_state(), self._is_seeded, self._np_random, self._np_random_seed, self.spec)
+        return _made_again, (type(self), self.render_mode, chosen, kept)
+
+    # --- helpers
+
+    def _shown(self) -> Any:
+        engine = self._engine
+        raw = engine.window[0] if engine.shows_pictures else engine.observations[0]
+        return shown_one(self.options, engine.pool, raw.copy())
+
+    def _number_of(self, action: Any) -> int:
+        """A multibinary action as a number."""
+        is_bits = self.options.actions == "multibinary" and np.shape(action) == self._weights.shape
+        bits = np.asarray(action)
+        if not is_bits or bits.dtype.kind not in "iub" or (bits > 1).any() or (bits < 0).any():
+            self._refuse(action)
+        return int(bits @ self._weights)
+
+    def _refuse(self, action: Any) -> NoReturn:
+        raise ValueError(f"action must be in {self.action_space}, got {action!r}")
+
+
+def _made_again(
+    make: type[PinballEnv], render_mode: str | None, options: dict[str, Any], kept: Any
+) -> PinballEnv:
+    env = make(render_mode, **options)
+    state, env._is_seeded, env._np_random, env._np_random_seed, env.spec = kept
+    is_seeded = env._is_seeded
+    env.restore_state(state)
+    env._is_seeded = is_seeded
+    return env
+
+
+def _refuse_to_go_on() -> NoReturn:
+    raise gymnasium.error.ResetNeeded("the episode is over or has not begun: call reset before step")
+
+
+def checked_render_mode(render_mode: str | None) -> str | None:
+    """The render mode, if there is such a one."""
+    if render_mode not in (None, "rgb_array"):
+        raise ValueError(f'render_mode must be "rgb_array" or None, got {render_mode!r}')
+    return render_mode
+
+
+def info_of(counts: list[int]) -> dict[str, Any]:
+    """The info of one environment, by the names of `INFO`; written out, since it takes half of a step."""
+    (
+        score, created, drained, wall_hits, slant_wall_hits, paddle_hits, triangular_prism_hits,
+        cylinder_hits, ball_hits, touches, jams, board, stalled,
+    ) = counts  # fmt: skip
+    return {
+        "score": score,
+        "created": created,
+        "drained": drained,
+        "wall_hits": wall_hits,
+        "slant_wall_hits": slant_wall_hits,
+        "paddle_hits": paddle_hits,
+        "triangular_prism_hits": triangular_prism_hits,
+        "cylinder_hits": cylinder_hits,
+        "ball_hits": ball_hits,
+        "touches": touches,
+        "jams": jams,
+        "board": board,
+        "stalled": stalled == 1,
+    }

@@ -1,0 +1,329 @@
+"""The environment for many agents at once: `PinballVectorEnv`, a `gymnasium.vector.VectorEnv`.
+
+One compiled call for each slice of environments does everything: actions, physics, rewards, ends, new
+episodes, observations and counts. Environment i is, bit for bit, the single environment with the seed of
+environment i.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import ArrayLike, NDArray
+
+from silverball.envs.engine import Engine
+from silverball.envs.options import Options
+from silverball.envs.records import Mode
+from silverball.envs.single import GREATEST_SEED, checked_render_mode
+from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
+from silverball.envs.viewer import Viewer
+from silverball.errors import StateError
+from silverball.world import WorldBatch
+from silverball.world.batch import checked_int, cores
+from silverball.world.snapshot import Index, chosen
+
+MODES = {
+    AutoresetMode.DISABLED: Mode.DISABLED,
+    AutoresetMode.NEXT_STEP: Mode.NEXT_STEP,
+    AutoresetMode.SAME_STEP: Mode.SAME_STEP,
+}
+
+
+class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
+    """Many pinball tables that move together.
+
+    Args:
+        num_envs: How many.
+        autoreset_mode: When an environment whose episode is over begins the next: `AutoresetMode.NEXT_STEP`,
+            `SAME_STEP` or `DISABLED`, or their values as text.
+        zero_copy: Whether every step writes to the same arrays: faster, and right for trainers that copy what
+            they keep. Else every step returns new arrays.
+        threads: How many threads a step may use; None: one for each core. It never changes a result.
+        render_mode: "rgb_array" or None.
+        max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows.
+        options: See `silverball.envs.options.OPTIONS`.
+
+    Raises:
+        TypeError: There is no option of that name.
+        ValueError: An option cannot be.
+        TableError: The table cannot be used.
+
+    Example:
+        >>> import gymnasium as gym
+        >>> import numpy as np
+        >>> import silverball.envs
+        >>> envs = gym.make_vec("silverball/PinballClassic-v0", num_envs=1000)
+        >>> observations, infos = envs.reset(seed=7)
+        >>> observations, rewards, terminated, truncated, infos = envs.step(np.ones(1000, int))
+        >>> rewards.shape
+        (1000,)
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        zero_copy: bool = False,
+        threads: int | None = None,
+        render_mode: str | None = None,
+        max_episode_steps: int | None = None,
+        **options: Any,
+    ) -> None:
+        self.num_envs = checked_int("num_envs", num_envs, 1, 2**22)
+        self.options = Options.of(options)
+        self.autoreset_mode = _checked_mode(autoreset_mode)
+        self.metadata = {
+            "render_modes": ["rgb_array"], "render_fps": 60, "autoreset_mode": self.autoreset_mode,
+        }  # fmt: skip
+        self.render_mode = checked_render_mode(render_mode)
+        threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
+        mode = MODES[self.autoreset_mode]
+        self._engine = engine = Engine(self.options, self.num_envs, mode, threads, bool(zero_copy))
+        if max_episode_steps is not None:
+            limit = checked_int("max_episode_steps", max_episode_steps, 1, 2**62)
+            engine.rules["limit"] = min(limit, int(engine.rules["limit"][0]))
+        self.single_observation_space = observation_space(self.options, engine.pool)
+        self.single_action_space = action_space(self.options)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+        self._codes = 1 << len(self.options.buttons)
+        self._weights = 1 << np.arange(len(self.options.buttons))
+        self._all = np.ones(self.num_envs, np.bool_)  # the masks of what all environments have in `infos`
+        self._all.flags.writeable = False
+        self._is_seeded = np.zeros(self.num_envs, np.bool_)
+        self._viewer: Viewer | None = None
+
+    @property
+    def batch(self) -> WorldBatch:
+        """The worlds; whoever changes them calls `observe` afterwards."""
+        return self._engine.batch
+
+    def reset(
+        self,
+        *,
+        seed: int | list[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Any, dict[str, Any]]:
+        """Begin episodes.
+
+        Args:
+            seed: Environment i gets seed + i; or one seed each, None to go on with its own; None: all go on.
+            options: ``{"reset_mask": mask}``, bool [env], begins episodes in these environments alone.
+
+        Returns:
+            The observations, and the counts of events.
+
+        Raises:
+            ValueError: The mask or the list of seeds has another length, or the mask names none.
+            TypeError: The mask is no array of bool.
+        """
+        super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
+        mask = self._checked_mask((options or {}).get("reset_mask"))
+        self._seed(seed, mask)
+        self._engine.masks[:] = mask
+        self._engine.reset()
+        infos = self._infos(self._engine.counts, mask)
+        return self._shown(), infos
+
+    def step(
+        self, actions: Any
+    ) -> tuple[Any, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Hold each environment's buttons for one step.
+
+        Args:
+            actions: int [env], a number each, whose bits are the buttons; or bits [env, button].
+
+        Returns:
+            Observations, rewards, terminations, truncations, each [env], and `infos`: the counts of events so
+            far, as arrays [env]. With SAME_STEP, where episodes have ended, `final_obs` and `final_info` too.
+
+        Raises:
+            ValueError: The actions have another shape, or there is no such action.
+            ResetNeeded: An episode is over that nobody has reset.
+        """
+        engine = self._engine
+        self._take(actions)
+        if self.autoreset_mode is AutoresetMode.DISABLED or not self._is_seeded.all():
+            self._refuse_what_is_over()
+        engine.step()
+        infos = self._infos(engine.counts, self._all)
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
+            self._add_finals(infos)
+        return self._shown(), engine.rewards, engine.terminated, engine.truncated, infos
+
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """All tables as the window draws them, RGB [row, column, 3] each; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        if self._viewer is None:
+            self._viewer = Viewer(self._engine.batch)
+        return tuple(self._viewer.picture(index) for index in range(self.num_envs))
+
+    # --- saving and branching
+
+    def save_state(self, index: Index = None) -> NDArray[np.uint8]:
+        """Copy the states of some environments.
+
+        Args:
+            index: Which: None (all), a number, a slice, numbers, or a mask.
+
+        Returns:
+            uint8 [saved, byte]; a row's bytes are what `PinballEnv.save_state` returns.
+        """
+        return self._engine.save(chosen(index, self.num_envs))
+
+    def restore_state(self, state: bytes | NDArray[np.uint8], index: Index = None) -> None:
+        """Put saved states back, bit for bit; `observe` gives the observations.
+
+        One state goes into all chosen environments, which makes them branches of it.
+
+        Args:
+            state: What `save_state` of this or of a single environment returned.
+            index: Which environments.
+
+        Raises:
+            StateError: The states belong to other boards, another tick rate or stack, or are damaged.
+            ValueError: The index is none, or has another length.
+        """
+        if isinstance(state, (bytes, bytearray, memoryview)):
+            rows = np.frombuffer(state, np.uint8)[None]
+        elif isinstance(state, np.ndarray) and state.dtype == np.uint8:
+            rows = np.atleast_2d(state)
+        else:
+            raise StateError(f"a state is what save_state returned, got {type(state).__name__}")
+        where = chosen(index, self.num_envs)
+        count = len(range(*where.indices(self.num_envs))) if isinstance(where, slice) else len(where)
+        if len(rows) not in (1, count):
+            raise ValueError(
+                f"there are {len(rows)} states for {count} environments; give one, or one for each"
+            )
+        self._engine.restore(rows, where)
+        self._is_seeded[where] = True
+        if self._engine.shows_pictures:
+            self._engine.observe()
+
+    def observe(self) -> Any:
+        """The observations of the present states."""
+        self._engine.observe()
+        return self._shown()
+
+    def write_to(
+        self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
+    ) -> bool:
+        """Let all steps from now on write to these arrays; for trainers that bring their own (`zero_copy`).
+
+        Args:
+            observations: Of the type and shape of a step's.
+            terminated: bool [env].
+            truncated: bool [env].
+
+        Returns:
+            Whether they do. Not so, and nothing has changed, if the arrays are of other types or shapes, or
+            not in one piece, or if an observation is several pictures, which slide along a ring.
+        """
+        return self._engine.write_to(observations, terminated, truncated)
+
+    # --- helpers
+
+    def _shown(self) -> Any:
+        engine = self._engine
+        rows = engine.window if engine.shows_pictures else engine.observations
+        return shown(self.options, engine.pool, rows)
+
+    def _take(self, actions: Any) -> None:
+        """Check actions and hand them over as numbers."""
+        given = np.asarray(actions)
+        if (
+            given.ndim == 2
+            and self.options.actions == "multibinary"
+            and (
+                given.shape[1] == len(self._weights)
+                and given.dtype.kind in "iub"
+                and ((given >> 1) == 0).all()
+            )
+        ):
+            given = given @ self._weights
+        if given.shape != (self.num_envs,) or given.dtype.kind not in "iub":
+            raise ValueError(
+                f"actions must be whole numbers in {self.action_space.__class__.__name__} of the shape "
+                f"{self.action_space.shape}, got {given.dtype} {np.shape(actions)}"
+            )
+        if given.min() < 0 or given.max() >= self._codes:
+            raise ValueError(
+                f"every action must be from 0 to {self._codes - 1}, got {given.min()} to {given.max()}"
+            )
+        self._engine.actions[:] = given
+
+    def _refuse_what_is_over(self) -> None:
+        over = np.flatnonzero(self._engine.episodes["over"])
+        if len(over):
+            raise ResetNeeded(
+                f"{len(over)} episodes are over or have not begun, the first in environment {over[0]}: "
+                'call reset, with options={"reset_mask": terminated | truncated} to begin these alone'
+            )
+
+    def _seed(self, seed: int | list[int | None] | None, mask: NDArray[np.bool_]) -> None:
+        """Give the masked environments their seeds; those without any get random ones."""
+        keys = np.full(self.num_envs, -1, np.int64)
+        if isinstance(seed, (int, np.integer)):
+            keys[:] = [(int(seed) + number) % GREATEST_SEED for number in range(self.num_envs)]
+        elif seed is not None:
+            if len(seed) != self.num_envs:
+                raise ValueError(f"seed must be one number or {self.num_envs} of them, got {len(seed)}")
+            keys[:] = [-1 if one is None else int(one) % GREATEST_SEED for one in seed]
+        strangers = mask & (keys < 0) & ~self._is_seeded
+        if strangers.any():
+            drawn = self.np_random.integers(GREATEST_SEED, size=self.num_envs, dtype=np.uint64)
+            keys[strangers] = drawn.astype(np.int64)[strangers]
+        where = mask & (keys >= 0)
+        self._engine.seed(keys[where], where)
+        self._is_seeded |= where
+
+    def _checked_mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
+        if mask is None:
+            return self._all
+        if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
+            raise TypeError(f"reset_mask must be an array of bool, got {getattr(mask, 'dtype', type(mask))}")
+        if mask.shape != (self.num_envs,):
+            raise ValueError(f"reset_mask must have the shape ({self.num_envs},), got {mask.shape}")
+        if not mask.any():
+            raise ValueError("reset_mask must name at least one environment, got none")
+        return mask
+
+    def _infos(self, counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
+        """Counts [env, count] as Gymnasium's infos: for each key an array, and where it holds."""
+        infos: dict[str, Any] = {}
+        if not mask.all():
+            counts = np.where(mask[:, None], counts, 0)
+            mask = mask.copy()
+        for name, row in zip(INFO, counts.T, strict=True):
+            infos[name] = row if name != "stalled" else row != 0
+            infos[f"_{name}"] = mask
+        return infos
+
+    def _add_finals(self, infos: dict[str, Any]) -> None:
+        """What the episodes that ended in this step ended with."""
+        engine = self._engine
+        ended = engine.terminated | engine.truncated
+        rows = np.flatnonzero(ended)
+        if not len(rows):
+            return
+        final = np.full(self.num_envs, None, object)
+        raw = engine.final_pictures(rows) if engine.shows_pictures else engine.finals[rows]
+        for number, row in enumerate(rows):  # those alone that have ended
+            final[row] = shown_one(self.options, engine.pool, raw[number])
+        infos["final_obs"], infos["_final_obs"] = final, ended
+        infos["final_info"] = self._infos(engine.final_counts, ended)
+        infos["_final_info"] = ended.copy()
+
+
+def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
+    try:
+        return AutoresetMode(mode)
+    except ValueError:
+        modes = ", ".join(repr(one.value) for one in AutoresetMode)
+        raise ValueError(f"autoreset_mode must be one of {modes}, got {mode!r}") from None

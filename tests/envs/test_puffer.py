@@ -1,0 +1,47 @@
+"""Does PufferLib take the environments, and do they write into its buffers?"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+pufferlib = pytest.importorskip("pufferlib", reason="PufferLib is not installed")
+pytest.importorskip("pufferlib.vector", reason="PufferLib is not complete")
+
+from silverball.envs import PinballVectorEnv  # noqa: E402
+from silverball.envs.puffer import SilverballPufferEnv  # noqa: E402
+
+OPTIONS = {"table": "classic", "time_limit": 1.0}
+
+
+@pytest.mark.parametrize(
+    "more", [{}, {"observation": "pixels", "stack": 1}, {"observation": "pixels", "stack": 2}], ids=str
+)
+def test_steps_are_those_of_the_vector_environment(more):
+    envs = SilverballPufferEnv(3, seed=5, **OPTIONS, **more)
+    plain = PinballVectorEnv(3, "SameStep", **OPTIONS, **more)
+    assert envs.reset()[0].tolist() == plain.reset(seed=5)[0].tolist()
+    told = []
+    for actions in np.random.default_rng(0).integers(0, 4, (150, 3)):
+        observations, rewards, terminals, truncations, infos = envs.step(actions)
+        expected, gained, terminated, truncated, _ = plain.step(actions)
+        assert observations is envs.observations
+        assert observations.tolist() == expected.tolist()
+        assert rewards.tolist() == gained.astype(np.float32).tolist()
+        assert (terminals.tolist(), truncations.tolist()) == (terminated.tolist(), truncated.tolist())
+        told += infos
+    assert told
+    assert all(info["episode_length"] <= 60 for info in told)
+
+
+def test_its_vectors_run_them_side_by_side():
+    envs = pufferlib.vector.make(
+        SilverballPufferEnv,
+        env_kwargs={"num_envs": 2, **OPTIONS},
+        num_envs=2,
+        backend=pufferlib.vector.Serial,
+    )
+    envs.reset(seed=0)
+    observations, *_ = envs.step(np.zeros(4, np.int32))
+    assert observations.shape == (4, 51)
+    envs.close()

@@ -1,0 +1,95 @@
+"""Does Stable-Baselines3 take the environments as they are?"""
+
+from __future__ import annotations
+
+import warnings
+
+import gymnasium as gym
+import numpy as np
+import pytest
+
+sb3 = pytest.importorskip("stable_baselines3", reason="Stable-Baselines3 is not installed")
+
+from stable_baselines3.common.env_checker import check_env  # noqa: E402
+from stable_baselines3.common.evaluation import evaluate_policy  # noqa: E402
+
+from silverball.envs import IDS, PinballVectorEnv  # noqa: E402
+from silverball.envs.sb3 import SilverballVecEnv  # noqa: E402
+
+OPTIONS = {"table": "classic", "time_limit": 3.0}
+
+
+@pytest.mark.parametrize("id_", IDS)
+def test_its_checker_has_no_complaint(id_):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(gym.make(id_, **({} if "Classic" in id_ else {"boards": 2})))
+
+
+def test_a_step_is_that_of_the_vector_environment_with_the_ends_told():
+    envs, plain = SilverballVecEnv(5, seed=3, **OPTIONS), PinballVectorEnv(5, "SameStep", **OPTIONS)
+    assert envs.reset().tolist() == plain.reset(seed=3)[0].tolist()
+    random, lengths, returns = np.random.default_rng(0), np.zeros(5, int), np.zeros(5)
+    truncated_ones = ended_ones = 0
+    for _ in range(600):
+        actions = random.integers(0, 4, 5)
+        observations, rewards, ended, told = envs.step(actions)
+        expected, gained, terminated, truncated, infos = plain.step(actions)
+        assert observations.tolist() == expected.tolist()
+        assert rewards.dtype == np.float32
+        assert rewards.tolist() == gained.astype(np.float32).tolist()
+        assert ended.tolist() == (terminated | truncated).tolist()
+        lengths += 1
+        returns += gained
+        for row, info in enumerate(told):
+            if not ended[row]:
+                assert info == {}
+                continue
+            assert info["terminal_observation"].tolist() == infos["final_obs"][row].tolist()
+            assert info["TimeLimit.truncated"] is bool(truncated[row])
+            assert (info["episode"]["l"], info["episode"]["r"]) == (lengths[row], pytest.approx(returns[row]))
+            assert info["score"] == infos["final_info"]["score"][row]
+            truncated_ones += truncated[row]
+            lengths[row], returns[row] = 0, 0
+            ended_ones += 1
+    assert ended_ones > truncated_ones > 0
+
+
+def test_seeds_count_at_the_next_reset():
+    envs = SilverballVecEnv(2, **OPTIONS)
+    envs.seed(5)
+    first = envs.reset()
+    assert envs.reset().tolist() != first.tolist()
+    envs.seed(5)
+    assert envs.reset().tolist() == first.tolist()
+
+
+def test_ppo_learns_on_states_and_on_pictures():
+    for options in ({}, {"observation": "dict"}, {"observation": "pixels", "size": (36, 36)}):
+        envs = SilverballVecEnv(4, seed=0, **OPTIONS, **options)
+        policy = {"pixels": "CnnPolicy", "dict": "MultiInputPolicy"}.get(
+            options.get("observation"), "MlpPolicy"
+        )
+        model = sb3.PPO(policy, envs, n_steps=32, batch_size=32, n_epochs=1, device="cpu")
+        model.learn(1024)
+        assert model.num_timesteps >= 1024
+        assert len(model.ep_info_buffer) > 0, "returns of episodes are logged"
+        mean, _ = evaluate_policy(model, envs, n_eval_episodes=4, warn=False)
+        assert mean >= 0.0
+
+
+def test_attributes_and_methods_are_reached_through_it():
+    envs = SilverballVecEnv(3, seed=0, **OPTIONS)
+    envs.reset()
+    assert envs.get_attr("num_envs", [0, 2]) == [3, 3]
+    assert [state.shape[0] for state in envs.env_method("save_state", indices=[1])] == [3]
+    envs.set_attr("spec", None)
+    with pytest.raises(ValueError, match="share"):
+        envs.set_attr("spec", None, indices=[0])
+    assert envs.env_is_wrapped(gym.Wrapper) == [False] * 3
+
+
+def test_pictures_for_people_come_from_all_environments():
+    envs = SilverballVecEnv(2, seed=0, render_mode="rgb_array", **OPTIONS)
+    envs.reset()
+    assert [picture.shape for picture in envs.get_images()] == [(680, 330, 3)] * 2

@@ -1,0 +1,219 @@
+"""Is the vector environment nothing but many single ones?"""
+
+from __future__ import annotations
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+from silverball.envs import IDS, PinballEnv, PinballVectorEnv
+
+MODES = tuple(AutoresetMode)
+CLASSIC = "silverball/PinballClassic-v0"
+COUNT, STEPS = 5, 400
+SHORT = {"boards": 3, "time_limit": 2.0}  # episodes end often, by the gutter and by the limit
+
+
+def same(one, other) -> bool:
+    """Whether two nested results are equal to the bit, types and missing parts included."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
+    if isinstance(one, tuple) or (isinstance(one, np.ndarray) and one.dtype == object):
+        return len(one) == len(other) and all(map(same, one, other))
+    if isinstance(one, np.ndarray):
+        return one.dtype == other.dtype and one.shape == other.shape and one.tobytes() == other.tobytes()
+    return type(one) is type(other) and one == other
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        SHORT,
+        {"table": "classic", "balls": 3, "jitter": True, "create": "button", "time_limit": 3.0},
+        {**SHORT, "observation": "dict", "reward": "time", "frame_skip": 3},
+        {**SHORT, "actions": "multibinary", "tick_rate": 240, "frame_skip": 4, "stall": 1.0},
+        {**SHORT, "observation": "pixels", "size": (20, 12), "stack": 3},
+        {**SHORT, "observation": "pixels", "size": (20, 12), "stack": 1, "rgb": True},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("zero_copy", [False, True])
+def test_vector_equals_many_singles_step_for_step(mode, options, zero_copy):
+    native = PinballVectorEnv(COUNT, mode, zero_copy, **options)
+    singles = SyncVectorEnv([lambda: PinballEnv(**options)] * COUNT, autoreset_mode=mode)
+    assert native.observation_space == singles.observation_space
+    assert native.action_space == singles.action_space
+    assert same(native.reset(seed=7), singles.reset(seed=7))
+    singles.action_space.seed(1)
+    ends = 0
+    for _ in range(STEPS):
+        action = singles.action_space.sample()
+        one, other = native.step(action), singles.step(action)
+        for mine, theirs in zip(one, other, strict=True):
+            assert same(mine, theirs)
+        over = one[2] | one[3]
+        ends += over.sum()
+        if mode is AutoresetMode.DISABLED and over.any():
+            one, other = (envs.reset(options={"reset_mask": over.copy()}) for envs in (native, singles))
+            assert same(one, other)
+    assert ends >= COUNT
+
+
+def test_mode_is_an_attribute_and_in_the_metadata():
+    for mode in MODES:
+        envs = gym.make_vec(CLASSIC, 2, autoreset_mode=mode)
+        assert envs.autoreset_mode is envs.metadata["autoreset_mode"] is mode
+    assert gym.make_vec(CLASSIC, 2, autoreset_mode="SameStep").autoreset_mode is AutoresetMode.SAME_STEP
+    assert PinballVectorEnv.metadata == {}, "the modes of instances must not leak into the class"
+
+
+@pytest.mark.parametrize("id_", IDS)
+def test_gymnasiums_make_vec_gives_the_native_one(id_):
+    envs = gym.make_vec(id_, num_envs=2, **({} if id_ == CLASSIC else {"boards": 2}))
+    assert type(envs) is PinballVectorEnv
+    observations, _ = envs.reset(seed=0)
+    assert observations in envs.observation_space
+    single = gym.make(id_, **({} if id_ == CLASSIC else {"boards": 2}))
+    assert envs.single_observation_space == single.observation_space
+
+
+def test_an_episode_that_is_over_must_be_reset_when_nobody_else_does():
+    envs = gym.make_vec(CLASSIC, 2, autoreset_mode=AutoresetMode.DISABLED, time_limit=1 / 60)
+    envs.reset(seed=0)
+    envs.step(np.zeros(2, int))
+    with pytest.raises(gym.error.ResetNeeded, match="2 episodes are over"):
+        envs.step(np.zeros(2, int))
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_a_step_before_the_first_reset_is_refused(mode):
+    with pytest.raises(gym.error.ResetNeeded):
+        gym.make_vec(CLASSIC, 2, autoreset_mode=mode).step(np.zeros(2, int))
+
+
+def test_each_environment_can_have_a_seed_of_its_own():
+    envs = gym.make_vec(CLASSIC, 3)
+    first, _ = envs.reset(seed=[5, 9, 5])
+    assert first[0].tolist() == first[2].tolist() != first[1].tolist()
+    assert first[1].tolist() == gym.make(CLASSIC).reset(seed=9)[0].tolist()
+    again, _ = envs.reset(seed=[None, 9, None])
+    assert again[1].tolist() == first[1].tolist()
+    assert again[0].tolist() != first[0].tolist()
+
+
+@pytest.mark.parametrize("seed", [0, np.int64(0)])
+def test_seed_zero_counts(seed):
+    envs = gym.make_vec(CLASSIC, 2)
+    assert envs.reset(seed=seed)[0].tolist() == envs.reset(seed=seed)[0].tolist()
+    assert envs.reset(seed=seed)[0].tolist() != envs.reset(seed=1)[0].tolist()
+
+
+def test_a_mask_begins_these_episodes_alone():
+    envs = gym.make_vec(CLASSIC, 3)
+    envs.reset(seed=0)
+    before = envs.step(np.full(3, 3))[0]
+    after, infos = envs.reset(options={"reset_mask": np.array([False, True, False])})
+    assert (after != before).any(axis=1).tolist() == [False, True, False]
+    assert infos["_created"].tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize(
+    ("mask", "message"),
+    [
+        ([True, False], "array of bool"),
+        (np.array([1, 0]), "array of bool"),
+        (np.array([True]), "shape"),
+        (np.array([False, False]), "at least one"),
+    ],
+)
+def test_a_mask_that_makes_no_sense_is_refused(mask, message):
+    envs = gym.make_vec(CLASSIC, 2)
+    envs.reset(seed=0)
+    with pytest.raises((TypeError, ValueError), match=message):
+        envs.reset(options={"reset_mask": mask})
+
+
+@pytest.mark.parametrize(
+    "actions", [np.zeros(3, int), np.zeros(2), np.array([0, 4]), np.array([-1, 0]), np.zeros((2, 2), int), 0]
+)
+def test_actions_that_make_no_sense_are_refused(actions):
+    envs = gym.make_vec(CLASSIC, 2)
+    envs.reset(seed=0)
+    with pytest.raises(ValueError, match="action"):
+        envs.step(actions)
+
+
+def test_steps_return_new_arrays_or_with_zero_copy_always_the_same():
+    for zero_copy in (False, True):
+        envs = gym.make_vec(CLASSIC, 2, zero_copy=zero_copy)
+        envs.reset(seed=0)
+        (first, *_), (second, *_) = (envs.step(np.zeros(2, int)) for _ in range(2))
+        assert np.shares_memory(first, second) is zero_copy
+
+
+def test_any_number_of_threads_gives_the_same_bits():
+    def result(threads: int) -> list[bytes]:
+        envs = gym.make_vec(CLASSIC, 1000, threads=threads)
+        envs.reset(seed=1)
+        random = np.random.default_rng(2)
+        return [envs.step(random.integers(0, 4, 1000))[0].tobytes() for _ in range(30)]
+
+    assert result(1) == result(3)
+
+
+def test_fewer_steps_can_be_asked_for_as_gymnasium_does():
+    envs = gym.make_vec(CLASSIC, 2, max_episode_steps=3)
+    envs.reset(seed=0)
+    truncated = [envs.step(np.zeros(2, int))[3].all() for _ in range(3)]
+    assert truncated == [False, False, True]
+
+
+def test_gymnasiums_statistics_of_episodes_work():
+    envs = gym.wrappers.vector.RecordEpisodeStatistics(gym.make_vec(CLASSIC, 4, time_limit=0.5))
+    envs.reset(seed=0)
+    lengths = [
+        infos["episode"]["l"][infos["_episode"]].tolist()
+        for infos in (envs.step(np.zeros(4, int))[4] for _ in range(40))
+        if "episode" in infos
+    ]
+    assert lengths == [[30, 30, 30, 30]]
+
+
+def test_all_tables_can_be_rendered():
+    envs = gym.make_vec(CLASSIC, 2, render_mode="rgb_array")
+    envs.reset(seed=0)
+    pictures = envs.render()
+    assert [picture.shape for picture in pictures] == [(680, 330, 3)] * 2
+    assert (pictures[0] != pictures[1]).any()
+
+
+@pytest.mark.parametrize("options", [{}, {"observation": "pixels", "stack": 1, "size": (20, 12)}], ids=str)
+def test_steps_can_write_to_the_arrays_of_a_trainer(options):
+    envs = gym.make_vec(CLASSIC, 3, zero_copy=True, **options)
+    plain = gym.make_vec(CLASSIC, 3, **options)
+    space = envs.observation_space
+    mine, over, cut = np.zeros(space.shape, space.dtype), np.zeros(3, bool), np.zeros(3, bool)
+    assert envs.write_to(mine, over, cut)
+    envs.reset(seed=0), plain.reset(seed=0)
+    ends = 0
+    for _ in range(600):
+        envs.step(np.zeros(3, int))
+        expected, _, terminated, truncated, _ = plain.step(np.zeros(3, int))
+        assert mine.tolist() == expected.tolist()
+        assert (over.tolist(), cut.tolist()) == (terminated.tolist(), truncated.tolist())
+        ends += terminated.sum()
+    assert ends
+
+
+def test_arrays_that_do_not_fit_are_left_alone():
+    flags = np.zeros(3, bool)
+    envs = gym.make_vec(CLASSIC, 3, zero_copy=True)
+    shape = envs.observation_space.shape
+    assert not envs.write_to(np.zeros(shape, np.float64), flags, flags)
+    assert not envs.write_to(np.zeros((3, 7), np.float32), flags, flags)
+    assert not envs.write_to(np.zeros((shape[0], 2 * shape[1]), np.float32)[:, ::2], flags, flags)
+    assert not gym.make_vec(CLASSIC, 3).write_to(np.zeros(shape, np.float32), flags, flags)
+    stacked = gym.make_vec(CLASSIC, 3, zero_copy=True, observation="pixels")
+    assert not stacked.write_to(np.zeros(stacked.observation_space.shape, np.uint8), flags, flags)
