@@ -1,7 +1,7 @@
 """What must be ready before a picture can be drawn? Backgrounds of all boards, and sprites of what moves.
 
-The colours are those of the window (drawing/palette.py); grey is their luminance. The board is stretched to
-the whole picture.
+The colours are few and far apart (colors.py); grey is their luminance. The board is stretched to the whole
+picture.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing import palette
+from silverball.envs import colors
 from silverball.envs.pixels import ANGLES, FINE, cover
 from silverball.envs.pool import Pool
 from silverball.envs.records import FILM
@@ -22,7 +22,7 @@ from silverball.table.geometry import offsets, paddle_cores
 
 SAMPLES = 4  # along each axis of a pixel
 LUMINANCE = (0.299, 0.587, 0.114)  # Source: ITU-R BT.601
-FLOOR = palette.FLOOR_BOTTOM
+FLOOR = colors.FLOOR
 
 Bytes = NDArray[np.uint8]
 
@@ -73,7 +73,7 @@ def _made(key: _Key, size: tuple[int, int], rgb: bool) -> Pictures:
     return Pictures(film, backgrounds, balls, paddles)
 
 
-def shade(color: palette.Color, rgb: bool) -> NDArray[np.float64]:
+def shade(color: colors.Color, rgb: bool) -> NDArray[np.float64]:
     """A colour as one or three channels, 0 to 255."""
     channels = np.array(color, np.float64)
     return channels if rgb else np.array([channels @ LUMINANCE])
@@ -88,7 +88,7 @@ def _film(pool: Pool, size: tuple[int, int], rgb: bool) -> NDArray[Any]:
     row["half_length"], row["half_width"] = board.length / 2, board.width / 2
     row["ball_rows"] = math.ceil(board.ball_radius * row["rows"])
     row["ball_columns"] = math.ceil(board.ball_radius * row["columns"])
-    light = np.rint(shade(palette.LIGHT, rgb)).astype(int)
+    light = np.rint(shade(colors.LIGHT, rgb)).astype(int)
     row["red"], row["green"], row["blue"] = light[0], light[-2] if rgb else 0, light[-1]
     return film
 
@@ -102,9 +102,9 @@ def _background(film: NDArray[Any], pool: Pool, board: int) -> Bytes:
     edge = table.board.wall_thickness
     x = table.board.length / 2 - (np.arange(height) + 0.5) / film["rows"][0]
     z = (np.arange(width) + 0.5) / film["columns"][0] - table.board.width / 2
-    picture[x > table.board.length / 2 - edge] = shade(palette.RAIL, rgb)
-    picture[:, np.abs(z) > table.board.width / 2 - edge] = shade(palette.RAIL, rgb)
-    picture[np.abs(x - table.board.gutter) * film["rows"][0] <= 0.5] = shade(palette.GUTTER, rgb)
+    picture[x > table.board.length / 2 - edge] = shade(colors.RAIL, rgb)
+    picture[:, np.abs(z) > table.board.width / 2 - edge] = shade(colors.RAIL, rgb)
+    picture[np.abs(x - table.board.gutter) * film["rows"][0] <= 0.5] = shade(colors.GUTTER, rgb)
     covered = np.zeros((height, width), np.int64)
     first, end = pool.boards.board["collider_first"][board], pool.boards.board["collider_end"][board]
     counts = {Kind.SLANT_WALL: 0, Kind.TRIANGULAR_PRISM: 0, Kind.CYLINDER: 0}
@@ -118,12 +118,12 @@ def _background(film: NDArray[Any], pool: Pool, board: int) -> Bytes:
     return np.rint(picture).astype(np.uint8).reshape(-1)
 
 
-def _color(kind: Kind, number: int) -> palette.Color:
+def _color(kind: Kind, number: int) -> colors.Color:
     if kind == Kind.TRIANGULAR_PRISM:
-        return palette.in_turn(palette.PRISMS, number)
+        return colors.in_turn(colors.PRISMS, number)
     if kind == Kind.CYLINDER:
-        return palette.in_turn(palette.CYLINDERS, number)
-    return palette.SLANT_WALL
+        return colors.in_turn(colors.CYLINDERS, number)
+    return colors.SLANT_WALL
 
 
 def _ball_sprites(film: NDArray[Any], radius: float) -> Bytes:
@@ -137,7 +137,7 @@ def _ball_sprites(film: NDArray[Any], radius: float) -> Bytes:
     z = (columns[None] - fine[:, None, None]) / film["columns"][0]
     square = x[:, None, :, None, :, None] ** 2 + z[None, :, None, :, None, :] ** 2
     share = (square <= radius * radius).mean(axis=(-1, -2))[..., None]
-    color = shade(palette.BALL_LIGHT, int(film["channels"][0]) == 3)
+    color = shade(colors.BALL, int(film["channels"][0]) == 3)
     sprites: Bytes = np.rint(share * color).astype(np.uint8).reshape(-1)
     return sprites
 
@@ -163,7 +163,7 @@ def _paddle_sprites(film: NDArray[Any], pool: Pool) -> Bytes:
     wide = max(box[3] for box in boxes.values())
     film["paddle_rows"], film["paddle_columns"] = high, wide
     sprites = np.zeros((2, ANGLES, high, wide, channels), np.uint8)
-    color = shade(palette.PADDLE, channels == 3)
+    color = shade(colors.PADDLE, channels == 3)
     points = (np.arange(SAMPLES) + 0.5) / SAMPLES
     for side, (top, left, _, _) in boxes.items():
         film["paddle_row"][0, side], film["paddle_column"][0, side] = top, left
