@@ -17,6 +17,7 @@ import tempfile
 import time
 from collections.abc import Iterable
 from pathlib import Path
+from random import random
 from typing import Any
 
 STARTED = time.time()
@@ -60,14 +61,17 @@ def main() -> None:
         end = time.perf_counter() + seconds
         before = time.perf_counter()
         while before < end:
-            hands.move()
             now = time.perf_counter()
-            window.frame(now - before)
+            due = now + 1 / 60
+            before = window.picture(before)
             starts.append(now)
             work.append(time.perf_counter() - now)
             if not sharp and window.is_sharp:
                 sharp = seconds_since_python_started()
-            before = window.beat_until(now + 1 / 60, now)
+            # A press comes at any moment of the wait for the next picture.
+            before = window.beat_until(time.perf_counter() + random() * (due - time.perf_counter()), before)
+            hands.move()
+            before = window.beat_until(due, before)
         size = window.size
         driver = pygame.display.get_driver()
         latency = window.latency

@@ -25,6 +25,7 @@ class LatencyMeter:
         self.to_picture: deque[float] = deque(maxlen=KEPT)
         self._heard: list[float] = []
         self._moved: list[float] = []
+        self._drawn: list[float] = []
 
     def heard(self) -> None:
         """A paddle button went down."""
@@ -38,17 +39,22 @@ class LatencyMeter:
             self._moved += self._heard
             self._heard.clear()
 
+    def drawn(self) -> None:
+        """A picture of the world as it is was made."""
+        self._drawn += self._moved
+        self._moved.clear()
+
     def shown(self) -> None:
-        """A picture of the world was handed to the screen."""
-        if self._moved:
+        """That picture was handed to the screen."""
+        if self._drawn:
             now = time.perf_counter()
-            self.to_picture.extend(now - heard for heard in self._moved)
-            self._moved.clear()
+            self.to_picture.extend(now - heard for heard in self._drawn)
+            self._drawn.clear()
 
     def forget(self) -> None:
         """No play is going on: what is held now moves no paddle."""
-        self._heard.clear()
-        self._moved.clear()
+        for presses in (self._heard, self._moved, self._drawn):
+            presses.clear()
 
 
 def middle(values: deque[float]) -> float:

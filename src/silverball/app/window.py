@@ -108,7 +108,7 @@ class Window:
         self._settings = settings
         self._stage: Stage | None = None
         self._before: Moment | None = None  # one tick before the present one
-        self._seconds = 0.0  # real time so far
+        self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
         for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
             self.messages.say(trouble)
         if replay is not None:
@@ -143,10 +143,8 @@ class Window:
         before = start = time.perf_counter()
         try:
             while not self.is_over and (seconds is None or before - start < seconds):
-                now = time.perf_counter()
-                self.frame(now - before)
-                before = now
-                before = self.beat_until(now + 1.0 / self.frame_rate, before)
+                due = time.perf_counter() + 1.0 / self.frame_rate
+                before = self.beat_until(due, self.picture(before))
         except Exception:
             self._keep_after_crash()
             raise
@@ -164,6 +162,27 @@ class Window:
     def frame(self, elapsed: float) -> None:
         """One frame, so many seconds after the last beat or frame."""
         self.beat(elapsed)
+        self.draw()
+        self.show()
+
+    def picture(self, before: float) -> float:
+        """One picture in real time; buttons are heard before it is made and before it is shown.
+
+        Args:
+            before: When the last beat was, by `time.perf_counter` [s].
+
+        Returns:
+            When the last beat was now.
+        """
+        before = self._beat_since(before)
+        self.draw()
+        before = self._beat_since(before)
+        self.show()
+        return before
+
+    def draw(self) -> None:
+        """Make the picture and the sounds of this moment."""
+        elapsed, self._drawn_at = self._seconds - self._drawn_at, self._seconds
         page = self.program.menus.page
         self.program.pass_time(self._seconds)
         if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
@@ -174,6 +193,11 @@ class Window:
         self.messages.pass_time(elapsed, in_play=is_watched)
         self._sound(elapsed)
         self._draw()
+        self.latency.drawn()
+
+    def show(self) -> None:
+        """Hand the picture to the screen."""
+        self._screen.flip()
         self.latency.shown()
 
     def close(self) -> None:
@@ -224,13 +248,19 @@ class Window:
         Returns:
             When the last beat was now.
         """
-        while (now := time.perf_counter()) < due and not self.is_over:
-            time.sleep(min(BEAT, due - now) if self.is_ready else due - now)
-            now = time.perf_counter()
-            if now < due:
-                self.beat(now - before)
-                before = now
+        while not self.is_over:
+            before = self._beat_since(before)
+            left = due - time.perf_counter()
+            if left <= 0.0:
+                break
+            time.sleep(min(BEAT, left) if self.is_ready else left)
         return before
+
+    def _beat_since(self, before: float) -> float:
+        """A beat, when the last one was at this time; the time now."""
+        now = time.perf_counter()
+        self.beat(now - before)
+        return now
 
     # --- playing ----------------------------------------------------------------------------------
 
@@ -339,7 +369,6 @@ class Window:
             overlay.draw_help(target, scale, program.seed, self.listener.controls)
         if self.messages.strength > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
-        self._screen.flip()
 
     # --- what is left behind ----------------------------------------------------------------------
 

@@ -9,13 +9,14 @@ import numpy as np
 import pygame
 import pytest
 
+from boards import CLASSIC
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.moment import BallAt
 from silverball.drawing.sketch import sketch
-from silverball.table import Table, TriangularPrism, generate_table, load_table
+from silverball.table import Table, TriangularPrism, generate_table
 from silverball.world import Event, World
 
-TABLE = load_table("classic")
+TABLE = CLASSIC
 SIZE = best_size(TABLE.board, 480)
 START = Moment.before(TABLE)
 RADIUS = TABLE.board.ball_radius

@@ -7,11 +7,11 @@ from itertools import combinations, pairwise
 import numpy as np
 import pytest
 
+from boards import CLASSIC
 from silverball.drawing import THEMES, Moment, Renderer, Theme
 from silverball.drawing.kernels.stage import FLOOR, Form
 from silverball.drawing.moment import BallAt
 from silverball.drawing.scene import make_scene
-from silverball.table import load_table
 
 # How linear light is seen by eyes that lack a kind of cone.
 # Source: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A physiologically-based model for simulation of
@@ -34,7 +34,7 @@ LEAST_DIFFERENCE = 22.0  # of CIELAB; 2.3 is just seen, and about 10 is seen at 
 TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 WHITE = np.array([0.9505, 1.0, 1.089])
 
-TABLE = load_table("classic")
+TABLE = CLASSIC
 SIZE = (240, 384)
 BALL = BallAt(1, 0.6, 1.9)
 

@@ -12,7 +12,7 @@ from games import IN_POCKET, POCKET, bare, bumper, frantic_game, put, reflex_gam
 from hypothesis import given
 from hypothesis import strategies as st
 
-from boards import PADDLES
+from boards import CLASSIC, PADDLES
 from silverball.errors import StateError
 from silverball.game import replay_lines, replay_record
 from silverball.game.game import Game
@@ -24,7 +24,7 @@ from silverball.game.rules import RULES_VERSION
 from silverball.physics import PHYSICS_VERSION
 from silverball.table import Cylinder, generate_table
 
-GAME = reflex_game("classic", 2, seconds=50.3)
+GAME = reflex_game(CLASSIC, 2, seconds=50.3)
 REPLAY = GAME.replay
 TEXT = REPLAY.to_text()
 LINES = TEXT.split("\n")

@@ -206,7 +206,7 @@ NO_INDEX = [
     [0.5],
     [True, False],
     2**70,
-    object(),
+    pytest.param(object(), id="an object"),
 ]
 
 
