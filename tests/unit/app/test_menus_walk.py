@@ -28,7 +28,7 @@ THREE = (Button.LEFT, Button.RIGHT, Button.START)
 TABLES = (
     TableEntry("classic", "Classic", "drawn by hand"),
     TableEntry("random", "Random", "new for every seed", True),
-    TableEntry("/home/me/tables/long.toml", "A table whose name is longer than any display", "Größe: 中"),
+    TableEntry("tables/long.toml", "A table whose name is longer than any display", "Größe: 中"),
 )
 ROWS = (ScoreRow("ABC", 123_456_789, "2026-11-25", "k1"), ScoreRow("D.F", 4_560, "2026-11-24", "k2"))
 LEAVES = (Play, Resume, Restart, Quit, EndReplay, WatchLast, WatchMachine, WatchScore)
