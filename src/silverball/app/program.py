@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from silverball.game.store import Store
 
 SEEDS = 1_000_000  # a new board's seed is below it: short enough to tell a friend
+WAIT = "one moment, please: the physics is being made ready"
 OVER_SECONDS = 2.5  # for which the end of a game is shown before a page of the menus comes
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 AS_PLAYED = SPEEDS.index(1.0)
@@ -197,6 +198,8 @@ class Program:
                 self._new_board(again)
             elif action is Action.JITTER and self.is_paused:
                 self.say("the game is paused")
+        elif self.stage is None:
+            self.say(WAIT)  # for the physics: what was chosen begins as soon as it is ready
         elif isinstance(self.stage, Playing):
             self._press_in_play(action, again, self.stage)
         elif action not in (Action.JITTER, Action.NEW_BOARD):
@@ -303,7 +306,7 @@ class Program:
             do()
         else:
             self._wish = do
-            self.say("one moment, please: the physics is being made ready")
+            self.say(WAIT)
 
     def _look_at(self, table: str, seed: int | None) -> bool:
         """Show another board; False, and the old one, if it cannot be used."""
@@ -330,6 +333,7 @@ class Program:
         from silverball.game.game import Game
 
         self.keep_last_game()
+        self.menus.close()
         self._is_fresh = False
         self._start(Playing(Game(self.table, self.seed, mode)))
 

@@ -84,6 +84,8 @@ def test_what_is_asked_for_before_the_physics_is_ready_is_done_when_it_is(tmp_pa
     evening.program.play(Mode.FREE, "Leaky", 3)
     assert evening.program.stage is None
     assert "one moment" in evening.said[-1]
+    evening.tap(Action.CREATE, Action.LEFT, Action.PAUSE)  # impatience changes nothing
+    assert not evening.program.menus.is_open
     evening.program.get_ready()
     assert evening.program.is_playing
     evening.store.close()
