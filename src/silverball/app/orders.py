@@ -6,7 +6,7 @@ from functools import singledispatch
 from typing import TYPE_CHECKING
 
 from silverball.app.menus import commands
-from silverball.app.stages import Playing, Watching
+from silverball.app.stages import Playing
 
 if TYPE_CHECKING:
     from silverball.app.program import Program
@@ -69,8 +69,7 @@ def _(command: commands.Restart, program: Program) -> None:
 @carry_out.register(commands.EndGame)
 def _(command: commands.EndGame, program: Program) -> None:
     if isinstance(program.stage, Playing):
-        program.stage.game.end()
-        program.keep_last_game()
+        program.give_up(program.stage)
     program.stage = None
 
 
@@ -99,9 +98,7 @@ def _(command: commands.ReplayPause, program: Program) -> None:
 
 @carry_out.register(commands.ReplayJump)
 def _(command: commands.ReplayJump, program: Program) -> None:
-    if isinstance(program.stage, Watching):
-        player = program.stage.player
-        player.seek(player.tick + round(command.seconds * player.replay.tick_rate))
+    program.jump(command.seconds)
 
 
 @carry_out.register(commands.EndReplay)

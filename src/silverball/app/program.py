@@ -129,11 +129,6 @@ class Program:
         """The seed of the board, None if it is always the same."""
         return None if self.recipe.random is None else self.seed
 
-    @property
-    def wants_input(self) -> bool:
-        """Whether the next key or gamepad button belongs to the menus, whatever it is."""
-        return self.menus.wants_key or self.menus.wants_pad
-
     def dots(self, seconds: float) -> Dots:
         """What the score display shows."""
         below = None
@@ -159,26 +154,41 @@ class Program:
         stage = self.stage
         if isinstance(stage, Playing) and stage.has_ended:
             self._after_the_end(stage)
-        if isinstance(stage, Watching):
-            stage.player.prepare(480)  # a little ahead, so that a jump is quick
+        # A replay is played a little ahead, so that a jump is quick.
+        if isinstance(stage, Watching) and self._goes_on(lambda: stage.player.prepare(480)):
             self.menus.show_replay(self._replay_face(stage))
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move what goes on on the board by a number of ticks."""
-        if self.stage is not None and self.is_moving:
-            try:
-                self.stage.advance(held, ticks)
-            except SilverballError as error:  # a replay that is not the game it says
-                self.say(str(error))
-                self._stop_watching()
+        stage = self.stage
+        if stage is not None and self.is_moving:
+            self._goes_on(lambda: stage.advance(held, ticks))
 
     def single_tick(self, held: Held) -> None:
         """Move on by one tick while the game waits."""
-        if self.stage is None or self.is_moving or self.stage.has_ended:
+        stage = self.stage
+        if stage is None or self.is_moving or stage.has_ended:
             self.say("one tick at a time is for a game that is paused")
             return
         self._no_longer_counts()
-        self.stage.advance(held, 1)
+        self._goes_on(lambda: stage.advance(held, 1))
+
+    def jump(self, seconds: float) -> None:
+        """Go back or ahead in the replay that is watched."""
+        stage = self.stage
+        if isinstance(stage, Watching):
+            target = stage.player.tick + round(seconds * stage.player.replay.tick_rate)
+            self._goes_on(lambda: stage.player.seek(target))
+
+    def _goes_on(self, move: Callable[[], object]) -> bool:
+        """Whether what moves the stage went well; a replay that is not the game it says is put away."""
+        try:
+            move()
+        except SilverballError as error:
+            self.say(str(error))
+            self._stop_watching()
+            return False
+        return True
 
     # --- buttons ------------------------------------------------------------------------------------
 
@@ -231,7 +241,8 @@ class Program:
 
     def _press_in_play(self, action: Action, again: bool, stage: Playing) -> None:
         if stage.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
-            self._ended_at = self._now - OVER_SECONDS  # seen enough
+            if self._ended_at is not None:  # its score is kept
+                self._ended_at = self._now - OVER_SECONDS  # seen enough
         elif action is Action.CREATE:
             self._try(stage.game.create_ball)
         elif action is Action.JITTER:
@@ -294,8 +305,17 @@ class Program:
         """Keep the replay of the game that is played, if anything was played."""
         stage = self.stage
         if isinstance(stage, Playing) and self._ended_at is None:
+            if stage.has_ended:
+                self._after_the_end(stage)
+                return
             self.keeper.last_game(stage.game)
             self.menus.know(has_last_game=self.store.last_game() is not None)
+
+    def give_up(self, stage: Playing) -> None:
+        """The player ends a game: it can be watched, but its score is not for the scores."""
+        stage.game.end()
+        self.keeper.last_game(stage.game)
+        self.menus.know(has_last_game=self.store.last_game() is not None)
 
     def keep_file(self, what: str) -> Path | None:
         """Keep the replay of the game that is played as a file; where it is, None if it cannot be written."""

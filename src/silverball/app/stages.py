@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from silverball.app.controls import Held
 from silverball.errors import BoardFull, NoRoom
-from silverball.game.news import Face, Mode, News
+from silverball.game.news import Mode, News
 
 if TYPE_CHECKING:
     from silverball.game.game import Game
@@ -148,8 +148,3 @@ class Watching:
     def take_news(self) -> list[News]:
         """What happened in the game since this was last asked."""
         return list(self.game.take_news())
-
-
-def face_of(stage: Stage) -> Face:
-    """What there is to show of the game on a stage."""
-    return stage.game.face

@@ -9,7 +9,6 @@ __all__ = ["Color"]
 ROOM: Color = (7, 6, 13)  # around the table
 
 PANEL: Color = (10, 8, 20)
-PANEL_OUTER: Color = (255, 66, 158)
 PANEL_INNER: Color = (70, 196, 255)
 SCORE: Color = (255, 186, 58)
 LABEL: Color = (112, 220, 255)

@@ -190,3 +190,48 @@ def test_a_replay_goes_faster_and_slower_holds_and_jumps(evening):
     assert player.tick == held + 1
     evening.tap(Action.RIGHT)
     assert player.tick == min(held + 1 + 5 * replay.tick_rate, replay.ticks)
+
+
+def test_a_space_in_the_very_moment_of_the_end_costs_no_score(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    game = evening.program.stage.game
+    while not game.is_over:
+        if game.phase is not Phase.PLAY:
+            evening.program.press(Action.CREATE)
+        evening.program.advance(NOTHING, 8)
+    evening.program.press(Action.CREATE)  # before any time has passed
+    assert game.score > 0
+    evening.go(0.1)
+    assert [row.score for row in evening.store.scores()] == [game.score]
+
+
+def test_a_program_that_ends_in_the_very_moment_of_the_end_has_kept_the_score(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    game = evening.program.stage.game
+    while not game.is_over:
+        if game.phase is not Phase.PLAY:
+            evening.program.press(Action.CREATE)
+        evening.program.advance(NOTHING, 8)
+    evening.program.keep_last_game()
+    assert [row.score for row in evening.store.scores()] == [game.score]
+
+
+@pytest.mark.parametrize("move", ["watch", "jump", "tick"])
+def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(evening, move):
+    from dataclasses import replace
+
+    evening.program.play(Mode.FREE, "Leaky", 3)
+    evening.tap(Action.CREATE)
+    evening.go(0.5)
+    replay = evening.program.stage.game.replay
+    evening.program.watch(replace(replay, tail="+a+a+a+a"))  # four balls at once
+    if move == "jump":
+        evening.program.jump(5.0)
+    elif move == "tick":
+        evening.program.is_held = True
+        evening.program.single_tick(NOTHING)
+    else:
+        evening.go(0.1)
+    assert "was recorded, but" in evening.said[-1]
+    assert evening.program.stage is None
+    assert evening.program.menus.is_open
