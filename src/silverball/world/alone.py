@@ -47,7 +47,7 @@ class Alone:
     ) -> None:  # fmt: skip
         """Write the addresses down; `tick` is the length of a tick [s]."""
         self._action = np.zeros((1, 1, 3), np.bool_)
-        self._arrays = (
+        self._arrays: tuple[NDArray[Any], ...] = (
             state,
             boards.board,
             board_of,
