@@ -26,7 +26,7 @@ from silverball.envs.pool import Pool, PooledBatch, pool_of
 from silverball.envs.records import COUNTS, EPISODE, FILM, RULES, SCENE, Mode, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.kernel import SETTINGS
+from silverball.physics.kernel import SETTINGS, straight
 from silverball.physics.layout import WORLD, Part, records
 from silverball.world.batch import pool_of_threads
 
@@ -75,6 +75,7 @@ class Engine:
         self.final_boards = np.zeros(kept, np.int64)
         self._held = np.zeros((1, count, 3), np.bool_)
         self._write_addresses()
+        self.move = straight(move, self.addresses, 0, 1, 0)
         self.forget()
 
     def _allocate(self, threads: int) -> None:
@@ -151,7 +152,7 @@ class Engine:
     def step_one(self, action: int) -> tuple[float, int]:
         """Move the one environment on; its reward and `End` bits."""
         self._slide()
-        ends: tuple[float, int] = move(self.addresses, 0, 1, action)
+        ends: tuple[float, int] = self.move(self.addresses, 0, 1, action)
         return ends
 
     def step(self) -> None:
@@ -173,15 +174,15 @@ class Engine:
         number = int(task)
         threads = min(self.batch.threads, self.count // LEAST_SLICE)
         if threads < 2:
-            move(self.addresses, 0, self.count, number)
+            self.move(self.addresses, 0, self.count, number)
             return
         edges = [self.count * slice_ // threads for slice_ in range(threads + 1)]
         workers = pool_of_threads(self.batch.threads)
         others: list[Future[Any]] = [
-            workers.submit(move, self.addresses, first, end, number)
+            workers.submit(self.move, self.addresses, first, end, number)
             for first, end in itertools.pairwise(edges[1:])
         ]
-        move(self.addresses, 0, edges[1], number)
+        self.move(self.addresses, 0, edges[1], number)
         for other in others:
             other.result()
 

@@ -31,7 +31,7 @@ from silverball.physics.kernel import inlined, internal, kernel, pasted
 from silverball.physics.layout import BALL_COUNT, WORLD, Fault, Outcome
 from silverball.physics.random import WORD, threefry
 from silverball.physics.step import run_worlds
-from silverball.world.alone import array_at
+from silverball.world.alone import INT, array_at
 
 BLOCK = 64  # worlds that are moved before they are looked at: their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
@@ -87,6 +87,8 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
             the.rewards(at)[index] = reward
             the.terminated(at)[index] = ends & End.TERMINATED != 0
             the.truncated(at)[index] = ends & End.TRUNCATED != 0
+            if at.envs == 1 and has_counted(at, index):
+                ends |= End.COUNTED + 0
             observe(at, rules, index)
     return reward, ends
 
@@ -222,6 +224,18 @@ def write_counts(at: Any, address: int, index: int) -> None:
     start = address + index * at.counts * 8
     copy_bytes(start, at.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
     copy_bytes(start + COUNTS_SIZE, at.episodes_at + index * EPISODE_SIZE, 16)
+
+
+@internal
+def has_counted(at: Any, index: int) -> bool:
+    """Whether what `write_counts` would write differs from what is there."""
+    there = array_at(at.counts_at + index * at.counts * 8, (at.counts,), INT)
+    counts = array_at(at.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
+    episode = the.episodes(at)[index]
+    differs = there[len(COUNTS)] != episode.board_seed or there[len(COUNTS) + 1] != episode.stalled
+    for number in range(len(COUNTS)):
+        differs |= there[number] != counts[number]
+    return bool(differs)
 
 
 @internal

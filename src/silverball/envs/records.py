@@ -27,6 +27,7 @@ class End(IntEnum):
     TERMINATED = 1
     TRUNCATED = 2
     WAS_OVER = 4  # the episode had already ended before
+    COUNTED = 8  # the counts differ from those of the step before; of an only environment alone
 
 
 class Task(IntEnum):

@@ -83,6 +83,21 @@ def pasted(function: F) -> F:
     return _compile(function, inline="always")
 
 
+def straight(function: Any, *arguments: Any) -> Callable[..., Any]:
+    """A kernel without Numba's look at the types of its arguments, which takes longer than a tick does.
+
+    Args:
+        function: A kernel; it is compiled for these arguments if it has not been.
+        arguments: Such as it will be called with. Whoever calls it with others reads and writes memory that
+            is not theirs.
+    """
+    if SETTINGS.DISABLE_JIT:
+        return cast(Callable[..., Any], function)
+    types = tuple(cast(Any, numba).typeof(one) for one in arguments)
+    found: Callable[..., Any] = function.compile(types)
+    return found
+
+
 @cache
 def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     """The folder for compiled code of exactly these sources; None where no folder can be written.

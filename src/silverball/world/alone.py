@@ -2,13 +2,15 @@
 
 Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
 addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
-there. Whoever holds the addresses must hold the arrays as well; `World` does.
+there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the types
+of the arguments again (`straight`), since they are always the same.
 """
 
 from __future__ import annotations
 
 import ctypes
 import math
+from collections.abc import Callable
 from typing import Any, cast
 
 import numpy as np
@@ -17,7 +19,7 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, kernel
+from silverball.physics.kernel import SETTINGS, kernel, straight
 from silverball.physics.layout import BOARD, COLLIDER, LOG, WORLD
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
@@ -68,6 +70,7 @@ class Alone:
             tallies.shape[1],
         )
         row["tick"] = tick
+        self._step: Callable[[Any, int, int], int] = self._first_step
 
     def __reduce__(self) -> Any:
         """Refuse to be copied: the addresses are those of the original's arrays."""
@@ -79,7 +82,12 @@ class Alone:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
             cast(Any, run_worlds)(*self._arrays, 0, 1, ticks, self._tick)
             return int(self._arrays[0][0]["fault"])
-        fault: int = step_alone(self._addresses, buttons, ticks)
+        return self._step(self._addresses, buttons, ticks)
+
+    def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
+        """Make the step; it is compiled now, and no earlier."""
+        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        fault: int = step(addresses, buttons, ticks)
         return fault
 
 
