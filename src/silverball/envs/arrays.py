@@ -45,7 +45,7 @@ ARRAYS = (
     "worlds", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
     "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks",
     "observations", "rewards", "terminated", "truncated", "counts", "finals", "final_counts", "scenes",
-    "final_scenes", "final_boards", "frames", "copies", "backgrounds", "balls", "paddles",
+    "final_scenes", "drawn", "frames", "copies", "backgrounds", "balls", "paddles",
 )  # fmt: skip
 LENGTHS = (
     "envs", "boards", "colliders", "numbers", "places", "parts", "columns", "layout_columns", "counts",
@@ -207,9 +207,9 @@ def final_scenes(at: Any) -> Any:
 
 
 @pasted
-def final_boards(at: Any) -> Any:
-    """And their boards [envs]."""
-    return array_at(at.final_boards_at, (at.envs,), INT)
+def drawn(at: Any) -> Any:
+    """What the pictures in the ring show [envs, ring]."""
+    return array_at(at.drawn_at, (at.envs, at.ring), SCENE)
 
 
 @pasted

@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from concurrent.futures import Future
+from sys import getrefcount
 from typing import Any
 
 import numpy as np
@@ -30,11 +31,12 @@ from silverball.physics.kernel import SETTINGS, straight
 from silverball.physics.layout import WORLD, Part, records
 from silverball.world.batch import pool_of_threads
 
-FORMAT = 1  # of saved states
+FORMAT = 2  # of saved states
 MARK = 16  # bytes that say of which boards and which version a saved state is
 LEAST_SLICE = 256  # environments below which a thread is not worth its start
 RING = 4  # windows in the ring of pictures: more are moved more seldom, and take more memory
 COUNT_ROWS = len(COUNTS) + 2
+MOST_HANDED_OUT = 4  # arrays of a kind that are looked after, in case that they come back
 
 
 class Engine:
@@ -72,8 +74,8 @@ class Engine:
         self.finals = np.zeros((kept, columns), np.float32)
         self.final_counts = np.zeros((kept, COUNT_ROWS), np.int64)
         self.final_scenes = records(kept * self.stack, SCENE).reshape(kept, self.stack)
-        self.final_boards = np.zeros(kept, np.int64)
         self._held = np.zeros((1, count, 3), np.bool_)
+        self._handed_out: dict[str, list[NDArray[Any]]] = {}
         self._write_addresses()
         self.move = straight(move, self.addresses, 0, 1, 0)
         self.forget()
@@ -112,6 +114,9 @@ class Engine:
         self.draws_in_place = self.stack == 1 and not self.owns_output
         self.rules["copies"] = not self.owns_output and self.stack > 1
         self.rules["redraw"] = self.draws_in_place
+        self.rules["mends"] = not self.draws_in_place
+        self.drawn = records(self.count * self.ring, SCENE).reshape(self.count, self.ring)
+        self.drawn["board"] = -1
         self.frames = np.zeros((self.count, self.ring, pixels), np.uint8)
         self.copies = np.zeros((self.count, self.stack, pixels), np.uint8)
 
@@ -127,7 +132,7 @@ class Engine:
             masks=self.masks, observations=self.observations, rewards=self.rewards,
             terminated=self.terminated, truncated=self.truncated, counts=self.counts, finals=self.finals,
             final_counts=self.final_counts, scenes=self.scenes, final_scenes=self.final_scenes,
-            final_boards=self.final_boards, frames=self.frames, copies=self.copies,
+            drawn=self.drawn, frames=self.frames, copies=self.copies,
             backgrounds=pictures.backgrounds, balls=pictures.balls, paddles=pictures.paddles,
         )  # fmt: skip
         lengths = {
@@ -198,21 +203,29 @@ class Engine:
         """Give the next step new arrays to write to, unless its output stays where it is."""
         if self.owns_output:
             return
-        fresh: dict[str, NDArray[Any]] = {
-            "rewards": np.empty(self.count),
-            "terminated": np.empty(self.count, np.bool_),
-            "truncated": np.empty(self.count, np.bool_),
-            "counts": np.empty((self.count, COUNT_ROWS), np.int64),
-        }
-        if not self.shows_pictures:
-            fresh["observations"] = np.empty_like(self.observations)
-        elif self.draws_in_place:
-            fresh["frames"] = np.empty_like(self.frames)
-        else:
-            fresh["copies"] = np.empty_like(self.copies)
+        shown = "observations"
+        if self.shows_pictures:
+            shown = "frames" if self.draws_in_place else "copies"
+        names = ("rewards", "terminated", "truncated", "counts", shown)
+        fresh = {name: self._unheld(name) for name in names}
         for name, array in fresh.items():
             setattr(self, name, array)
         self._point_at(**fresh)
+
+    def _unheld(self, name: str) -> NDArray[Any]:
+        """An array like the one of that name, which nobody else holds.
+
+        It is one that was handed out, if nothing refers to it any more: memory that is new to a program costs
+        more time than a picture. Views and tensors of an array refer to it, so nobody sees it change.
+        """
+        handed_out = self._handed_out.setdefault(name, [])
+        for number in range(len(handed_out)):
+            if _holders(handed_out, number) == LISTED_ONLY:
+                return handed_out[number]
+        array: NDArray[Any] = np.empty_like(getattr(self, name))
+        handed_out.append(array)
+        del handed_out[:-MOST_HANDED_OUT]
+        return array
 
     def write_to(
         self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
@@ -230,6 +243,7 @@ class Engine:
         if self.shows_pictures:
             self.frames = observations.reshape(own.shape)
             self._point_at(frames=self.frames)
+            self.rules["mends"] = 0
         else:
             self.observations = observations.reshape(own.shape)
             self._point_at(observations=self.observations)
@@ -291,6 +305,14 @@ class Engine:
             "the state belongs to other boards, another tick rate or stack, or another version; "
             "restore it into an environment made with the same options"
         )
+
+
+def _holders(things: list[Any], number: int) -> int:
+    """How many hold one of these things; some of them on its way through this function."""
+    return getrefcount(things[number])
+
+
+LISTED_ONLY = _holders([object()], 0)
 
 
 def _as_records(memory: NDArray[np.uint8], dtype: np.dtype[Any]) -> NDArray[Any]:

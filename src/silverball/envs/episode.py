@@ -200,7 +200,6 @@ def begin(at: Any, rules: Any, index: int) -> None:
 def keep_final(at: Any, rules: Any, index: int) -> None:
     """Keep what the last observation and the counts of an episode are made of, before the next begins."""
     write_counts(at, at.final_counts_at, index)
-    the.final_boards(at)[index] = the.board_of(at)[index]
     if rules.state != 0:
         write_state(at, rules, at.finals_at, index)
     if rules.pictures != 0:

@@ -6,7 +6,8 @@ so that the order does not matter. The board fills the picture: its top is the f
 column.
 
 The last pictures of an environment lie in a ring that is longer than an observation: the window of the
-newest slides along it, so that no picture is moved but when the window has come to the end.
+newest slides along it. Where nobody else writes to the ring, a picture is drawn by mending the old one in
+its place: balls and lights are taken away and put where they are now, paddles if they have moved.
 """
 
 from __future__ import annotations
@@ -35,31 +36,27 @@ def film_step(at: Any, index: int) -> None:
         copy_scene(at, index, number + 1, number)
     look(at, index, last)
     if film.wraps != 0:
-        copy_bytes(frame(at, index, 0), frame(at, index, at.ring - last), last * at.pixels)
-    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], frame(at, index, film.at + last))
+        for number in range(last):
+            show(at, index, number)
+    show(at, index, last)
 
 
 @internal
 def show_first(at: Any, index: int) -> None:
     """Fill the whole window with the first picture of an episode."""
-    film = the.film(at)[0]
-    last = film.stack - 1
+    last = the.film(at)[0].stack - 1
     look(at, index, last)
     the.scenes(at)[index, last].lit = 0
-    newest = frame(at, index, film.at + last)
-    draw(at, the.scenes(at)[index, last], the.board_of(at)[index], newest)
     for number in range(last):
         copy_scene(at, index, last, number)
-        copy_bytes(frame(at, index, film.at + number), newest, at.pixels)
+    show_again(at, index)
 
 
 @internal
 def show_again(at: Any, index: int) -> None:
     """Draw all pictures of the window from their scenes."""
-    film = the.film(at)[0]
-    for number in range(film.stack):
-        scene = the.scenes(at)[index, number]
-        draw(at, scene, the.board_of(at)[index], frame(at, index, film.at + number))
+    for number in range(the.film(at)[0].stack):
+        show(at, index, number)
 
 
 @kernel
@@ -73,10 +70,22 @@ def draw_finals(addresses: Any, rows: Any, pictures: int) -> None:
     """
     at = addresses[0]
     for row in range(len(rows)):
-        index = rows[row]
         for number in range(at.stack):
-            scene, board = the.final_scenes(at)[index, number], the.final_boards(at)[index]
-            draw(at, scene, board, pictures + (row * at.stack + number) * at.pixels)
+            scene = the.final_scenes(at)[rows[row], number]
+            draw(at, scene, pictures + (row * at.stack + number) * at.pixels)
+
+
+@internal
+def show(at: Any, index: int, number: int) -> None:
+    """Draw a scene of an environment in its place in the ring."""
+    scene, place = the.scenes(at)[index, number], the.film(at)[0].at + number
+    picture, drawn = frame(at, index, place), the.drawn(at)[index, place]
+    if the.rules(at)[0].mends == 0 or drawn.board != scene.board:
+        draw(at, scene, picture)
+    else:
+        mend(at, drawn, scene, picture)
+    first = at.scenes_at + (index * at.stack + number) * SCENE_SIZE
+    copy_bytes(at.drawn_at + (index * at.ring + place) * SCENE_SIZE, first, SCENE_SIZE)
 
 
 @inlined
@@ -103,10 +112,15 @@ def copy_scene(at: Any, index: int, number: int, to: int) -> None:
 def look(at: Any, index: int, number: int) -> None:
     """Write down what is to be seen of a world now, as its scene of that number."""
     world, scene, log = the.worlds(at)[index], the.scenes(at)[index, number], the.logs(at)[index]
+    rules = the.rules(at)[0]
+    scene.board = the.board_of(at)[index]
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         scene.x[slot], scene.z[slot], scene.alive[slot] = ball.x, ball.z, ball.id
-        scene.angle[slot] = world.paddle[slot].angle
+    for side in range(2):
+        turn = (world.paddle[side].angle - rules.rest[side]) * rules.per_angle[side]
+        is_there = rules.per_angle[side] != 0.0
+        scene.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if is_there else -1
     lit = 0
     for entry in range(log.count):
         event = log.event[entry]
@@ -117,26 +131,76 @@ def look(at: Any, index: int, number: int) -> None:
 
 
 @internal
-def draw(at: Any, scene: Any, board: int, picture: int) -> None:
-    """Draw a scene on a board as the picture at this address."""
-    film, rules = the.film(at)[0], the.rules(at)[0]
-    copy_bytes(picture, at.backgrounds_at + board * at.pixels, at.pixels)
+def draw(at: Any, scene: Any, picture: int) -> None:
+    """Draw a scene as the picture at this address, whatever is there."""
+    film = the.film(at)[0]
+    copy_bytes(picture, at.backgrounds_at + scene.board * at.pixels, at.pixels)
     if scene.lit != 0:
-        first = the.boards(at)[board].collider_first + Part.FIRST_SHAPE
-        for shape in range(LIT_BITS):
-            if scene.lit >> shape & 1:
-                light_up(film, the.colliders(at)[first + shape], array_at(picture, (at.pixels,), BYTE))
-    rows, columns = film.paddle_rows, film.paddle_columns
-    for side in range(2):
-        if rows == 0 or rules.per_angle[side] == 0.0:
-            continue
-        turn = (scene.angle[side] - rules.rest[side]) * rules.per_angle[side]
-        number = side * ANGLES + int(turn * (ANGLES - 1) + 0.5)
-        sprite = at.paddles_at + number * rows * columns * film.channels
-        stamp(film, sprite, rows, columns, picture, film.paddle_row[side], film.paddle_column[side])
+        light_up(at, film, scene, picture)
+    draw_paddles(at, film, scene, picture)
     for slot in range(BALL_COUNT):
         if scene.alive[slot] != 0:
             draw_ball(film, at.balls_at, scene.x[slot], scene.z[slot], picture)
+
+
+@internal
+def mend(at: Any, drawn: Any, scene: Any, picture: int) -> None:
+    """Make the picture of a scene from that of another one of the same board; no pixel differs from `draw`'s.
+
+    What may have been hurt thereby is drawn again.
+    """
+    film = the.film(at)[0]
+    empty = at.backgrounds_at + scene.board * at.pixels
+    lowest = 0  # one past the lowest row where a paddle may have been hurt
+    if drawn.lit != 0:
+        lowest = darken(at, film, drawn, picture, empty)
+    for slot in range(BALL_COUNT):
+        if drawn.alive[slot] != 0:
+            top, left = ball_corner(film, drawn.x[slot], drawn.z[slot])
+            rows, columns = 2 * film.ball_rows + 1, 2 * film.ball_columns + 1
+            take_away(film, empty, picture, top, left, rows, columns)
+            lowest = max(lowest, top + rows)
+    has_turned = drawn.paddle[0] != scene.paddle[0] or drawn.paddle[1] != scene.paddle[1]
+    if has_turned:
+        for side in range(2):
+            top, left = film.paddle_row[side], film.paddle_column[side]
+            take_away(film, empty, picture, top, left, film.paddle_rows, film.paddle_columns)
+    if scene.lit != 0:
+        lowest = max(lowest, light_up(at, film, scene, picture))
+    if has_turned or lowest > min(film.paddle_row[0], film.paddle_row[1]):
+        draw_paddles(at, film, scene, picture)
+    for slot in range(BALL_COUNT):
+        if scene.alive[slot] != 0:
+            draw_ball(film, at.balls_at, scene.x[slot], scene.z[slot], picture)
+
+
+@inlined
+def take_away(film: Any, empty: int, picture: int, top: int, left: int, rows: int, columns: int) -> None:
+    """Put a box of the empty board's picture back, as far as it lies within the picture."""
+    first, last = max(0, left) * film.channels, min(film.width, left + columns) * film.channels
+    if last <= first:
+        return
+    for row in range(max(0, top), min(film.height, top + rows)):
+        start = row * film.width * film.channels + first
+        copy_bytes(picture + start, empty + start, last - first)
+
+
+@internal
+def draw_paddles(at: Any, film: Any, scene: Any, picture: int) -> None:
+    """Draw both paddles, as far as they are there."""
+    rows, columns = film.paddle_rows, film.paddle_columns
+    for side in range(2):
+        if scene.paddle[side] >= 0:
+            number = side * ANGLES + scene.paddle[side]
+            sprite = at.paddles_at + number * rows * columns * film.channels
+            stamp(film, sprite, rows, columns, picture, film.paddle_row[side], film.paddle_column[side])
+
+
+@inlined
+def ball_corner(film: Any, x: float, z: float) -> tuple[int, int]:
+    """The first row and column of a ball's sprite."""
+    row, column = (film.half_length - x) * film.rows, (film.half_width + z) * film.columns
+    return int(row) - film.ball_rows, int(column) - film.ball_columns  # never negative on the board
 
 
 @inlined
@@ -165,27 +229,54 @@ def stamp(film: Any, sprite: int, rows: int, columns: int, picture: int, top: in
             target[byte] = max(target[byte], source[byte])
 
 
-@internal
-def light_up(film: Any, c: Any, picture: Any) -> None:
-    """Show a prism or cylinder in bright, in a picture [pixel]."""
-    if c.kind not in (Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
-        return
+@inlined
+def box_of(film: Any, c: Any) -> tuple[int, int, int, int]:
+    """The rows and columns, from … to before, in which a part lies, within the picture."""
     top = max(0, int((film.half_length - c.x - c.reach) * film.rows))
     bottom = min(film.height, int((film.half_length - c.x + c.reach) * film.rows) + 1)
     left = max(0, int((film.half_width + c.z - c.reach) * film.columns))
     right = min(film.width, int((film.half_width + c.z + c.reach) * film.columns) + 1)
-    for row in range(top, bottom):
-        for column in range(left, right):
-            x = film.half_length - (row + 0.5) / film.rows
-            z = (column + 0.5) / film.columns - film.half_width
-            outside, _, _ = distance(c, x, z)
-            if outside > 0.0:
-                continue
-            pixel = (row * film.width + column) * film.channels
-            picture[pixel] = film.red
-            if film.channels == 3:
-                picture[pixel + 1] = film.green
-                picture[pixel + 2] = film.blue
+    return top, bottom, left, right
+
+
+@internal
+def light_up(at: Any, film: Any, scene: Any, address: int) -> int:
+    """Show the prisms and cylinders that were hit in bright; one past the lowest row that changed."""
+    picture = array_at(address, (at.pixels,), BYTE)
+    first, lowest = the.boards(at)[scene.board].collider_first + Part.FIRST_SHAPE, 0
+    for shape in range(LIT_BITS):
+        if scene.lit >> shape & 1 == 0:
+            continue
+        c = the.colliders(at)[first + shape]
+        if c.kind not in (Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
+            continue
+        top, bottom, left, right = box_of(film, c)
+        lowest = max(lowest, bottom)
+        for row in range(top, bottom):
+            for column in range(left, right):
+                x = film.half_length - (row + 0.5) / film.rows
+                z = (column + 0.5) / film.columns - film.half_width
+                outside, _, _ = distance(c, x, z)
+                if outside > 0.0:
+                    continue
+                pixel = (row * film.width + column) * film.channels
+                picture[pixel] = film.red
+                if film.channels == 3:
+                    picture[pixel + 1] = film.green
+                    picture[pixel + 2] = film.blue
+    return lowest
+
+
+@internal
+def darken(at: Any, film: Any, scene: Any, picture: int, empty: int) -> int:
+    """Take away the light of the parts that were hit; one past the lowest row that this has changed."""
+    first, lowest = the.boards(at)[scene.board].collider_first + Part.FIRST_SHAPE, 0
+    for shape in range(LIT_BITS):
+        if scene.lit >> shape & 1 != 0:
+            top, bottom, left, right = box_of(film, the.colliders(at)[first + shape])
+            take_away(film, empty, picture, top, left, bottom - top, right - left)
+            lowest = max(lowest, bottom)
+    return lowest
 
 
 @kernel

@@ -53,8 +53,9 @@ EPISODE = np.dtype(
 
 SCENE = np.dtype(
     [
+        ("board", "i8"),  # −1: nothing has been drawn
         ("x", "f8", (BALL_COUNT,)), ("z", "f8", (BALL_COUNT,)), ("alive", "i8", (BALL_COUNT,)),
-        ("angle", "f8", (2,)),  # of the paddles [rad]
+        ("paddle", "i8", (2,)),  # the numbers of their sprites; −1: there is no such paddle
         ("lit", "i8"),  # bit i: the shape i of the board was hit in this step
     ],
     align=True,
@@ -76,6 +77,7 @@ RULES = np.dtype(
         # What is observed: 1 for each thing that is to be written.
         ("state", "i8"), ("layout", "i8"), ("pictures", "i8"),
         ("copies", "i8"),  # 1: the window of pictures is copied
+        ("mends", "i8"),  # 1: nobody else writes to the pictures, so that what has moved can be mended
         ("redraw", "i8"),  # 1: the pictures lie in a new array, so that none of them can stay as it is
     ],
     align=True,

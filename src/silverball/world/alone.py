@@ -2,8 +2,8 @@
 
 Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
 addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
-there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the types
-of the arguments again (`straight`), since they are always the same.
+there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
+types of the arguments again (`straight`), since they are always the same.
 """
 
 from __future__ import annotations
