@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numba import types
 
+from silverball.envs.outputs import WRITTEN
 from silverball.envs.records import EPISODE, FILM, RULES, SCENE
 from silverball.physics.kernel import SETTINGS, pasted
 from silverball.physics.layout import BOARD, COLLIDER, LOG, WORLD
@@ -44,8 +45,7 @@ copy_bytes: Any = _interpreted_copy if SETTINGS.DISABLE_JIT else _compiled_copy
 ARRAYS = (
     "worlds", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
     "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks",
-    "observations", "rewards", "terminated", "truncated", "counts", "finals", "final_counts", "scenes",
-    "final_scenes", "drawn", "frames", "copies", "backgrounds", "balls", "paddles",
+    *WRITTEN, "finals", "final_counts", "scenes", "final_scenes", "drawn", "backgrounds", "balls", "paddles",
 )  # fmt: skip
 LENGTHS = (
     "envs", "boards", "colliders", "numbers", "places", "parts", "columns", "layout_columns", "counts",

@@ -12,15 +12,15 @@ from __future__ import annotations
 import hashlib
 import itertools
 from concurrent.futures import Future
-from sys import getrefcount
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.arrays import ADDRESSES
+from silverball.envs.arrays import ADDRESSES, ARRAYS
 from silverball.envs.episode import move
 from silverball.envs.options import Options
+from silverball.envs.outputs import WRITTEN, Outputs
 from silverball.envs.pictures import Pictures, pictures_of
 from silverball.envs.pixels import draw_finals
 from silverball.envs.pool import Pool, PooledBatch, pool_of
@@ -36,7 +36,6 @@ MARK = 16  # bytes that say of which boards and which version a saved state is
 LEAST_SLICE = 256  # environments below which a thread is not worth its start
 RING = 4  # windows in the ring of pictures: more are moved more seldom, and take more memory
 COUNT_ROWS = len(COUNTS) + 2
-MOST_HANDED_OUT = 4  # arrays of a kind that are looked after, in case that they come back
 
 
 class Engine:
@@ -47,11 +46,11 @@ class Engine:
         pool: The boards.
         batch: The worlds, with all that a `WorldBatch` can do.
         episodes: EPISODE records [env].
-        observations: float32 [env, column]; empty for pictures.
+        outputs: The arrays that steps write to; `outputs.last` has those of the last one: observations,
+            float32 [env, column], empty for pictures; rewards, terminated, truncated [env]; counts, the
+            events so far, int64 [env, count]: `COUNTS`, then the board's seed and whether it stalled.
         window: The pictures of the last observation, uint8 [env, stacked, pixel]; empty for states.
-        rewards, terminated, truncated: Of the last step [env].
-        counts: Events so far, int64 [env, count]: `COUNTS`, then the board's seed and whether it stalled.
-        finals, final_counts: The same of episodes that ended in the last step.
+        finals, final_counts: Observations and counts of episodes that ended in the last step.
     """
 
     def __init__(self, options: Options, count: int, mode: Mode, threads: int, owns_output: bool) -> None:
@@ -66,16 +65,12 @@ class Engine:
         self.actions = np.zeros(count, np.int64)
         self.masks = np.ones(count, np.bool_)
         columns = 0 if self.shows_pictures else self.pool.columns
-        self.observations = np.zeros((count, columns), np.float32)
-        self.rewards = np.zeros(count)
-        self.terminated, self.truncated = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        self.counts = np.zeros((count, COUNT_ROWS), np.int64)
+        self.outputs = self._first_outputs(columns)
         kept = count if mode == Mode.SAME_STEP else 0
         self.finals = np.zeros((kept, columns), np.float32)
         self.final_counts = np.zeros((kept, COUNT_ROWS), np.int64)
         self.final_scenes = records(kept * self.stack, SCENE).reshape(kept, self.stack)
         self._held = np.zeros((1, count, 3), np.bool_)
-        self._handed_out: dict[str, list[NDArray[Any]]] = {}
         self._write_addresses()
         self.move = straight(move, self.addresses, 0, 1, 0)
         self.forget()
@@ -109,7 +104,6 @@ class Engine:
             self.ring = RING * self.stack if self.stack > 1 else 1
         self.film = self.pictures.film.copy()
         self.film["stack"] = self.stack
-        pixels = self.pictures.backgrounds.shape[1]
         # One picture is drawn right where it goes; of several the window slides along a ring.
         self.draws_in_place = self.stack == 1 and not self.owns_output
         self.rules["copies"] = not self.owns_output and self.stack > 1
@@ -117,28 +111,44 @@ class Engine:
         self.rules["mends"] = not self.draws_in_place
         self.drawn = records(self.count * self.ring, SCENE).reshape(self.count, self.ring)
         self.drawn["board"] = -1
-        self.frames = np.zeros((self.count, self.ring, pixels), np.uint8)
-        self.copies = np.zeros((self.count, self.stack, pixels), np.uint8)
+
+    def _first_outputs(self, columns: int) -> Outputs:
+        """The arrays that the first step writes to."""
+        count, pixels = self.count, self.pictures.backgrounds.shape[1]
+        shown = "observations"
+        if self.shows_pictures:
+            shown = "frames" if self.draws_in_place else "copies"
+        copies = self.stack if self.rules["copies"][0] else 0
+        arrays: dict[str, NDArray[Any]] = {
+            "observations": np.zeros((count, columns), np.float32),
+            "rewards": np.zeros(count),
+            "terminated": np.zeros(count, np.bool_),
+            "truncated": np.zeros(count, np.bool_),
+            "counts": np.zeros((count, COUNT_ROWS), np.int64),
+            "frames": np.zeros((count, self.ring, pixels), np.uint8),
+            "copies": np.zeros((count, copies, pixels), np.uint8),
+        }
+        return Outputs(arrays, ("rewards", "terminated", "truncated", "counts", shown))
 
     def _write_addresses(self) -> None:
         """Write down where everything is."""
         boards, pictures, pool = self.pool.boards, self.pictures, self.pool
         self.addresses = records(1, ADDRESSES)
+        first = ARRAYS.index(WRITTEN[0])
+        self._places = self.addresses.view(np.int64)[first : first + len(WRITTEN)]
         self._point_at(
             worlds=self.batch.state, boards=boards.board, board_of=self.batch.board_of,
             board_seeds=pool.seeds, colliders=boards.collider, grid=boards.grid, places=boards.place,
             logs=self.batch.logs, tallies=self.batch.tallies, held=self._held, episodes=self.episodes,
             blanks=pool.blanks, layouts=pool.layouts, rules=self.rules, film=self.film, actions=self.actions,
-            masks=self.masks, observations=self.observations, rewards=self.rewards,
-            terminated=self.terminated, truncated=self.truncated, counts=self.counts, finals=self.finals,
-            final_counts=self.final_counts, scenes=self.scenes, final_scenes=self.final_scenes,
-            drawn=self.drawn, frames=self.frames, copies=self.copies,
-            backgrounds=pictures.backgrounds, balls=pictures.balls, paddles=pictures.paddles,
+            masks=self.masks, finals=self.finals, final_counts=self.final_counts, scenes=self.scenes,
+            final_scenes=self.final_scenes, drawn=self.drawn, backgrounds=pictures.backgrounds,
+            balls=pictures.balls, paddles=pictures.paddles, **self.outputs.last.arrays,
         )  # fmt: skip
         lengths = {
             "envs": self.count, "boards": len(boards.board),
             "colliders": len(boards.collider), "numbers": len(boards.grid), "places": len(boards.place),
-            "parts": self.batch.tallies.shape[1], "columns": self.observations.shape[1],
+            "parts": self.batch.tallies.shape[1], "columns": self.finals.shape[1],
             "layout_columns": pool.layouts.shape[1], "counts": COUNT_ROWS, "stack": self.stack,
             "ring": self.ring, "pixels": pictures.backgrounds.shape[1],
             "ball_pixels": pictures.balls.size, "paddle_pixels": pictures.paddles.size,
@@ -200,67 +210,41 @@ class Engine:
             film["at"] = 0 if wraps else film["at"][0] + 1
 
     def _renew(self) -> None:
-        """Give the next step new arrays to write to, unless its output stays where it is."""
-        if self.owns_output:
-            return
-        shown = "observations"
-        if self.shows_pictures:
-            shown = "frames" if self.draws_in_place else "copies"
-        names = ("rewards", "terminated", "truncated", "counts", shown)
-        fresh = {name: self._unheld(name) for name in names}
-        for name, array in fresh.items():
-            setattr(self, name, array)
-        self._point_at(**fresh)
-
-    def _unheld(self, name: str) -> NDArray[Any]:
-        """An array like the one of that name, which nobody else holds.
-
-        It is one that was handed out, if nothing refers to it any more: memory that is new to a program costs
-        more time than a picture. Views and tensors of an array refer to it, so nobody sees it change.
-        """
-        handed_out = self._handed_out.setdefault(name, [])
-        for number in range(len(handed_out)):
-            if _holders(handed_out, number) == LISTED_ONLY:
-                return handed_out[number]
-        array: NDArray[Any] = np.empty_like(getattr(self, name))
-        handed_out.append(array)
-        del handed_out[:-MOST_HANDED_OUT]
-        return array
+        """Let the next step write to arrays that nobody sees, unless its output stays where it is."""
+        if not self.owns_output:
+            self.outputs.renew()
+            self._places[:] = self.outputs.last.addresses
 
     def write_to(
         self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
     ) -> bool:
         """Let the kernels write to these arrays for ever, if they can; see `PinballVectorEnv.write_to`."""
-        own = self.frames if self.shows_pictures else self.observations
-        pairs = ((observations, own), (terminated, self.terminated), (truncated, self.truncated))
+        last, name = self.outputs.last, "frames" if self.shows_pictures else "observations"
+        own = last.arrays[name]
+        pairs = ((observations, own), (terminated, last.terminated), (truncated, last.truncated))
         fits = all(
             given.dtype == mine.dtype and given.size == mine.size and given.flags.c_contiguous
             for given, mine in pairs
         )
         if not (fits and self.owns_output and self.stack <= 1):
             return False
-        self.terminated, self.truncated = terminated, truncated
-        if self.shows_pictures:
-            self.frames = observations.reshape(own.shape)
-            self._point_at(frames=self.frames)
-            self.rules["mends"] = 0
-        else:
-            self.observations = observations.reshape(own.shape)
-            self._point_at(observations=self.observations)
-        self._point_at(terminated=terminated, truncated=truncated)
+        shown = {name: observations.reshape(own.shape)}
+        self.outputs.replace(terminated=terminated, truncated=truncated, **shown)
+        self._places[:] = self.outputs.last.addresses
+        self.rules["mends"] = 0
         return True
 
     @property
     def window(self) -> NDArray[np.uint8]:
         """The pictures of the last observation, oldest first, uint8 [env, stacked, pixel]."""
         if self.rules["copies"][0]:
-            return self.copies
+            return self.outputs.last.copies
         at = int(self.film["at"][0])
-        return self.frames[:, at : at + self.stack]
+        return self.outputs.last.frames[:, at : at + self.stack]
 
     def final_pictures(self, rows: NDArray[np.int64]) -> NDArray[np.uint8]:
         """The last pictures of the episodes that ended in these environments, uint8 [row, stacked, pixel]."""
-        drawn = np.empty((len(rows), self.stack, self.frames.shape[2]), np.uint8)
+        drawn = np.empty((len(rows), self.stack, self.pictures.backgrounds.shape[1]), np.uint8)
         draw_finals(self.addresses, rows, drawn.ctypes.data)
         return drawn
 
@@ -305,14 +289,6 @@ class Engine:
             "the state belongs to other boards, another tick rate or stack, or another version; "
             "restore it into an environment made with the same options"
         )
-
-
-def _holders(things: list[Any], number: int) -> int:
-    """How many hold one of these things; some of them on its way through this function."""
-    return getrefcount(things[number])
-
-
-LISTED_ONLY = _holders([object()], 0)
 
 
 def _as_records(memory: NDArray[np.uint8], dtype: np.dtype[Any]) -> NDArray[Any]:

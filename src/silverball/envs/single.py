@@ -53,8 +53,9 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
         # What the step needs, ready to hand.
-        self._move, self._addresses, self._counts = engine.move, engine.addresses, engine.counts.reshape(-1)
-        self._copy_row = engine.observations[0].copy if self.options.observation == "state" else None
+        self._move, self._addresses = engine.move, engine.addresses
+        self._row, self._counts = engine.outputs.last.observations[0], engine.outputs.last.counts[0]
+        self._copy_row = self._row.copy if self.options.observation == "state" else None
         self._info = info_of(self._counts.tolist())
         self._memory = memoryview(cast(Any, engine.memory))
         self._mark, self._size = bytes(engine.memory[:MARK]), len(engine.memory)
@@ -172,7 +173,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     def _shown(self) -> Any:
         engine = self._engine
-        raw = engine.window[0] if engine.shows_pictures else engine.observations[0]
+        raw = engine.window[0] if engine.shows_pictures else self._row
         return shown_one(self.options, engine.pool, raw.copy())
 
     def _number_of(self, action: Any) -> int:

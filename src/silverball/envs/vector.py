@@ -92,9 +92,9 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
-        self._all = np.ones(self.num_envs, np.bool_)  # the masks of what all environments have in `infos`
-        self._all.flags.writeable = False
+        self._all = np.ones(self.num_envs, np.bool_)
         self._is_seeded = np.zeros(self.num_envs, np.bool_)
+        self._has_begun = False  # all of them
         self._viewer: Viewer | None = None
 
     @property
@@ -126,8 +126,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._seed(seed, mask)
         self._engine.masks[:] = mask
         self._engine.reset()
-        infos = self._infos(self._engine.counts, mask)
-        return self._shown(), infos
+        output = self._engine.outputs.last
+        return self._shown(), output.told() if mask.all() else _infos(output.counts, mask)
 
     def step(
         self, actions: Any
@@ -147,13 +147,14 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """
         engine = self._engine
         self._take(actions)
-        if self.autoreset_mode is AutoresetMode.DISABLED or not self._is_seeded.all():
+        if self.autoreset_mode is AutoresetMode.DISABLED or not self._has_begun:
             self._refuse_what_is_over()
         engine.step()
-        infos = self._infos(engine.counts, self._all)
+        output = engine.outputs.last
+        infos = output.told()
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
-            self._add_finals(infos)
-        return self._shown(), engine.rewards, engine.terminated, engine.truncated, infos
+            self._add_finals(infos, output.terminated | output.truncated)
+        return self._shown(), output.rewards, output.terminated, output.truncated, infos
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """All tables as the window draws them, RGB [row, column, 3] each; None without a render mode."""
@@ -203,6 +204,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             )
         self._engine.restore(rows, where)
         self._is_seeded[where] = True
+        self._has_begun = bool(self._is_seeded.all())
         if self._engine.shows_pictures:
             self._engine.observe()
 
@@ -231,7 +233,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def _shown(self) -> Any:
         engine = self._engine
-        rows = engine.window if engine.shows_pictures else engine.observations
+        rows = engine.window if engine.shows_pictures else engine.outputs.last.observations
         return shown(self.options, engine.pool, rows)
 
     def _take(self, actions: Any) -> None:
@@ -252,7 +254,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 f"actions must be whole numbers in {self.action_space.__class__.__name__} of the shape "
                 f"{self.action_space.shape}, got {given.dtype} {np.shape(actions)}"
             )
-        if given.min() < 0 or given.max() >= self._codes:
+        # Numbers below a power of two have no other bits, and negative ones have a sign.
+        if not 0 <= np.bitwise_or.reduce(given) < self._codes:
             raise ValueError(
                 f"every action must be from 0 to {self._codes - 1}, got {given.min()} to {given.max()}"
             )
@@ -282,6 +285,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         where = mask & (keys >= 0)
         self._engine.seed(keys[where], where)
         self._is_seeded |= where
+        self._has_begun = bool(self._is_seeded.all())
 
     def _checked_mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
         if mask is None:
@@ -294,21 +298,9 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             raise ValueError("reset_mask must name at least one environment, got none")
         return mask
 
-    def _infos(self, counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
-        """Counts [env, count] as Gymnasium's infos: for each key an array, and where it holds."""
-        infos: dict[str, Any] = {}
-        if not mask.all():
-            counts = np.where(mask[:, None], counts, 0)
-            mask = mask.copy()
-        for name, row in zip(INFO, counts.T, strict=True):
-            infos[name] = row if name != "stalled" else row != 0
-            infos[f"_{name}"] = mask
-        return infos
-
-    def _add_finals(self, infos: dict[str, Any]) -> None:
+    def _add_finals(self, infos: dict[str, Any], ended: NDArray[np.bool_]) -> None:
         """What the episodes that ended in this step ended with."""
         engine = self._engine
-        ended = engine.terminated | engine.truncated
         rows = np.flatnonzero(ended)
         if not len(rows):
             return
@@ -317,8 +309,17 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         for number, row in enumerate(rows):  # those alone that have ended
             final[row] = shown_one(self.options, engine.pool, raw[number])
         infos["final_obs"], infos["_final_obs"] = final, ended
-        infos["final_info"] = self._infos(engine.final_counts, ended)
+        infos["final_info"] = _infos(engine.final_counts, ended)
         infos["_final_info"] = ended.copy()
+
+
+def _infos(counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
+    """Counts [env, count] as Gymnasium's infos: for each key an array, and where it holds."""
+    counts = np.where(mask[:, None], counts, 0)
+    infos: dict[str, Any] = {}
+    for name, row in zip(INFO, counts.T, strict=True):
+        infos[name], infos[f"_{name}"] = row if name != "stalled" else row != 0, mask.copy()
+    return infos
 
 
 def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
