@@ -15,8 +15,7 @@ from silverball.game.news import Mode, News
 if TYPE_CHECKING:
     from silverball.game.game import Game
     from silverball.game.replay import ReplayPlayer
-    from silverball.players import Player
-    from silverball.players.planner import Planner
+    from silverball.players import Hands
     from silverball.table import Table
     from silverball.world import Event
 
@@ -87,7 +86,7 @@ class Showing:
     is_played = False
     has_ended = False
 
-    def __init__(self, table: Table, seed: int, player: Player | Planner) -> None:
+    def __init__(self, table: Table, seed: int, player: Hands) -> None:
         from silverball.game.game import Game
 
         self.game = Game(table, seed, Mode.FREE)

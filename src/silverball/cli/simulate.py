@@ -28,7 +28,7 @@ def simulate(
         0, min=0, max=2**63 - 1_000_001, help="Of the board and of everything random on it."
     ),
     seconds: float = typer.Option(60.0, min=0.01, max=1e9, help="To simulate in each world."),
-    player: str = typer.Option("reflex", help="Who presses: idle, random, reflex, hold or planner."),
+    player: str = typer.Option("reflex", help="Who presses: idle, random, reflex, hold, planner or trained."),
     worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side (of a soak: 256)."),
     balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board, if the table allows them."),
     tick_rate: int = typer.Option(

@@ -1,4 +1,4 @@
-"""Who presses the buttons? The players: idle, random, reflex, hold and the planner, which looks ahead.
+"""Who presses the buttons? Simple players, the planner, which looks ahead, and one that was trained.
 
 `make_player(name)` gives one for a single `World`; `silverball.players.games.play` runs any of them over many
 worlds, `silverball.players.ball_time.time_balls` measures how long they keep a ball.
@@ -11,15 +11,11 @@ found.
 from __future__ import annotations
 
 import difflib
-from typing import TYPE_CHECKING
 
 from silverball.errors import SilverballError
-from silverball.players.press import Player, PlayerKind
+from silverball.players.press import Hands, Player, PlayerKind
 
-if TYPE_CHECKING:
-    from silverball.players.planner import Planner
-
-__all__ = ["PLAYERS", "Player", "PlayerKind", "make_player", "player_kind"]
+__all__ = ["PLAYERS", "Hands", "Player", "PlayerKind", "make_player", "player_kind"]
 
 PLAYERS = tuple(kind.name.lower() for kind in PlayerKind)
 """The names of all players."""
@@ -38,14 +34,19 @@ def player_kind(name: str) -> PlayerKind:
     raise SilverballError(f"no player is called {name!r}, there are {', '.join(PLAYERS)}{hint}")
 
 
-def make_player(name: str) -> Player | Planner:
+def make_player(name: str) -> Hands:
     """A player for a single world.
 
     Args:
         name: "idle" (presses nothing), "random" (holds and releases at random), "reflex" (hits what comes),
-            "hold" (keeps both paddles up for ever) or "planner" (plays copies of the world ahead).
+            "hold" (keeps both paddles up for ever), "planner" (plays copies of the world ahead) or "trained"
+            (asks a small network).
     """
     kind = player_kind(name)
+    if kind == PlayerKind.TRAINED:
+        from silverball.players.trained import Trained
+
+        return Trained()
     if kind == PlayerKind.PLANNER:
         from silverball.players.planner import Planner
 

@@ -22,7 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.layout import BALL, Fault, records
-from silverball.players.planner import BRANCHES, Notes, beat_of, plan_batch
+from silverball.players.beats import deciding
+from silverball.players.planner import BRANCHES
 from silverball.players.press import PlayerKind, press_all
 from silverball.world import WorldBatch
 
@@ -97,8 +98,8 @@ def time_balls(
         Lives and points of the balls.
     """
     lives = records(batch.count, LIFE)
-    every = beat_of(batch.tick_rate) if player == PlayerKind.PLANNER else 1
-    notes = Notes(batch.count if player == PlayerKind.PLANNER else 1, batch.tallies.shape[1], branches)
+    hands = deciding(player, batch, branches)
+    every = 1 if hands is None else hands.every
     actions = np.zeros((1, batch.count, 3), np.bool_)
     batch.create_balls(batch.state["created"] == 0)
     alive = batch.state["created"] > 0
@@ -106,10 +107,11 @@ def time_balls(
     ticks = round(seconds * batch.tick_rate)
     started = time.perf_counter()
     for done in range(every, ticks + 1, every):
-        if player == PlayerKind.PLANNER:
-            actions[0, :, :2] = plan_batch(batch, notes)
-        else:
+        if hands is None:
             _press(batch, player, actions)
+        else:
+            hands.decide()
+            actions[0, :, :2] = hands.buttons
         batch.run(actions, every)
         alive = note_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
         if progress is not None and done % batch.tick_rate < every:

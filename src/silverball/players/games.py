@@ -1,8 +1,8 @@
 """How do many worlds go on under a player, without a window?
 
 One compiled loop keeps the wanted number of balls on every board, lets the player press, moves the world
-and, if asked, has every tick audited for a ball inside anything. Only the planner decides outside of it, for
-all worlds in one call, sixty times a second.
+and, if asked, has every tick audited for a ball inside anything. Players that decide now and then only do so
+outside of it (beats.py).
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
 from silverball.physics.layout import BALL_COUNT, Fault
 from silverball.physics.step import step_world
+from silverball.players.beats import deciding
 from silverball.players.press import PlayerKind, pressed
 from silverball.world import WorldBatch
 
@@ -77,36 +78,20 @@ def play(
     """
     ticks = round(seconds * batch.tick_rate)
     depths = np.zeros(batch.count)
-    pressing = _Planning(batch, balls) if player == PlayerKind.PLANNER else None
-    buttons = np.zeros((batch.count, 2), np.bool_) if pressing is None else pressing.notes.buttons
+    hands = deciding(player, batch)
+    buttons = np.zeros((batch.count, 2), np.bool_) if hands is None else hands.buttons
     _run(batch, player, 0, balls, audit, depths, buttons)  # compiles, moves nothing
     started = time.perf_counter()
-    chunk = max(1, CHUNK_TICKS // batch.count) if pressing is None else pressing.every
+    chunk = max(1, CHUNK_TICKS // batch.count) if hands is None else hands.every
     for done in range(0, ticks, chunk):
-        if pressing is not None:
-            pressing.decide()
+        if hands is not None:
+            batch.create_balls((batch.state["ball"]["id"] != 0).sum(axis=1) < balls)
+            hands.decide()
         _run(batch, player, min(chunk, ticks - done), balls, audit, depths, buttons)
         if progress is not None:
             progress(min(done + chunk, ticks) / batch.tick_rate)
     wall = time.perf_counter() - started
     return _totals(batch, ticks / batch.tick_rate, wall, float(depths.max()) if audit else float("nan"))
-
-
-class _Planning:
-    """The planners of a batch, which decide between two runs, once a beat."""
-
-    def __init__(self, batch: WorldBatch, balls: int) -> None:
-        from silverball.players.planner import Notes, beat_of
-
-        self.batch, self.balls, self.every = batch, balls, beat_of(batch.tick_rate)
-        self.notes = Notes(batch.count, batch.tallies.shape[1])
-
-    def decide(self) -> None:
-        """Create the balls that are wanted, and choose the buttons of the next beat."""
-        from silverball.players.planner import plan_batch
-
-        self.batch.create_balls((self.batch.state["ball"]["id"] != 0).sum(axis=1) < self.balls)
-        plan_batch(self.batch, self.notes)
 
 
 def _run(
@@ -154,17 +139,17 @@ def play_worlds(
 
     `places` are the squares in which balls are created, `player` is a `PlayerKind`, `balls` how many to keep
     on the board. With `audit`, `depths` [world] is raised to the deepest that a ball was inside anything [u].
-    The planner decides elsewhere: it holds `buttons` [world, 2] in all ticks.
+    The planner and the trained player decide elsewhere: they hold `buttons` [world, 2] in all ticks.
     """
     for index in range(first, end):
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
         for done in range(ticks):
             log.count, log.lost = 0, 0
-            # The planner has decided before this call, and before it decided a ball was created.
-            if ball_count(world) < balls and (done > 0 or player != PlayerKind.PLANNER):
+            # Who has decided before this call did so after a ball had been created.
+            if ball_count(world) < balls and (done > 0 or player < PlayerKind.PLANNER):
                 create_ball(world, board, colliders, places, log)
-            if player == PlayerKind.PLANNER:
+            if player >= PlayerKind.PLANNER:
                 left, right = buttons[index, 0], buttons[index, 1]
             else:
                 left, right = pressed(player, world, board, colliders, tick)

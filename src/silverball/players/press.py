@@ -7,7 +7,7 @@ snapshot.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any
+from typing import Any, Protocol
 
 from silverball.physics.kernel import kernel
 from silverball.physics.layout import BALL_COUNT, Kind, Part
@@ -25,17 +25,27 @@ STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
 class PlayerKind(IntEnum):
-    """All players; the planner, which is not simple, is in planner.py."""
+    """All players; planner.py and trained.py have those that are not simple, from PLANNER on."""
 
     IDLE = 0
     RANDOM = 1
     REFLEX = 2
     HOLD = 4  # both paddles up for ever
     PLANNER = 5
+    TRAINED = 6
+
+
+class Hands(Protocol):
+    """Any player for a single world; `kind` says which."""
+
+    kind: PlayerKind
+
+    def press(self, world: World) -> tuple[bool, bool]:
+        """The buttons (left, right) to hold in the world's next tick."""
 
 
 class Player:
-    """A player for a single world."""
+    """A simple player for a single world."""
 
     def __init__(self, kind: PlayerKind) -> None:
         self.kind = kind

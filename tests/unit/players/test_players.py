@@ -115,5 +115,5 @@ def test_the_totals_of_a_play_add_up() -> None:
 def test_a_player_of_no_known_name_is_refused_with_the_nearest() -> None:
     with pytest.raises(SilverballError, match="reflex"):
         make_player("reflexx")
-    with pytest.raises(SilverballError, match="idle, random, reflex, hold, planner"):
+    with pytest.raises(SilverballError, match="idle, random, reflex, hold, planner, trained"):
         make_player("somebody")

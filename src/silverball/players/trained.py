@@ -1,0 +1,148 @@
+"""What does the trained player press? What a small network says that was trained on random boards.
+
+`examples/train_sb3.py` trained it, and says how. Here are its numbers and what is done with them; NumPy is
+enough for that.
+
+The sums are exact, so that the player presses the same on every machine, whatever the order in which a
+library adds up: all numbers are multiples of 1/SCALE, their products multiples of 1/SCALE², and no sum comes
+near 2⁵³/SCALE².
+"""
+
+from __future__ import annotations
+
+import zipfile
+from functools import cache
+from importlib import resources
+from os import PathLike
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.errors import SilverballError
+from silverball.players.press import PlayerKind
+from silverball.players.sight import MIRRORED, SEEN, Rows, look, see
+from silverball.world import World, WorldBatch
+
+SCALE = 4096  # steps of 1 in which weights and values are rounded
+LARGEST = 2**17  # of a weight, in those steps
+DECISIONS = 15  # a second
+ACTIONS = 4  # none, left, right, both
+
+Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
+"""Weights [in, out] and biases [out], in steps of 1/SCALE."""
+
+
+class Policy:
+    """A network of a few layers, max(0, ·) between them; the largest of its last values is what it presses.
+
+    Args:
+        layers: From what is seen (SEEN numbers) to the actions (ACTIONS).
+        command: That made it.
+
+    Raises:
+        ValueError: The layers do not fit each other.
+    """
+
+    def __init__(self, layers: list[Layer], command: str = "") -> None:
+        widths = [SEEN, *(weights.shape[-1] for weights, _ in layers)]
+        shapes = [
+            (weights.shape, biases.shape) == ((before, after), (after,))
+            for (weights, biases), before, after in zip(layers, widths, widths[1:], strict=False)
+        ]
+        if not all(shapes) or widths[-1] != ACTIONS:
+            raise ValueError(f"the layers have {widths} numbers, expected {SEEN} at first, {ACTIONS} at last")
+        if any(np.abs(part).max() > LARGEST for layer in layers for part in layer):
+            raise ValueError(f"a number is beyond ±{LARGEST / SCALE:g}")
+        self.layers, self.command = layers, command
+        self._exact = [(weights / SCALE, biases / SCALE) for weights, biases in layers]
+
+    @classmethod
+    def rounded(cls, layers: list[tuple[Any, Any]], command: str = "") -> Policy:
+        """That of any layers, rounded."""
+        clipped = [
+            tuple(
+                np.clip(np.rint(np.asarray(part) * SCALE), -LARGEST, LARGEST).astype(np.int32) for part in one
+            )
+            for one in layers
+        ]
+        return cls(cast(list[Layer], clipped), command)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Policy:
+        """That of a file.
+
+        Raises:
+            SilverballError: It cannot be read.
+        """
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                count = len([name for name in file.files if name.startswith("weights")])
+                layers = [(file[f"weights{number}"], file[f"biases{number}"]) for number in range(count)]
+                return cls(layers, str(file["command"]))
+        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, IndexError, TypeError) as error:
+            raise SilverballError(
+                f"{path} is no policy that `examples/train_sb3.py --policy` has written: {error}"
+            ) from None
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write it to a file, which ends in .npz."""
+        arrays: dict[str, Any] = {"command": np.array(self.command)}
+        for number, (weights, biases) in enumerate(self.layers):
+            arrays[f"weights{number}"], arrays[f"biases{number}"] = weights, biases
+        np.savez_compressed(path, **arrays)
+
+    def actions(self, raw: Rows) -> NDArray[np.int64]:
+        """What it presses where these numbers (see `sight.Raw`) are seen: bits [row], 1 left, 2 right."""
+        values, is_mirrored = see(raw)
+        for number, (weights, biases) in enumerate(self._exact):
+            if number > 0:
+                values = np.maximum(values, 0.0)
+            values = np.rint(values * SCALE) / SCALE @ weights + biases
+        chosen: NDArray[np.int64] = values.argmax(axis=1)
+        return np.where(is_mirrored, MIRRORED[chosen], chosen)
+
+
+@cache
+def stored_policy() -> Policy:
+    """The policy that comes with the program."""
+    with resources.as_file(resources.files("silverball.players") / "trained.npz") as path:
+        return Policy.load(path)
+
+
+def hold_of(tick_rate: int) -> int:
+    """Ticks between two decisions."""
+    return max(1, round(tick_rate / DECISIONS))
+
+
+class Trained:
+    """The trained player for a single world; between two decisions it holds its buttons.
+
+    Args:
+        policy: What it plays by; None: the one that comes with the program.
+    """
+
+    kind = PlayerKind.TRAINED
+
+    def __init__(self, policy: Policy | None = None) -> None:
+        self._policy = policy or stored_policy()
+        self._world: World | None = None
+        self._decision = -1
+
+    def press(self, world: World) -> tuple[bool, bool]:
+        """The buttons (left, right) to hold in the world's next tick."""
+        decision = world.tick // hold_of(world.tick_rate)
+        if world is not self._world or decision != self._decision:
+            self._world, self._decision = world, decision
+            state, board, colliders = world.records
+            raw = look(np.array([state]), np.array([board]), colliders)
+            self._bits = int(self._policy.actions(raw)[0])
+        return self._bits & 1 != 0, self._bits & 2 != 0
+
+
+def press_batch(batch: WorldBatch, policy: Policy | None = None) -> NDArray[np.bool_]:
+    """The buttons (left, right) to hold until the next decision in every world, bool [world, 2]."""
+    boards = batch.boards
+    raw = look(batch.state, boards.board[batch.board_of], boards.collider)
+    bits = (policy or stored_policy()).actions(raw)
+    return np.stack((bits & 1 != 0, bits & 2 != 0), axis=1)
