@@ -21,12 +21,16 @@ from stable_baselines3.common.vec_env import VecEnvWrapper, VecNormalize
 
 from silverball.envs import PinballVectorEnv
 from silverball.envs.sb3 import SilverballVecEnv
-from silverball.players.sight import MIRRORED, SEEN, see
+from silverball.players import PlayerKind
+from silverball.players.ball_time import time_balls
+from silverball.players.sight import COLUMNS, MIRRORED, SEEN, see
 from silverball.players.trained import DECISIONS, Policy
+from silverball.world import WorldBatch
 
 HORIZON = 6.0  # [s] in which what is to come loses its weight: 1/e
-UNSEEN = 1_000_000  # seed of the first board that is played on but never trained on
-COLUMNS = [1, 2, 3, 4, 10, 11, 12, 13, 14, 15]  # of a state observation: the ball and the paddles
+UNSEEN = 1_000_000  # seed of the first board that is played on but never trained on; training has 0, 1, …
+MEAN_OF = 1000  # balls: the curve of the training is a mean of so many
+LONGEST = 300.0  # [s] that a ball is played at most
 
 
 class Seen(VecEnvWrapper):
@@ -36,7 +40,7 @@ class Seen(VecEnvWrapper):
         super().__init__(envs, Box(-10.0, 10.0, (SEEN,), np.float32))
 
     def _see(self, rows):
-        seen, is_mirrored = see(rows[:, COLUMNS].astype(np.float64))
+        seen, is_mirrored = see(rows[:, COLUMNS])
         return seen.astype(np.float32), is_mirrored
 
     def reset(self):  # noqa: D102  (what SB3 says of it)
@@ -64,123 +68,135 @@ def policy_of(model, command=""):
     )
 
 
-def evaluate(act, balls):
-    """Points of a ball and its life [s] on unseen boards, a board for each ball: means and 95 % intervals."""
-    envs = PinballVectorEnv(
-        balls, "SameStep", boards=balls, board_seed=UNSEEN, frame_skip=60 // DECISIONS, zero_copy=True
-    )
+def evaluate(policy, envs):
+    """Points of a ball and its life [s], a board for each ball: means and half of the 95 % intervals."""
     rows, _ = envs.reset(seed=0)
-    points, steps, plays = np.zeros(balls), np.zeros(balls), np.ones(balls, bool)
+    points, steps, plays = np.zeros(len(rows)), np.zeros(len(rows)), np.ones(len(rows), bool)
     while plays.any():
-        rows, _, terminated, truncated, infos = envs.step(act(rows))
+        rows, _, terminated, truncated, infos = envs.step(policy.actions(rows[:, COLUMNS]))
         steps += plays
         ended = plays & (terminated | truncated)
         if ended.any():
             points[ended] = infos["final_info"]["score"][ended]
             plays &= ~ended
-    lives = steps / DECISIONS
-    return [(one.mean(), 1.96 * one.std() / math.sqrt(balls)) for one in (points, lives)]
+    return [(one.mean(), 1.96 * one.std() / math.sqrt(len(rows))) for one in (points, steps / DECISIONS)]
 
 
 class Curve(BaseCallback):
-    """Writes down how it goes: the balls of each rollout, and now and then balls on unseen boards."""
+    """Writes down how it goes: each ball of the training, and now and then balls on unseen boards."""
 
-    def __init__(self, minutes, balls, every):
+    def __init__(self, minutes, unseen, every):
         super().__init__()
-        self.seconds, self.balls, self.every = 60 * minutes, balls, every
-        self.trained, self.unseen, self.paused, self.began = [], [], 0.0, time.perf_counter()
+        self.seconds, self.envs, self.every = 60 * minutes, unseen, every
+        self.balls, self.unseen, self.minutes = [], [], []
+        self.began, self.paused = time.perf_counter(), 0.0
 
     def elapsed(self):
         """Seconds of training, evaluations left out."""
         return time.perf_counter() - self.began - self.paused
 
-    def _on_training_start(self):
-        self._ended = []
-        self._evaluate()
-
-    def _evaluate(self):
-        started, policy = time.perf_counter(), policy_of(self.model)
-        (points, spread), (life, _) = evaluate(
-            lambda rows: policy.actions(rows[:, COLUMNS].astype(float)), self.balls
-        )
+    def evaluate(self):
+        """Play on unseen boards; the clock of the training stands still meanwhile."""
+        started = time.perf_counter()
+        (points, spread), (life, life_spread) = evaluate(policy_of(self.model), self.envs)
         self.paused += time.perf_counter() - started
         self.unseen.append((self.num_timesteps, points, spread))
         print(
-            f"{self.num_timesteps:10,} steps, {self.elapsed() / 60:4.1f} min: on unseen boards "
-            f"{points:6.0f} ± {spread:.0f} points a ball, {life:5.1f} s",
+            f"{self.num_timesteps:10,} steps, {self.elapsed() / 60:4.1f} min: on {self.envs.num_envs} unseen boards "
+            f"{points:6.0f} ± {spread:.0f} points a ball, {life:5.1f} ± {life_spread:.1f} s",
             flush=True,
         )
 
+    def _on_training_start(self):
+        self.evaluate()
+
     def _on_step(self):
-        self._ended += [info["score"] for info in self.locals["infos"] if info]
+        self.balls += [(self.num_timesteps, info["score"]) for info in self.locals["infos"] if info]
         return self.elapsed() < self.seconds
 
     def _on_rollout_end(self):
-        if self._ended:
-            self.trained.append((self.num_timesteps, np.mean(self._ended)))
-            self._ended = []
+        self.minutes.append((self.num_timesteps, self.elapsed() / 60))
         if self.num_timesteps - self.unseen[-1][0] >= self.every:
-            self._evaluate()
+            self.evaluate()
 
 
-def draw(curve, random_points, path):
-    """The learning curve as a picture."""
-    figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
-    axes.plot(*np.array(curve.trained).reshape(-1, 2).T, color="#9aa7b8", label="boards of the training")
+def draw(curve, others, path):
+    """The learning curve as a picture, beside the points of other players on the unseen boards."""
+    figure, axes = plt.subplots(figsize=(7.5, 4.5), layout="constrained")
+    millions = lambda steps: np.asarray(steps) / 1e6  # noqa: E731
+    if len(curve.balls) >= MEAN_OF:
+        steps, points = np.array(curve.balls, float).T
+        smooth = np.convolve(points, np.full(MEAN_OF, 1 / MEAN_OF), "valid")
+        label = f"boards of the training, mean of {MEAN_OF} balls"
+        axes.plot(millions(steps[MEAN_OF - 1 :]), smooth, color="#9aa7b8", linewidth=1, label=label)
     steps, points, spread = np.array(curve.unseen).T
-    axes.plot(steps, points, "o-", color="#1565c0", markersize=3, label="boards never seen, 95 %")
-    axes.fill_between(steps, points - spread, points + spread, color="#1565c0", alpha=0.2, linewidth=0)
-    axes.axhline(random_points, color="#c62828", linestyle="--", label="pressing at random")
-    axes.set(xlabel="steps", ylabel="points a ball", xlim=(0, None), ylim=(0, None))
-    axes.set_title(f"{curve.elapsed() / 60:.0f} minutes of PPO on random boards", loc="left")
+    axes.plot(
+        millions(steps), points, "o-", color="#1565c0", markersize=4, label="boards never seen, with 95 %"
+    )
+    axes.fill_between(
+        millions(steps), points - spread, points + spread, color="#1565c0", alpha=0.25, linewidth=0
+    )
+    for (name, height), colour in zip(others.items(), ("#c62828", "#2e7d32"), strict=True):
+        axes.axhline(height, color=colour, linestyle="--", label=f"the player `{name}`, there")
+    axes.set(xlabel="steps [million]", ylabel="points a ball", xlim=(0, None), ylim=(0, None))
+    axes.yaxis.set_major_formatter("{x:,.0f}")
+    steps, minutes = np.array([(0, 0.0), *curve.minutes]).T
+    clock = axes.secondary_xaxis(
+        "top",
+        functions=(
+            lambda x: np.interp(x, millions(steps), minutes),
+            lambda x: np.interp(x, minutes, millions(steps)),
+        ),
+    )
+    clock.set_xlabel("minutes of training")
     axes.grid(alpha=0.3)
-    axes.legend(loc="upper left", frameon=False)
+    axes.legend(loc="lower right", frameon=False)
     figure.savefig(path, dpi=120)
     print(f"wrote {path}")
 
 
 parser = argparse.ArgumentParser()
-parser.add_argument("--minutes", type=float, default=15.0)
-parser.add_argument("--steps", type=int, default=10**9)
+parser.add_argument("--minutes", type=float, default=15.0, help="of training, evaluations left out")
+parser.add_argument("--steps", type=int, default=10**9, help="at most")
 parser.add_argument("--envs", type=int, default=512)
 parser.add_argument("--boards", type=int, default=512, help="to train on")
 parser.add_argument("--balls", type=int, default=1000, help="to evaluate with, each on a board of its own")
-parser.add_argument("--every", type=int, default=2_000_000, help="steps between two evaluations")
+parser.add_argument("--every", type=int, default=3_000_000, help="steps between two evaluations")
 parser.add_argument("--seed", type=int, default=0)
 parser.add_argument("--out", default="curve.png", help="picture of the learning curve")
 parser.add_argument("--policy", help="file for the policy as plain arrays (.npz)")
 chosen = parser.parse_args()
 
-torch.set_num_threads(2)
-envs = Seen(SilverballVecEnv(chosen.envs, chosen.seed, boards=chosen.boards, frame_skip=60 // DECISIONS))
+options = {"frame_skip": 60 // DECISIONS, "time_limit": LONGEST}
+unseen = PinballVectorEnv(chosen.balls, "SameStep", boards=chosen.balls, board_seed=UNSEEN, **options)
+# The vector draws boards; the other players get each board once.
+worlds = {name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN) for name in ("random", "reflex")}
+others = {name: time_balls(one, PlayerKind[name.upper()], LONGEST).score[0] for name, one in worlds.items()}
+for name, points in others.items():
+    print(f"the player {name}: {points:.0f} points a ball", flush=True)
+
+gamma = math.exp(-1 / DECISIONS / HORIZON)
+envs = Seen(SilverballVecEnv(chosen.envs, chosen.seed, boards=chosen.boards, **options))
+curve = Curve(chosen.minutes, unseen, chosen.every)
 model = PPO(
     "MlpPolicy",
-    VecNormalize(envs, norm_obs=False, gamma=(gamma := math.exp(-1 / DECISIONS / HORIZON))),
+    VecNormalize(envs, norm_obs=False, gamma=gamma),  # of the rewards
     n_steps=64,
     batch_size=min(8192, 64 * chosen.envs),
     n_epochs=4,
     gamma=gamma,
-    learning_rate=1e-3,
+    # Down to nothing by the time that it ends, by the clock or by steps.
+    learning_rate=lambda left: 1e-3 * max(0.02, min(left, 1 - curve.elapsed() / curve.seconds)),
     ent_coef=0.01,
     policy_kwargs={"net_arch": [64, 64], "activation_fn": torch.nn.ReLU},
     device="cpu",
     seed=chosen.seed,
 )
-random = np.random.default_rng(chosen.seed)
-(random_points, spread), _ = evaluate(lambda rows: random.integers(0, 4, len(rows)), chosen.balls)
-print(f"pressing at random: {random_points:.0f} ± {spread:.0f} points a ball", flush=True)
-curve = Curve(chosen.minutes, chosen.balls // 2, chosen.every)
 model.learn(chosen.steps, callback=curve)
-
-policy = policy_of(model, "python " + " ".join(["examples/train_sb3.py", *sys.argv[1:]]))
-actions = lambda rows: policy.actions(rows[:, COLUMNS].astype(float))  # noqa: E731
-(points, spread), (life, life_spread) = evaluate(actions, chosen.balls)
-print(
-    f"after {curve.elapsed() / 60:.1f} min and {model.num_timesteps:,} steps, "
-    f"{chosen.balls} balls on unseen boards: {points:.0f} ± {spread:.0f} points a ball, "
-    f"{life:.1f} ± {life_spread:.1f} s, {points / random_points:.1f} times as much as at random"
-)
-draw(curve, random_points, chosen.out)
+curve.evaluate()
+points = curve.unseen[-1][1]
+print(f"that is {points / others['random']:.1f} times the points of the player random")
+draw(curve, others, chosen.out)
 if chosen.policy:
-    policy.save(chosen.policy)
+    policy_of(model, "python " + " ".join(["examples/train_sb3.py", *sys.argv[1:]])).save(chosen.policy)
     print(f"wrote {chosen.policy}")

@@ -34,6 +34,9 @@ class Raw(IntEnum):
     RIGHT_HELD = 9
 
 
+COLUMNS = (1, 2, 3, 4, 10, 11, 12, 13, 14, 15)
+"""Where these numbers stand in the environments' state observation (`envs/slots.py`) of a single ball."""
+
 LEFT, RIGHT = slice(Raw.LEFT_ANGLE, Raw.LEFT_HELD + 1), slice(Raw.RIGHT_ANGLE, Raw.RIGHT_HELD + 1)
 PADDLES_AT = -0.65  # x of the paddles on the built-in tables, in half board lengths
 PIVOT = 0.3  # z of the middle of a paddle, in half board widths
@@ -44,7 +47,7 @@ MIRRORED = np.array([0, 2, 1, 3])  # what an action is in the mirror: none, righ
 
 
 def look(state: Any, boards: Any, colliders: Any) -> Rows:
-    """The raw numbers of some worlds; where no ball is on the board, those of a ball are 0.
+    """The raw numbers of some worlds; where there is no ball, or no paddle on a side, its numbers are 0.
 
     Args:
         state: WORLD records [world].

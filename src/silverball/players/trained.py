@@ -5,7 +5,7 @@ enough for that.
 
 The sums are exact, so that the player presses the same on every machine, whatever the order in which a
 library adds up: all numbers are multiples of 1/SCALE, their products multiples of 1/SCALE², and no sum comes
-near 2⁵³/SCALE².
+near 2⁵³/SCALE² (a test adds up the greatest there can be).
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import SilverballError
+from silverball.physics.layout import Part
 from silverball.players.press import PlayerKind
 from silverball.players.sight import MIRRORED, SEEN, Rows, look, see
 from silverball.world import World, WorldBatch
@@ -52,6 +53,8 @@ class Policy:
         ]
         if not all(shapes) or widths[-1] != ACTIONS:
             raise ValueError(f"the layers have {widths} numbers, expected {SEEN} at first, {ACTIONS} at last")
+        if any(part.dtype != np.int32 for layer in layers for part in layer):
+            raise ValueError("its numbers are not 32-bit integers")
         if any(np.abs(part).max() > LARGEST for layer in layers for part in layer):
             raise ValueError(f"a number is beyond ±{LARGEST / SCALE:g}")
         self.layers, self.command = layers, command
@@ -116,7 +119,10 @@ def hold_of(tick_rate: int) -> int:
 
 
 class Trained:
-    """The trained player for a single world; between two decisions it holds its buttons.
+    """The trained player for a single world.
+
+    It keeps nothing: between two decisions it holds what the paddles are told, so that a game can be continued
+    from any snapshot.
 
     Args:
         policy: What it plays by; None: the one that comes with the program.
@@ -126,18 +132,21 @@ class Trained:
 
     def __init__(self, policy: Policy | None = None) -> None:
         self._policy = policy or stored_policy()
-        self._world: World | None = None
-        self._decision = -1
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
-        decision = world.tick // hold_of(world.tick_rate)
-        if world is not self._world or decision != self._decision:
-            self._world, self._decision = world, decision
-            state, board, colliders = world.records
-            raw = look(np.array([state]), np.array([board]), colliders)
-            self._bits = int(self._policy.actions(raw)[0])
-        return self._bits & 1 != 0, self._bits & 2 != 0
+        state, board, colliders = world.records
+        if world.tick % hold_of(world.tick_rate) != 0:
+            return is_lifted(state, board, colliders, 0), is_lifted(state, board, colliders, 1)
+        bits = int(self._policy.actions(look(np.array([state]), np.array([board]), colliders))[0])
+        return bits & 1 != 0, bits & 2 != 0
+
+
+def is_lifted(state: Any, board: Any, colliders: Any, side: int) -> bool:
+    """Whether the paddle of a side, 0 left, 1 right, is told to be up."""
+    collider = colliders[board["collider_first"] + (Part.LEFT_PADDLE, Part.RIGHT_PADDLE)[side]]
+    told = state["paddle"][side]["angle_commanded"]
+    return bool(told == collider["angle_up"] != collider["angle_rest"])
 
 
 def press_batch(batch: WorldBatch, policy: Policy | None = None) -> NDArray[np.bool_]:
