@@ -20,6 +20,7 @@ from silverball.drawing.compiler import Compiler
 if TYPE_CHECKING:
     from silverball.table import Table
 
+HEAD_START = 2.0  # [s] for the first pictures of a game, which loading would hold up by some 0.15 s
 NICENESS = 10  # behind the game, and behind the drawing, which is seen first
 COMPILE_SECONDS = 1800.0  # after which compiling is given up; 17 s of a processor, if it gets one
 
@@ -51,6 +52,8 @@ class Rehearsal:
         self._stop.set()
 
     def _work(self) -> None:
+        if self._stop.wait(HEAD_START):
+            return
         for performer in PERFORMERS:
             with contextlib.suppress(Exception):  # the game goes on, and so does the stand-in
                 if is_there(performer) or (self._compile() and is_there(performer)):

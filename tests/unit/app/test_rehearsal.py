@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from silverball.app import rehearsal as rehearsal_module
@@ -13,6 +15,11 @@ from silverball.table import load_table
 
 TABLE = load_table("classic")
 PATIENCE = 300.0  # [s], which only a fault takes
+
+
+@pytest.fixture(autouse=True)
+def at_once(monkeypatch) -> None:
+    monkeypatch.setattr(rehearsal_module, "HEAD_START", 0.0)
 
 
 class Compiler:
@@ -32,6 +39,16 @@ def test_every_performer_gets_ready():
     rehearsal.wait(PATIENCE)
     assert [rehearsal.is_ready(performer.name) for performer in PERFORMERS] == [True] * len(PERFORMERS)
     assert not rehearsal.is_ready("nobody")
+
+
+def test_who_closes_the_window_at_once_waits_for_nobody(monkeypatch):
+    monkeypatch.setattr(rehearsal_module, "HEAD_START", PATIENCE)
+    rehearsal = Rehearsal(TABLE)
+    rehearsal.close()
+    start = time.monotonic()
+    rehearsal.wait(PATIENCE)
+    assert time.monotonic() - start < PATIENCE / 2.0
+    assert not rehearsal.is_ready(BEST.name)
 
 
 @pytest.mark.parametrize("ends_well", [False, True])
