@@ -1,12 +1,15 @@
 """How smooth is the window, and how long is it until one can play?
 
-    python benchmarks/window.py [--seconds 60]
+    python benchmarks/window.py [--seconds 60] [--player planner]
 
 Opens the real window (under Xvfb: `xvfb-run -a python benchmarks/window.py`), plays with key events and two
 balls, and prints the frames a second, the percentiles of the time between frames and of the work in a frame,
 the latency from a button to the simulation and to the picture, and the time from the start of Python to the
 first picture, to the first game and to the table in full quality. For a cold start set SILVERBALL_CACHE to an
 empty folder. Scores go to a folder that is removed again.
+
+With --player nobody presses a key: the program plays by itself, as in attract mode, and what is printed
+instead of the latency is how long the player thinks for a tick.
 """
 
 from __future__ import annotations
@@ -37,7 +40,9 @@ def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=60.0)
-    seconds = parser.parse_args().seconds
+    parser.add_argument("--player", help="whom to watch: planner or reflex")
+    arguments = parser.parse_args()
+    seconds, watched = arguments.seconds, arguments.player
 
     import numpy as np
     import pygame
@@ -47,7 +52,8 @@ def main() -> None:
     from silverball.players import make_player
 
     with tempfile.TemporaryDirectory() as folder:
-        window = Window("random", seed=7, mode=Mode.FREE, folder=Path(folder))
+        mode = None if watched else Mode.FREE
+        window = Window("random", seed=7, mode=mode, folder=Path(folder))
         window.frame(0.0)
         first_picture = seconds_since_python_started()
         while not window.is_ready:
@@ -55,7 +61,8 @@ def main() -> None:
             time.sleep(1 / 20)
         window.frame(1 / 60)
         playable = seconds_since_python_started()
-        hands = Hands(make_player("reflex"), window, pygame)
+        hands: Hands | Watcher
+        hands = Watcher(watched, window) if watched else Hands(make_player("reflex"), window, pygame)
         starts, work = [], []
         sharp = 0.0
         end = time.perf_counter() + seconds
@@ -93,6 +100,10 @@ def main() -> None:
     print(f"{np.mean(hands.balls):.2f} balls on average")
     print(f"work in a frame:   {row(work)}")
     print(f"between frames:    {row(np.diff(starts))}")
+    if isinstance(hands, Watcher):
+        print(f"a decision:        {row(hands.decisions)}  (of {len(hands.decisions)} longer than 0.1 ms)")
+        print(f"of the processor:  {row(hands.processor)}")
+        return
     print(f"button to tick:    {row(latency.to_tick)}  (of the last {len(latency.to_tick)} presses)")
     print(f"button to picture: {row(latency.to_picture)}")
 
@@ -118,6 +129,35 @@ class Hands:
                 kind = pygame.KEYDOWN if held else pygame.KEYUP
                 key = (pygame.K_a, pygame.K_d)[side]
                 pygame.event.post(pygame.Event(kind, key=key, mod=0, scancode=0))
+
+
+class Watcher:
+    """Lets the program play in attract mode, and measures how long its player thinks."""
+
+    def __init__(self, name: str, window: Any) -> None:
+        window.rehearsal.wait()
+        window.program.menus.open_attract()
+        window.program.show_off(name, nobody_there=True)
+        self._window = window
+        self._player = window.program.stage.player
+        window.program.stage.player = self
+        self.balls: list[int] = []
+        self.decisions: list[float] = []  # [s]
+        self.processor: list[float] = []  # [s] of them for which this thread had the processor
+
+    def press(self, world: Any) -> tuple[bool, bool]:
+        """What the player presses; between two decisions it does not think."""
+        start, begun = time.perf_counter(), time.thread_time()
+        held: tuple[bool, bool] = self._player.press(world)
+        spent = time.perf_counter() - start
+        if spent > 1e-4:
+            self.decisions.append(spent)
+            self.processor.append(time.thread_time() - begun)
+        return held
+
+    def move(self) -> None:
+        """Press nothing."""
+        self.balls.append(len(self._window.program.stage.game.world.balls))
 
 
 if __name__ == "__main__":

@@ -71,11 +71,12 @@ def test_a_gif_moves_and_lasts_as_long_as_asked(silverball, tmp_path):
 
 
 def test_a_png_shows_the_last_moment_and_is_the_same_every_time(silverball, tmp_path):
-    names = [tmp_path / "a.png", tmp_path / "b.png"]
-    for name in names:
-        result = silverball("demo", "--out", str(name), "--seconds", "3", "--size", "300")
+    names = [tmp_path / f"{letter}.png" for letter in "abc"]
+    for name, options in zip(names, ((), ("--player", "planner"), ("--player", "reflex")), strict=True):
+        result = silverball("demo", "--out", str(name), "--seconds", "3", "--size", "300", *options)
         assert result.returncode == 0, result.stderr
-    assert names[0].read_bytes() == names[1].read_bytes()
+    assert names[0].read_bytes() == names[1].read_bytes()  # the planner plays unless another is asked for
+    assert names[0].read_bytes() != names[2].read_bytes()
     assert names[0].read_bytes().startswith(b"\x89PNG")
 
 
@@ -134,7 +135,18 @@ def test_a_gif_too_large_to_make_is_refused(silverball, tmp_path):
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("ending", ["gif", "mp4"])
 def test_an_interruption_leaves_no_half_file(tmp_path, ending, sent):
-    command = [sys.executable, "-m", "silverball", "demo", "--out", f"film.{ending}", "--seconds", "60"]
+    command = [
+        sys.executable,
+        "-m",
+        "silverball",
+        "demo",
+        "--out",
+        f"film.{ending}",
+        "--seconds",
+        "60",
+        "--player",
+        "reflex",
+    ]
     process = subprocess.Popen(
         command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     )

@@ -93,6 +93,13 @@ def sketches(request, monkeypatch) -> None:
         monkeypatch.setattr("silverball.drawing.background.Background._work", lambda self: None)
 
 
+@pytest.fixture(autouse=True)
+def no_rehearsal(request, monkeypatch) -> None:
+    """Only tests marked `rehearsed` wait for players that need compiled code of their own."""
+    if "rehearsed" not in request.keywords:
+        monkeypatch.setattr("silverball.app.rehearsal.Rehearsal._work", lambda self: None)
+
+
 @pytest.fixture
 def open_window(tmp_path) -> Iterator:
     opened = []

@@ -9,6 +9,7 @@ from machines import leaky
 from silverball.game.news import Mode, Phase
 from silverball.game.replay import Replay, verify
 from silverball.game.store import Store
+from silverball.players import PlayerKind
 
 
 def play_all_balls(player, create) -> None:
@@ -164,6 +165,30 @@ def test_attract_mode_plays_by_itself_after_half_a_minute_and_any_button_ends_it
     assert player.world.balls
     player.tap(pygame.K_a)
     assert player.menus.page == "main"
+
+
+@pytest.mark.rehearsed
+def test_the_planner_takes_over_the_show_and_can_be_watched_until_a_key_is_pressed(open_window):
+    player = open_window(mode=None)
+    player.window.rehearsal.wait(300.0)
+    player.seconds(31.0)
+    assert player.menus.page == "attract"
+    assert player.program.stage.player.kind == PlayerKind.PLANNER
+    player.tap(pygame.K_z)
+    assert player.menus.page == "main"
+    for key in (pygame.K_d, pygame.K_d, pygame.K_d, pygame.K_SPACE, pygame.K_d, pygame.K_SPACE):
+        player.tap(key)
+    assert player.menus.page == ""
+    assert player.program.stage.player.kind == PlayerKind.REFLEX
+    player.tap(pygame.K_a)
+    player.tap(pygame.K_a)
+    player.tap(pygame.K_SPACE)
+    assert player.program.stage.player.kind == PlayerKind.PLANNER
+    tick = player.world.tick
+    player.seconds(1.0)
+    assert player.world.tick > tick
+    player.tap(pygame.K_r)
+    assert player.menus.page == "watch"
 
 
 def test_a_slowed_game_is_not_in_the_score_table(open_window):

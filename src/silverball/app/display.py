@@ -59,11 +59,13 @@ class Display:
 
     Attributes:
         start_key: The key that brings a ball, as the display is to write it.
+        performer: Who plays if nobody does: written beside the balls.
         is_calm: Nothing fills the display or flashes over all of it, for sensitive eyes.
     """
 
     def __init__(self, start_key: str = "SPACE", is_calm: bool = False) -> None:
         self.start_key = start_key
+        self.performer = ""
         self.is_calm = is_calm
         self._queue: list[tuple[Show, float | None]] = []  # with the time since when it waits
         self._show: Show | None = None
@@ -198,6 +200,8 @@ class Display:
         dots.number(self._score(seconds), WIDTH // 2, 1, WIDTH - 12)
         _draw_combo_meters(dots, face.combo, seconds)
         _draw_balls(dots, face)
+        if self.performer:
+            dots.text(self.performer, 7 * face.most_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
         if face.multiplier > 1:
             text = f"×{face.multiplier}"
             width = NORMAL.width(text) + 4

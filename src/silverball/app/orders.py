@@ -36,7 +36,7 @@ def _(command: commands.WatchScore, program: Program) -> None:
 
 @carry_out.register(commands.WatchMachine)
 def _(command: commands.WatchMachine, program: Program) -> None:
-    program.show_off()
+    program.show_off(command.player)
 
 
 @carry_out.register(commands.Attract)

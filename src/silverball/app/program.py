@@ -17,6 +17,7 @@ from silverball.app.display import Display
 from silverball.app.keeping import Ended, Keeper
 from silverball.app.menus import Button, Menus, ReplayFace
 from silverball.app.orders import carry_out
+from silverball.app.performers import BEST, Cast
 from silverball.app.settings import Settings
 from silverball.app.stages import Playing, Showing, Stage, Watching
 from silverball.errors import BoardFull, NoRoom, SilverballError
@@ -59,6 +60,7 @@ class Program:
         is_held: Whether a replay stands still.
         store: What is kept.
         keeper: Keeps games in it.
+        cast: Who plays when the program plays by itself.
         ended: What has become of the game that was over last.
         say: Tells the player a sentence.
     """
@@ -81,6 +83,7 @@ class Program:
         self.display = Display()
         self.store, self.say = store, say
         self.keeper = Keeper(store, library)
+        self.cast = Cast()
         self._library = library
         self._controls = Controls(settings)
         self._now = 0.0
@@ -154,6 +157,8 @@ class Program:
         stage = self.stage
         if isinstance(stage, Playing) and stage.has_ended:
             self._after_the_end(stage)
+        if isinstance(stage, Showing) and self.cast.follow(stage):
+            self._announce()
         # A replay is played a little ahead, so that a jump is quick.
         if isinstance(stage, Watching) and self._goes_on(lambda: stage.player.prepare(480)):
             self.menus.show_replay(self._replay_face(stage))
@@ -204,6 +209,8 @@ class Program:
         elif self.menus.is_open:
             if action in MENU_BUTTONS:
                 self.press_menu(MENU_BUTTONS[action])
+            elif self.menus.page == "attract":
+                self.press_menu(Button.BACK)  # any button will do
             elif action is Action.NEW_BOARD and isinstance(self.stage, Playing):
                 self._new_board(again)
             elif action is Action.JITTER and self.is_paused:
@@ -212,7 +219,7 @@ class Program:
             self.say(WAIT)  # for the physics: what was chosen begins as soon as it is ready
         elif isinstance(self.stage, Playing):
             self._press_in_play(action, again, self.stage)
-        elif action not in (Action.JITTER, Action.NEW_BOARD):
+        else:
             self._stop_watching()  # the program plays; whoever touches anything wants the menu
 
     def release(self, action: Action) -> None:
@@ -267,12 +274,19 @@ class Program:
 
     def change_speed(self, step: int) -> None:
         """Slower (-1) or faster (+1), by one step."""
-        fastest = AS_PLAYED if isinstance(self.stage, Playing) else len(SPEEDS) - 1
-        self._speed = min(max(self._speed + step, 0), fastest)
+        self._speed = min(max(self._speed + step, 0), self._fastest)
         if isinstance(self.stage, Playing):
             self.say("as fast as ever" if self.speed == 1.0 else f"{self.speed:g} of the speed")
         if self.speed < 1.0:
             self._no_longer_counts()
+
+    @property
+    def _fastest(self) -> int:
+        """The place in SPEEDS beyond which nothing is made faster."""
+        if isinstance(self.stage, Playing):
+            return AS_PLAYED
+        most = self.cast.playing.fastest if isinstance(self.stage, Showing) else SPEEDS[-1]
+        return max(place for place, speed in enumerate(SPEEDS) if speed <= most)
 
     def _no_longer_counts(self) -> None:
         stage = self.stage
@@ -405,17 +419,22 @@ class Program:
         self._start(stage)
         self.menus.open_transport(self._replay_face(stage))
 
-    def show_off(self, *, nobody_there: bool = False) -> None:
-        """Let the program play, as soon as the physics is ready."""
-        self._when_ready(lambda: self._show_off(nobody_there))
+    def show_off(self, player: str = BEST.name, *, nobody_there: bool = False) -> None:
+        """Let the program play, as soon as the physics is ready; a stand-in plays until the player is."""
+        self._when_ready(lambda: self._show_off(player, nobody_there))
 
-    def _show_off(self, nobody_there: bool) -> None:
-        from silverball.players import make_player
-
+    def _show_off(self, player: str, nobody_there: bool) -> None:
         if self.recipe.random is not None or self.stage is not None:
             self._look_at(self.settings.table, None)
-        self._start(Showing(self.table, self.seed, make_player("reflex")))
+        self._start(Showing(self.table, self.seed, self.cast.begin(player)))
         self._is_shown_off = nobody_there
+        self._announce()
+
+    def _announce(self) -> None:
+        """Tell on the score display who plays while the program plays by itself."""
+        self._speed = min(self._speed, self._fastest)
+        self.display.performer = self.cast.playing.label
+        self.menus.know(performer=self.cast.playing)
 
     def _stop_watching(self) -> None:
         self.stage = None

@@ -81,7 +81,11 @@ class Playing:
 
 
 class Showing:
-    """The program plays free play, for whoever looks on."""
+    """The program plays free play, for whoever looks on.
+
+    Attributes:
+        player: Who presses the buttons; another one may take over.
+    """
 
     is_played = False
     has_ended = False
@@ -90,14 +94,14 @@ class Showing:
         from silverball.game.game import Game
 
         self.game = Game(table, seed, Mode.FREE)
-        self._player = player
+        self.player = player
         self._wait = 0.0
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move on by a number of ticks; `held` moves nothing."""
         for _ in range(ticks):
             self._bring_balls()
-            self.game.advance(*self._player.press(self.game.world), 1)
+            self.game.advance(*self.player.press(self.game.world), 1)
 
     def take_events(self) -> list[Event]:
         """What happened on the board since this was last asked."""

@@ -25,6 +25,7 @@ from silverball.app.listener import Listener
 from silverball.app.messages import Messages
 from silverball.app.picture import Picture
 from silverball.app.program import Program
+from silverball.app.rehearsal import Rehearsal
 from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
@@ -94,6 +95,7 @@ class Window:
         settings = self.program.settings
         self._on_ready = on_ready
         self._startup: Startup | None = Startup(self.program.table, on_compile)
+        self.rehearsal: Rehearsal | None = None  # of the players that can be watched
         self._screen.open(best_size(self.program.table.board, height or self._screen.first_height))
         if settings.full_screen:
             self._screen.toggle_full()
@@ -205,6 +207,8 @@ class Window:
         self.program.keep_last_game()
         self.program.stage = self._stage = None
         self._picture.close()
+        if self.rehearsal is not None:
+            self.rehearsal.close()
         self.sounds.close()
         self.listener.close()
         self.store.close()
@@ -269,6 +273,8 @@ class Window:
             self._startup = None
             self.messages.clear()
             self._on_ready()
+            self.rehearsal = Rehearsal(self.program.table)
+            self.program.cast.is_ready = self.rehearsal.is_ready
             self.program.get_ready()
         elif self._startup is not None and self._startup.is_compiling and self.messages.strength < 1.0:
             self.messages.say(compiling_words())

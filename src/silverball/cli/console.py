@@ -14,7 +14,7 @@ errors = Console(stderr=True)
 
 
 @contextmanager
-def compiling(kernel: str = "run_worlds") -> Iterator[None]:
+def compiling(kernel: str = "run_worlds", about: str = "ten seconds") -> Iterator[None]:
     """A moving line while the physics is compiled: on the first start only, later ones load it from disk."""
     from silverball.physics.kernel import cache_folder, forget_old_code, is_compiled
 
@@ -23,5 +23,5 @@ def compiling(kernel: str = "run_worlds") -> Iterator[None]:
         return
     forget_old_code()
     often = "once on this machine" if cache_folder() else "at every start, for its cache cannot be written"
-    with errors.status(f"Compiling the physics, {often} (about ten seconds) …"):
+    with errors.status(f"Compiling the physics, {often} (about {about}) …"):
         yield

@@ -19,7 +19,7 @@ def demo(
     seconds: float = typer.Option(20.0, min=0.1, max=600.0, help="Of play. A PNG shows the last moment."),
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
-    player: str = typer.Option("reflex", help="Who plays: idle, random, reflex, hold, planner or trained."),
+    player: str = typer.Option("planner", help="Who plays: idle, random, reflex, hold, planner or trained."),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
     theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
@@ -39,7 +39,7 @@ def make_demo(
     seed: int = 7,
     size: int | None = None,
     *,
-    player: str = "reflex",
+    player: str = "planner",
     theme: str = "neon",
     force: bool = False,
 ) -> None:
@@ -60,7 +60,8 @@ def make_demo(
     if board.random is not None:
         board = generate_table(seed, board)
     picture_size = film_size(out, board, seconds, size)
-    with compiling("plan_worlds" if player == "planner" else "run_worlds"):
+    kernel, about = ("plan_worlds", "half a minute") if player == "planner" else ("run_worlds", "ten seconds")
+    with compiling(kernel, about):
         from silverball.app.stages import Showing
         from silverball.app.startup import warm_up
 

@@ -69,4 +69,5 @@ def play_or_demo() -> None:
             "instead (`silverball demo --help` tells more).",
             err=True,
         )
-        make_demo(free_name("demo.gif"), DEMO_SECONDS)
+        # The planner would play better, but compiling it makes a first start half as long again.
+        make_demo(free_name("demo.gif"), DEMO_SECONDS, player="reflex")

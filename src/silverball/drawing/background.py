@@ -8,14 +8,11 @@ Compiling holds Python's lock, so it never happens in the game's own process. If
 
 from __future__ import annotations
 
-import atexit
-import contextlib
-import subprocess
-import sys
 import threading
 from typing import TYPE_CHECKING
 
 from silverball.drawing.camera import Camera
+from silverball.drawing.compiler import Compiler
 from silverball.drawing.store import Store
 from silverball.drawing.themes import Theme
 from silverball.table import Table
@@ -23,7 +20,6 @@ from silverball.table import Table
 if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
-POLL_SECONDS = 0.1
 COMPILE_SECONDS = 1800.0  # after which compiling is given up; 35 s of a processor, if it gets one
 
 
@@ -97,51 +93,7 @@ class Background:
 
         if is_compiled():
             return True
-        try:
-            process = _compiler.process()
-        except OSError:
-            return False
-        waited = 0.0
-        while process.poll() is None:
-            if self._stop.wait(POLL_SECONDS):
-                return False
-            waited += POLL_SECONDS
-            if waited > COMPILE_SECONDS:
-                _compiler.kill()
-                return False
-        return process.returncode == 0 and is_compiled()
+        return _compiler.finish(self._stop, COMPILE_SECONDS) and is_compiled()
 
 
-class _Compiler:
-    """The one process that compiles, whichever renderers wait for it."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._process: subprocess.Popen[bytes] | None = None
-
-    def process(self) -> subprocess.Popen[bytes]:
-        """The process, started if none runs."""
-        with self._lock:
-            if self._process is None or self._process.poll() is not None:
-                # Its priority is low: compiling.py sees to that, and here Windows has to be asked.
-                flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
-                self._process = subprocess.Popen(
-                    [sys.executable, "-m", "silverball.drawing.compiling"],
-                    stdin=subprocess.DEVNULL,
-                    stdout=subprocess.DEVNULL,
-                    stderr=subprocess.DEVNULL,
-                    creationflags=flags,
-                )
-            return self._process
-
-    def kill(self) -> None:
-        """End it if it runs."""
-        with self._lock:
-            if self._process is not None and self._process.poll() is None:
-                with contextlib.suppress(OSError):
-                    self._process.kill()
-                    self._process.wait()
-
-
-_compiler = _Compiler()
-atexit.register(_compiler.kill)  # no compiler outlives the program
+_compiler = Compiler("silverball.drawing.compiling")  # one for all renderers

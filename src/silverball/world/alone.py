@@ -49,20 +49,21 @@ class Alone:
     ) -> None:  # fmt: skip
         """Write the addresses down; `tick` is the length of a tick [s]."""
         self._action = np.zeros((1, 1, 3), np.bool_)
-        self._arrays: tuple[NDArray[Any], ...] = (
-            state,
-            boards.board,
-            board_of,
-            boards.collider,
-            boards.grid,
-            logs,
-            tallies,
-            self._action,
-        )
+        named: dict[str, NDArray[Any]] = {
+            "world": state,
+            "board": boards.board,
+            "board_of": board_of,
+            "collider": boards.collider,
+            "grid": boards.grid,
+            "log": logs,
+            "tally": tallies,
+            "action": self._action,
+        }
+        self._arrays = list(named.values())
         self._tick = tick
         self._addresses = np.zeros(1, ADDRESSES)
         row = self._addresses[0]
-        for name, array in zip(ADDRESSES.names or (), self._arrays, strict=False):
+        for name, array in named.items():
             row[name] = array.ctypes.data
         row["colliders"], row["numbers"], row["parts"] = (
             len(boards.collider),

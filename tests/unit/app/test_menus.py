@@ -25,6 +25,7 @@ from silverball.app.menus.commands import (
     WatchScore,
 )
 from silverball.app.menus.menus import IDLE, REPEAT_AFTER
+from silverball.app.performers import PERFORMERS
 from silverball.app.settings import Settings
 from silverball.drawing.dotfonts import BOLD, NORMAL
 from silverball.drawing.dots import WIDTH, Dots
@@ -173,10 +174,27 @@ def test_the_board_of_the_last_game_can_be_played_again():
     assert choose(menus, "PLAY") == Play(Mode.ARCADE, "random", 4711)
 
 
-def test_what_can_be_watched():
-    menus = menus_with()
+@pytest.mark.parametrize("performer", PERFORMERS)
+def test_every_performer_can_be_watched_on_the_chosen_table(performer):
+    menus = menus_with(Settings(table="random"))
     choose(menus, "WATCH")
-    assert choose(menus, "THE MACHINE") == WatchMachine()
+    for _ in PERFORMERS:
+        if reads(menus.draw(LATER), performer.label):
+            break
+        press(menus, RIGHT)
+    assert reads(menus.draw(LATER), f"{performer.hint} ON")
+    assert press(menus, START) == WatchMachine(performer.name)
+
+
+def test_the_attract_pages_tell_who_plays():
+    menus = menus_with()
+    menus.open_attract()
+    for performer in PERFORMERS:
+        menus.know(performer=performer)
+        assert any(reads(menus.draw(at / 2), performer.label) for at in range(60))
+
+
+def test_what_can_be_watched():
     menus = menus_with()
     menus.know(has_last_game=True)
     choose(menus, "WATCH")

@@ -6,12 +6,13 @@ import pytest
 
 from silverball.app.controls import Action, Held
 from silverball.app.library import Library
-from silverball.app.program import OVER_SECONDS, Program
+from silverball.app.program import OVER_SECONDS, SPEEDS, Program
 from silverball.app.settings import Settings
 from silverball.errors import TableError
 from silverball.game.news import Mode, Phase
 from silverball.game.replay import Replay, verify
 from silverball.game.store import Store
+from silverball.players import PlayerKind
 from silverball.table import Board, Cylinder, Table
 
 NOTHING = Held((False, False), (False, False))
@@ -170,6 +171,57 @@ def test_nobody_there_lets_the_program_play_and_a_button_brings_the_menu_back(ev
     assert evening.program.stage.game.tick > tick
     evening.tap(Action.RIGHT)
     assert evening.program.menus.page == "main"
+
+
+def test_the_reflex_player_stands_in_until_the_planner_is_ready(evening):
+    ready = {"reflex"}
+    evening.program.cast.is_ready = ready.__contains__
+    evening.go(31.0)
+    stage = evening.program.stage
+    assert stage.player.kind == PlayerKind.REFLEX
+    assert evening.program.display.performer == "REFLEX"
+    tick = stage.game.tick
+    ready.add("planner")
+    evening.go(0.1)
+    assert evening.program.stage is stage
+    assert stage.player.kind == PlayerKind.PLANNER
+    assert stage.game.tick > tick
+    assert evening.program.display.performer == "PLANNER"
+
+
+@pytest.mark.parametrize(
+    ("performer", "kind"), [("planner", PlayerKind.PLANNER), ("reflex", PlayerKind.REFLEX)]
+)
+@pytest.mark.parametrize("action", [Action.LEFT, Action.JITTER, Action.NEW_BOARD, Action.CREATE])
+def test_who_is_watched_plays_and_any_button_brings_the_menu_back(evening, performer, kind, action):
+    evening.program.cast.is_ready = lambda name: True
+    evening.program.menus.close()
+    evening.program.show_off(performer)
+    evening.go(0.5)
+    assert evening.program.stage.player.kind == kind
+    assert evening.program.is_heard
+    evening.tap(action)
+    assert evening.program.menus.page == "main"
+    assert evening.program.stage is None
+
+
+@pytest.mark.parametrize("action", [Action.JITTER, Action.NEW_BOARD])
+def test_a_button_that_works_no_menu_ends_the_show_too(evening, action):
+    evening.go(31.0)
+    assert evening.program.menus.page == "attract"
+    evening.tap(action)
+    assert evening.program.menus.page == "main"
+
+
+def test_the_planner_is_not_hurried_beyond_what_it_can_think(evening):
+    evening.program.show_off("reflex")
+    evening.program.menus.close()
+    evening.tap(*[Action.FASTER] * 9)
+    assert evening.program.speed == SPEEDS[-1]
+    evening.program.cast.is_ready = lambda name: True
+    evening.program.show_off("planner")
+    evening.tap(*[Action.FASTER] * 9)
+    assert evening.program.speed == 2.0
 
 
 def test_a_replay_goes_faster_and_slower_holds_and_jumps(evening):

@@ -28,7 +28,9 @@ def _compiled():
 @pytest.fixture(autouse=True)
 def _no_compiler(monkeypatch):
     """Each test has a compiler of its own."""
-    monkeypatch.setattr(background_module, "_compiler", background_module._Compiler())
+    monkeypatch.setattr(
+        background_module, "_compiler", background_module.Compiler("silverball.drawing.compiling")
+    )
 
 
 def made_sharp(renderer):
@@ -112,7 +114,7 @@ def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeyp
 
     answers = iter([False, True])
     monkeypatch.setattr(compiling, "is_compiled", lambda: next(answers))
-    monkeypatch.setattr(background_module.subprocess, "Popen", Process)
+    monkeypatch.setattr(subprocess, "Popen", Process)
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     assert made_sharp(renderer)
     assert started[0][1:] == ["-m", "silverball.drawing.compiling"]
@@ -141,7 +143,7 @@ def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, faul
 
     monkeypatch.setattr(compiling, "is_compiled", lambda: False)
     monkeypatch.setattr(background_module, "COMPILE_SECONDS", 0.3)
-    monkeypatch.setattr(background_module.subprocess, "Popen", Process)
+    monkeypatch.setattr(subprocess, "Popen", Process)
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     renderer.wait(PATIENCE)
     assert renderer._background.is_done
@@ -159,7 +161,7 @@ def test_one_compiler_serves_all_renderers_and_is_killed_at_the_end(tmp_path, mo
         return processes[-1]
 
     monkeypatch.setattr(compiling, "is_compiled", lambda: False)
-    monkeypatch.setattr(background_module.subprocess, "Popen", start)
+    monkeypatch.setattr(subprocess, "Popen", start)
     first = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     limit = time.monotonic() + PATIENCE
     while not processes and time.monotonic() < limit:

@@ -43,6 +43,8 @@ class AttractPage(Page):
 
     def _pages(self, desk: Desk) -> list[Callable[[Desk, float], Dots]]:
         pages: list[Callable[[Desk, float], Dots]] = [title_picture, _start_picture]
+        if desk.performer is not None:
+            pages.append(_performer_picture)
         for board in range(min(len(desk.boards()), 3)):
             pages.append(lambda desk, at, board=board: _best_picture(desk, at, board))  # type: ignore[misc]
             pages.append(_start_picture)
@@ -81,6 +83,16 @@ def _start_picture(desk: Desk, at: float) -> Dots:
     entry = desk.table()
     text = f"{MODES[desk.mode()]} · {entry.title.upper()}"
     layout.marquee(dots, text, 23, 0, WIDTH, NORMAL, at, brightness=layout.HALF)
+    return dots
+
+
+def _performer_picture(desk: Desk, at: float) -> Dots:
+    """Who plays behind these pages."""
+    dots = Dots()
+    assert desk.performer is not None
+    layout.title(dots, "NOW PLAYING", seconds=at)
+    layout.middle(dots, desk.performer.label, at)
+    layout.foot(dots, (desk.performer.hint,), at)
     return dots
 
 

@@ -56,7 +56,13 @@ class WatchScore:
 
 @dataclass(frozen=True)
 class WatchMachine:
-    """Let the program play the chosen table and watch it; the menu has closed itself."""
+    """Let the program play the chosen table and watch it; the menu has closed itself.
+
+    Attributes:
+        player: The name of the player to watch.
+    """
+
+    player: str
 
 
 @dataclass(frozen=True)

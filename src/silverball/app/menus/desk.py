@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from silverball.app.menus import layout
 from silverball.app.menus.actions import ActionLine, keys_of, shown
 from silverball.app.menus.commands import Button, Change, Command
+from silverball.app.performers import Performer
 from silverball.app.settings import Settings
 from silverball.drawing.dotfonts import NORMAL
 from silverball.drawing.dots import Dots
@@ -89,6 +90,7 @@ class Desk:
         seed: Of the next random board; None for a new one.
         last_seed: Of the board that was played last; None if there was none.
         has_last_game: Whether there is a last game to watch.
+        performer: Who plays while the program plays by itself; None if it has not done so yet.
         now: The time of the last tick [s].
         pages: The open pages, the visible one last; none while the game runs.
     """
@@ -109,6 +111,7 @@ class Desk:
         self.seed: int | None = None
         self.last_seed: int | None = None
         self.has_last_game = False
+        self.performer: Performer | None = None
         self.now = 0.0
         self.pages: list[Page] = []
         self._message = ("", 0.0)

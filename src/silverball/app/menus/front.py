@@ -8,6 +8,7 @@ from silverball.app.menus.commands import Change, Command, Play, Quit, WatchLast
 from silverball.app.menus.desk import Desk, TableEntry
 from silverball.app.menus.letters import LettersPage
 from silverball.app.menus.remap import remap_page
+from silverball.app.performers import PERFORMERS
 
 SEED_DIGITS = 9
 
@@ -103,9 +104,9 @@ def watch_page(desk: Desk) -> ChoicePage:
         desk.leave()
         return WatchLast()
 
-    def machine() -> Command:
+    def machine(player: str) -> Command:
         desk.leave()
-        return WatchMachine()
+        return WatchMachine(player)
 
     def items() -> list[Item]:
         listed = []
@@ -113,7 +114,9 @@ def watch_page(desk: Desk) -> ChoicePage:
             listed.append(Item("LAST GAME", "AS YOU PLAYED IT", last))
         if any(row.key for _, _, rows in desk.boards() for row in rows):
             listed.append(Item("HIGH SCORES", "HOW THEY WERE MADE", lambda: desk.open(champions_page(desk))))
-        listed.append(Item("THE MACHINE", f"IT PLAYS {desk.table().title.upper()}", machine))
+        for player, label, hint, *_ in PERFORMERS:
+            place = f"{hint} ON {desk.table().title.upper()}"
+            listed.append(Item(label, place, lambda player=player: machine(player)))  # type: ignore[misc]
         return [*listed, _back_item(desk)]
 
     return ChoicePage("watch", "WATCH", items)

@@ -22,6 +22,7 @@ from silverball.app.menus.gamepages import over_page, pause_page
 from silverball.app.menus.letters import InitialsPage
 from silverball.app.menus.remap import CapturePage
 from silverball.app.menus.transport import ReplayFace, TransportPage
+from silverball.app.performers import Performer
 from silverball.app.settings import Settings
 from silverball.drawing.dotfonts import NORMAL
 from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots
@@ -234,6 +235,7 @@ class Menus:
         tables: Sequence[TableEntry] | None = None,
         last_seed: int | None = None,
         has_last_game: bool | None = None,
+        performer: Performer | None = None,
     ) -> None:
         """Learn what has changed; what is None stays.
 
@@ -241,6 +243,7 @@ class Menus:
             tables: All tables that can be chosen.
             last_seed: Of the board that is being played.
             has_last_game: Whether there is a last game to watch.
+            performer: Who plays while the program plays by itself.
         """
         if tables is not None:
             self._desk.tables = tables
@@ -248,6 +251,8 @@ class Menus:
             self._desk.last_seed = last_seed
         if has_last_game is not None:
             self._desk.has_last_game = has_last_game
+        if performer is not None:
+            self._desk.performer = performer
 
     def _wants(self, kind: str) -> bool:
         page = self._desk.pages[-1] if self._desk.pages else None
