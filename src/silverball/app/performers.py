@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from silverball.app.stages import Showing
-    from silverball.players import Player
-    from silverball.players.planner import Planner
+    from silverball.players import Hands
 
 
 class Performer(NamedTuple):
@@ -35,6 +34,7 @@ class Performer(NamedTuple):
 
 PERFORMERS = (
     Performer("planner", "PLANNER", "LOOKS AHEAD", "plan_worlds", 2.0),
+    Performer("trained", "TRAINED", "LEARNT BY TRIAL"),
     Performer("reflex", "REFLEX", "HITS WHAT COMES"),
 )
 BEST = PERFORMERS[0]
@@ -56,7 +56,7 @@ class Cast:
         self.is_ready = is_ready
         self.asked = self.playing = STAND_IN
 
-    def begin(self, name: str) -> Player | Planner:
+    def begin(self, name: str) -> Hands:
         """Ask for a player, and have one that plays at once."""
         self.asked = next(performer for performer in PERFORMERS if performer.name == name)
         return self._enter()
@@ -68,7 +68,7 @@ class Cast:
         stage.player = self._enter()
         return True
 
-    def _enter(self) -> Player | Planner:
+    def _enter(self) -> Hands:
         from silverball.players import make_player
 
         self.playing = self.asked if self.is_ready(self.asked.name) else STAND_IN

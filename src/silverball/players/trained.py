@@ -121,8 +121,8 @@ def hold_of(tick_rate: int) -> int:
 class Trained:
     """The trained player for a single world.
 
-    It keeps nothing: between two decisions it holds what the paddles are told, so that a game can be continued
-    from any snapshot.
+    It keeps nothing: between two decisions it holds what the paddles are told, so that a game can be
+    continued from any snapshot.
 
     Args:
         policy: What it plays by; None: the one that comes with the program.

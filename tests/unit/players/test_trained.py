@@ -41,7 +41,7 @@ def test_it_sees_what_the_environments_show(table):
         raw = look(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
         there = rows[:, 0] == 1.0  # else the episode is over: a lost ball is shown as zeros by both
         assert there.any()
-        # The kernel multiplies by 1/size where this divides by it, then rounds to 32 bits: half a step of each.
+        # The kernel multiplies by 1/size where this divides by it, then rounds to 32 bits.
         np.testing.assert_allclose(raw, rows[:, COLUMNS], rtol=6e-8, atol=1e-15)
 
 
@@ -146,7 +146,9 @@ def test_it_decides_fifteen_times_a_second_at_any_tick_rate():
 
 
 def test_obstacles_change_nothing_of_what_it_presses():
-    crowd = [Cylinder(center=(x, z), radius=0.3) for x in (-2.0, 0.0, 2.0, 4.0, 6.0) for z in (-3.0, 0.0, 3.0)]
+    crowd = [
+        Cylinder(center=(x, z), radius=0.3) for x in (-2.0, 0.0, 2.0, 4.0, 6.0) for z in (-3.0, 0.0, 3.0)
+    ]
     pressed = set()
     for x, z, vx in ((-6.0, -1.5, -4.0), (-6.5, 1.0, -1.0), (3.0, 0.0, 2.0), (-6.3, -1.2, -6.0)):
         ball = (x, z, vx, 0.5)
