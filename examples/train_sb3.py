@@ -103,7 +103,8 @@ class Curve(BaseCallback):
         self.unseen.append((self.num_timesteps, points, spread))
         print(
             f"{self.num_timesteps:10,} steps, {self.elapsed() / 60:4.1f} min: "
-            f"on {self.envs.num_envs} unseen boards {points:6.0f} ± {spread:.0f} points a ball, {life:5.1f} ± {life_spread:.1f} s",
+            f"on {self.envs.num_envs} unseen boards {points:6.0f} ± {spread:.0f} points a ball, "
+            f"{life:5.1f} ± {life_spread:.1f} s",
             flush=True,
         )
 
