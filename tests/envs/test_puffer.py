@@ -43,5 +43,5 @@ def test_its_vectors_run_them_side_by_side():
     )
     envs.reset(seed=0)
     observations, *_ = envs.step(np.zeros(4, np.int32))
-    assert observations.shape == (4, 51)
+    assert observations.shape == (4, 63)
     envs.close()
