@@ -16,7 +16,7 @@ from stable_baselines3.common.evaluation import evaluate_policy  # noqa: E402
 from silverball.envs import IDS, PinballVectorEnv  # noqa: E402
 from silverball.envs.sb3 import SilverballVecEnv  # noqa: E402
 
-OPTIONS = {"table": "classic", "time_limit": 3.0}
+OPTIONS = {"table": "classic", "time_limit": 6.0}
 
 
 @pytest.mark.parametrize("id_", IDS)
@@ -31,7 +31,7 @@ def test_a_step_is_that_of_the_vector_environment_with_the_ends_told():
     assert envs.reset().tolist() == plain.reset(seed=3)[0].tolist()
     random, lengths, returns = np.random.default_rng(0), np.zeros(5, int), np.zeros(5)
     truncated_ones = ended_ones = 0
-    for _ in range(600):
+    for _ in range(1500):
         actions = random.integers(0, 4, 5)
         observations, rewards, ended, told = envs.step(actions)
         expected, gained, terminated, truncated, infos = plain.step(actions)

@@ -179,7 +179,7 @@ def test_the_planner_takes_over_the_show_and_can_be_watched_until_a_key_is_press
     for key in (pygame.K_d, pygame.K_d, pygame.K_d, pygame.K_SPACE, pygame.K_d, pygame.K_SPACE):
         player.tap(key)
     assert player.menus.page == ""
-    assert player.program.stage.player.kind == PlayerKind.REFLEX
+    assert player.program.stage.player.kind == PlayerKind.TRAINED
     player.tap(pygame.K_a)
     player.tap(pygame.K_a)
     player.tap(pygame.K_SPACE)

@@ -162,9 +162,9 @@ def test_a_program_that_is_ended_in_a_game_has_kept_it(start, tmp_path):
     table = tmp_path / "slow.toml"
     save_table(leaky().model_copy(update={"board": leaky().board.model_copy(update={"gravity": 0.1})}), table)
     machine = start("--table", str(table), "--seed", "3", "--mode", "free")
-    for _ in range(20):
+    for _ in range(60):  # the physics may have to be compiled first
         machine.tap("space")
-        time.sleep(0.3)
+        time.sleep(0.4)
     assert machine.close() == 128 + signal.SIGTERM
     with Store(machine.data) as store:
         text = store.last_game()
