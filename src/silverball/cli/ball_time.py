@@ -27,7 +27,7 @@ def time_of_balls(
     from silverball.world import WorldBatch
 
     with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "press_all"):
-        time_balls(WorldBatch("classic"), kind, 1.0 / 60.0)
+        time_balls(WorldBatch("classic"), kind, 0.1)
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         batch = WorldBatch(boards_of(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"watching {worlds} ball{'s' * (worlds > 1)}", total=seconds)
