@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
+import tempfile
+
 import numpy as np
 import pytest
 
-pufferlib = pytest.importorskip("pufferlib", reason="PufferLib is not installed")
-pytest.importorskip("pufferlib.vector", reason="PufferLib is not complete")
+# PufferLib leaves a link named "resources" in the folder in which it is imported first.
+with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+    pufferlib = pytest.importorskip("pufferlib", reason="PufferLib is not installed")
+    pytest.importorskip("pufferlib.vector", reason="PufferLib is not complete")
 
-from silverball.envs import PinballVectorEnv  # noqa: E402
-from silverball.envs.puffer import SilverballPufferEnv  # noqa: E402
+from silverball.envs import PinballVectorEnv
+from silverball.envs.puffer import SilverballPufferEnv
 
 OPTIONS = {"table": "classic", "time_limit": 1.0}
 
