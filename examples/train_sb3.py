@@ -69,7 +69,7 @@ def policy_of(model, command=""):
 
 
 def evaluate(policy, envs):
-    """Points of a ball and its life [s], a board for each ball: means and half of the 95 % intervals."""
+    """Points of a ball and its life [s], one in each environment: means, and half of the 95 % intervals."""
     rows, _ = envs.reset(seed=0)
     points, steps, plays = np.zeros(len(rows)), np.zeros(len(rows)), np.ones(len(rows), bool)
     while plays.any():
@@ -109,6 +109,7 @@ class Curve(BaseCallback):
         )
 
     def _on_training_start(self):
+        self.began = time.perf_counter()
         self.evaluate()
 
     def _on_step(self):
@@ -138,8 +139,9 @@ def draw(curve, others, path):
         millions(steps), points - spread, points + spread, color="#1565c0", alpha=0.25, linewidth=0
     )
     for (name, height), colour in zip(others.items(), ("#c62828", "#2e7d32"), strict=True):
-        axes.axhline(height, color=colour, linestyle="--", label=f"the player `{name}`, there")
-    axes.set(xlabel="steps [million]", ylabel="points a ball", xlim=(0, None), ylim=(0, None))
+        axes.axhline(height, color=colour, linestyle="--", label=f"the player {name} on these")
+    last = millions(curve.minutes[-1][0])
+    axes.set(xlabel="steps [million]", ylabel="points a ball", xlim=(0, 1.02 * last), ylim=(0, None))
     axes.yaxis.set_major_formatter("{x:,.0f}")
     steps, minutes = np.array([(0, 0.0), *curve.minutes]).T
     clock = axes.secondary_xaxis(
@@ -151,7 +153,7 @@ def draw(curve, others, path):
     )
     clock.set_xlabel("minutes of training")
     axes.grid(alpha=0.3)
-    axes.legend(loc="lower right", frameon=False)
+    axes.legend(loc="center right", bbox_to_anchor=(1, 0.45))
     figure.savefig(path, dpi=120)
     print(f"wrote {path}")
 
@@ -161,16 +163,16 @@ parser.add_argument("--minutes", type=float, default=15.0, help="of training, ev
 parser.add_argument("--steps", type=int, default=10**9, help="at most")
 parser.add_argument("--envs", type=int, default=512)
 parser.add_argument("--boards", type=int, default=512, help="to train on")
-parser.add_argument("--balls", type=int, default=1000, help="to evaluate with, each on a board of its own")
+parser.add_argument("--balls", type=int, default=1000, help="to evaluate with, on as many unseen boards")
 parser.add_argument("--every", type=int, default=3_000_000, help="steps between two evaluations")
 parser.add_argument("--seed", type=int, default=0)
 parser.add_argument("--out", default="curve.png", help="picture of the learning curve")
 parser.add_argument("--policy", help="file for the policy as plain arrays (.npz)")
 chosen = parser.parse_args()
 
+torch.set_num_threads(1)  # the network is small: two threads mostly wait for each other
 options = {"frame_skip": 60 // DECISIONS, "time_limit": LONGEST}
 unseen = PinballVectorEnv(chosen.balls, "SameStep", boards=chosen.balls, board_seed=UNSEEN, **options)
-# The vector draws boards; the other players get each board once.
 worlds = {name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN) for name in ("random", "reflex")}
 others = {name: time_balls(one, PlayerKind[name.upper()], LONGEST).score[0] for name, one in worlds.items()}
 for name, points in others.items():
