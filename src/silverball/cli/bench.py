@@ -36,7 +36,9 @@ def bench(
     ),
     quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
     out: list[str] = typer.Option(
-        [], metavar="FILE.png|.md", help="With --peers: also write a plot or a Markdown table; repeatable."
+        [],
+        metavar="FILE.png|.md",
+        help="With --peers: also write a plot or a Markdown table; with --envs a table; repeatable.",
     ),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
@@ -69,10 +71,12 @@ def bench(
         show_drawing(rounds, as_json)
         return
     if envs:
-        show_envs(rounds, as_json)
+        show_envs(rounds, out, as_json)
         return
     if quick or out:
-        raise SilverballError("--quick and --out belong to the comparison; add --peers or leave them out")
+        raise SilverballError(
+            "--quick belongs to --peers and --out to --peers and --envs; add one of these or leave them out"
+        )
     with compiling():
         from silverball.benchmarks.speed import measure
         from silverball.table import load_table
@@ -133,29 +137,39 @@ def show_figures(measure: Callable[..., list[Figure]], rounds: int, as_json: boo
     typer.echo(f"medians of {rounds} rounds; {machine()}")
 
 
-def show_envs(rounds: int, as_json: bool) -> None:
-    """Measure and show the rates of the environments."""
+def show_envs(rounds: int, out: list[str], as_json: bool) -> None:
+    """Measure and show the rates of the environments, beside others that are installed."""
     from rich.progress import Progress
 
-    from silverball.benchmarks.envs import measure_envs
-    from silverball.benchmarks.speed import machine
+    from silverball.benchmarks.envs import contest, report
     from silverball.cli.console import errors
+    from silverball.wholefile import write_whole
 
+    paths = [output_path(text, (".md",)) for text in out]
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         task = bar.add_task("compiling …", total=None)
-        rates = measure_envs(rounds, lambda doing: bar.update(task, description=doing))
+        result = contest.run(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
-        typer.echo(json.dumps([rate._asdict() for rate in rates], indent=2))
-        return
-    for rate in rates:
-        value = f"{rate.value:12,.0f}" if rate.unit == "steps/s" else f"{rate.value:12.3f}"
-        typer.echo(f"{rate.name:58} {value} {rate.unit}")
-    typer.echo(f"medians of {rounds} rounds, random actions; {machine()}")
+        typer.echo(report.as_json(result))
+    else:
+        show_table(report.terminal_table(result), report.footing(result))
+    for path in paths:
+        write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
+        typer.echo(f"wrote {path}", err=True)
+
+
+def show_table(table: Any, lines: list[str]) -> None:
+    """Print a table as wide as it is where nobody looks at a screen, and lines below it."""
+    from rich.console import Console
+
+    console = Console() if Console().is_terminal else Console(width=200)
+    console.print(table)
+    for line in lines:
+        typer.echo(line)
 
 
 def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:
     """Let all engines that are installed play the same tables, and show what came of it."""
-    from rich.console import Console
     from rich.progress import Progress
 
     from silverball.benchmarks.peers.contestants import PEERS, present_peers
@@ -192,22 +206,19 @@ def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], a
     if as_json:
         typer.echo(report.as_json(result))
     else:
-        console = Console() if Console().is_terminal else Console(width=200)
-        console.print(report.terminal_table(result))
-        for line in (*report.conclusions(result), *report.footing(result)):
-            typer.echo(line)
+        show_table(report.terminal_table(result), [*report.conclusions(result), *report.footing(result)])
     write(paths, result)
 
 
-def output_path(text: str) -> Path:
+def output_path(text: str, endings: tuple[str, ...] = ENDINGS) -> Path:
     """A file to write, whose ending says what."""
     from silverball.cli.output import file_name
     from silverball.errors import OutputError
 
     path = file_name(text)
-    if path.suffix not in ENDINGS:
+    if path.suffix not in endings:
         raise OutputError(
-            f"{path}: a comparison is written as {' or '.join(ENDINGS)}, choose one of these endings"
+            f"{path}: this comparison is written as {' or '.join(endings)}; choose an ending like that"
         )
     if not path.absolute().parent.is_dir():
         raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")

@@ -1,0 +1,241 @@
+"""Whose steps are counted: our environments in several ways, and others, each as anybody gets it.
+
+Others take part where their packages are installed: Gymnasium's CartPole (its fastest), Atari's VideoPinball
+by ale-py and by EnvPool, and PufferLib's breakout in C. All are told to use as many threads as there are
+cores, if they use several. Actions are random.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.world.batch import cores
+
+CLASSIC, RANDOM, PIXELS = (
+    "silverball/PinballClassic-v0",
+    "silverball/Pinball-v0",
+    "silverball/PinballPixels-v0",
+)
+FEW, MANY = 2048, 8192  # environments side by side that show states: their records fit the cache, or do not
+FEW_PICTURED, MANY_PICTURED = 128, 1024  # that show pictures, the same
+ATARIS = 16
+BREAKOUTS = 1024
+BOARDS = 16
+SINGLE_STEPS = 1000  # of one environment in one call, so that the call does not count
+ACTIONS = 16  # rows of random actions, taken in turn
+
+Made = tuple[Callable[[], object], int]
+"""A call, and how many steps it makes."""
+
+
+class Contestant(NamedTuple):
+    """Somebody whose speed is measured.
+
+    Attributes:
+        name: What the figure is of.
+        make: Builds it, and returns a call and the steps that it makes.
+        sees: What an observation is: "state" or "pictures"; "" if nothing is observed.
+        ours: Whether it is ours.
+        yardstick: Its name at the head of a column that tells how much faster we are; "" if there is none.
+        package: What must be installed for it; building it raises ImportError otherwise.
+        unit: "steps/s", or "µs" for the time of one call.
+    """
+
+    name: str
+    make: Callable[[], Made]
+    sees: str = "state"
+    ours: bool = True
+    yardstick: str = ""
+    package: str = "gymnasium"
+    unit: str = "steps/s"
+
+
+def contestants() -> list[Contestant]:
+    """All of them, ours first."""
+    return [
+        Contestant("one, through gymnasium.make", lambda: _one(CLASSIC)),
+        Contestant("one, steps of 4 frames", lambda: _one(CLASSIC, frame_skip=4)),
+        *(_states(count, **options) for count, options in STATES),
+        *(_pictures(stack, count, **options) for stack, count, options in PICTURES),
+        Contestant("save_state", _saving, "", unit="µs"),
+        Contestant("restore_state", _restoring, "", unit="µs"),
+        *others(),
+    ]
+
+
+STATES: list[tuple[int, dict[str, Any]]] = [
+    (FEW, {"threads": 1}),
+    (FEW, {}),
+    (FEW, {"frame_skip": 4}),
+    (MANY, {}),
+    (MANY, {"zero_copy": True}),
+]
+PICTURES: list[tuple[int, int, dict[str, Any]]] = [
+    (1, MANY_PICTURED, {}),
+    (1, MANY_PICTURED, {"zero_copy": True}),
+    (4, FEW_PICTURED, {}),
+    (4, FEW_PICTURED, {"frame_skip": 4}),
+    (4, MANY_PICTURED, {}),
+    (4, MANY_PICTURED, {"zero_copy": True}),
+]
+
+
+def _states(count: int, **options: Any) -> Contestant:
+    return Contestant(
+        f"state, {count} environments{_said(options)}", lambda: _many(RANDOM, count, boards=BOARDS, **options)
+    )
+
+
+def _pictures(stack: int, count: int, **options: Any) -> Contestant:
+    pictures = "picture 84 × 84" if stack == 1 else f"pictures {stack} × 84 × 84"
+    return Contestant(
+        f"{pictures}, {count} environments{_said(options)}",
+        lambda: _many(PIXELS, count, boards=BOARDS, stack=stack, **options),
+        "pictures",
+    )
+
+
+def _said(options: dict[str, Any]) -> str:
+    said = {"threads": "one thread", "zero_copy": "zero_copy", "frame_skip": "steps of 4 frames"}
+    return "".join(f", {said[name]}" for name in options)
+
+
+def others() -> list[Contestant]:
+    """Those that are not ours."""
+    return [
+        Contestant("CartPole (Gymnasium), one", lambda: _one("CartPole-v1"), ours=False),
+        Contestant(
+            f"CartPole (Gymnasium), {MANY} environments", lambda: _many("CartPole-v1", MANY), ours=False
+        ),
+        Contestant(
+            f"breakout (PufferLib's Ocean), {BREAKOUTS} environments, one thread",
+            _breakout,
+            ours=False,
+            yardstick="Ocean breakout",
+            package="pufferlib",
+        ),
+        Contestant(
+            "VideoPinball (ALE), one", _atari_one, "pictures", ours=False, package="ale-py"
+        ),
+        Contestant(
+            f"VideoPinball (ALE's vector), {ATARIS} environments",
+            _atari_many,
+            "pictures",
+            ours=False,
+            yardstick="ALE's vector",
+            package="ale-py",
+        ),
+        Contestant(
+            f"VideoPinball (EnvPool), {ATARIS} environments",
+            _envpool,
+            "pictures",
+            ours=False,
+            yardstick="EnvPool",
+            package="envpool",
+        ),
+    ]  # fmt: skip
+
+
+# --- what is called
+
+
+def _one(id_: str, **options: Any) -> Made:
+    import gymnasium
+
+    import silverball.envs  # noqa: F401  (registers)
+
+    return _stepped(gymnasium.make(id_, **options))
+
+
+def _stepped(env: Any) -> Made:
+    env.reset(seed=0)
+    actions = np.random.default_rng(0).integers(0, env.action_space.n, SINGLE_STEPS).tolist()
+
+    def step() -> None:
+        for action in actions:
+            _, _, terminated, truncated, _ = env.step(action)
+            if terminated or truncated:
+                env.reset()
+
+    return step, len(actions)
+
+
+def _many(id_: str, count: int, **options: Any) -> Made:
+    import gymnasium
+
+    import silverball.envs  # noqa: F401  (registers)
+
+    return _stepped_together(gymnasium.make_vec(id_, count, **options))
+
+
+def _stepped_together(envs: Any) -> Made:
+    envs.reset(seed=0)
+    return _in_turn(envs.step, int(envs.single_action_space.n), int(envs.num_envs))
+
+
+def _in_turn(step: Callable[[Any], object], choices: int, count: int, kind: Any = np.int64) -> Made:
+    actions: NDArray[Any] = np.random.default_rng(0).integers(0, choices, (ACTIONS, count)).astype(kind)
+    turn = iter(range(2**62))
+    return lambda: step(actions[next(turn) % ACTIONS]), count
+
+
+def _saving() -> Made:
+    env = _unwrapped()
+
+    def save() -> None:
+        for _ in range(SINGLE_STEPS):
+            env.save_state()
+
+    return save, SINGLE_STEPS
+
+
+def _restoring() -> Made:
+    env = _unwrapped()
+    state = env.save_state()
+
+    def restore() -> None:
+        for _ in range(SINGLE_STEPS):
+            env.restore_state(state)
+
+    return restore, SINGLE_STEPS
+
+
+def _unwrapped() -> Any:
+    import gymnasium
+
+    import silverball.envs  # noqa: F401  (registers)
+
+    env = gymnasium.make(CLASSIC).unwrapped
+    env.reset(seed=0)
+    return env
+
+
+def _breakout() -> Made:
+    module = importlib.import_module("pufferlib.ocean.breakout.breakout")
+    envs = module.Breakout(num_envs=BREAKOUTS)
+    envs.reset()
+    return _in_turn(envs.step, int(envs.single_action_space.n), BREAKOUTS)
+
+
+def _atari_one() -> Made:
+    import gymnasium
+
+    gymnasium.register_envs(importlib.import_module("ale_py"))
+    return _stepped(gymnasium.make("ALE/VideoPinball-v5"))
+
+
+def _atari_many() -> Made:
+    vector = importlib.import_module("ale_py.vector_env")
+    return _stepped_together(vector.AtariVectorEnv("video_pinball", ATARIS, num_threads=cores()))
+
+
+def _envpool() -> Made:
+    envpool = importlib.import_module("envpool")
+    envs = envpool.make_gymnasium("VideoPinball-v5", num_envs=ATARIS, num_threads=cores())
+    envs.reset()
+    return _in_turn(envs.step, int(envs.action_space.n), ATARIS, np.int32)

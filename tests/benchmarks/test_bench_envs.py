@@ -1,0 +1,120 @@
+"""Are the environments compared as the table says?"""
+
+from __future__ import annotations
+
+import json
+import time
+
+import pytest
+
+from silverball.benchmarks.envs import contest, contestants, report
+from silverball.benchmarks.envs.contestants import Contestant
+from silverball.cli.app import run
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """Few environments and short rounds: what is measured is not the point here."""
+    monkeypatch.setattr(contestants, "BOARDS", 2)
+    monkeypatch.setattr(contestants, "SINGLE_STEPS", 20)
+    monkeypatch.setattr(contestants, "STATES", [(3, {"threads": 1}), (3, {"zero_copy": True})])
+    monkeypatch.setattr(contestants, "PICTURES", [(1, 2, {}), (4, 2, {"frame_skip": 4})])
+    monkeypatch.setattr(contest, "ROUND", 1e-4)
+    monkeypatch.setattr(contest, "WARM_UP", 2)
+
+
+def sleeper(seconds: float, steps: int, **about) -> Contestant:
+    return Contestant(f"{steps} steps in {seconds} s", lambda: (lambda: time.sleep(seconds), steps), **about)
+
+
+def absent() -> contestants.Made:
+    raise ModuleNotFoundError("No module named 'elsewhere'")
+
+
+def test_ours_are_all_measured():
+    ours = [one for one in contestants.contestants() if one.ours]
+    result = contest.run(2, taking_part=ours)
+    assert [rate.name for rate in result.rates] == [one.name for one in ours]
+    assert all(rate.value > 0 for rate in result.rates)
+    for rate in result.rates:
+        assert rate.slowest <= rate.value if rate.unit == "steps/s" else rate.slowest >= rate.value
+    assert result.missing == []
+    assert {"Python", "silverball", "gymnasium", "numba"} <= result.versions.keys()
+
+
+def test_a_call_of_many_steps_counts_as_many():
+    one, ten = contest.run(3, taking_part=[sleeper(2e-3, 1), sleeper(2e-3, 10)]).rates
+    assert 100 < one.value <= 500
+    assert 6 < ten.value / one.value < 15
+    call = contest.run(3, taking_part=[sleeper(2e-3, 10, unit="µs")]).rates[0]
+    assert 200 <= call.value < 1000
+    assert call.slowest >= call.value
+
+
+def test_who_is_not_installed_is_named_and_left_out():
+    strangers = [
+        Contestant("elsewhere", absent, ours=False, yardstick="Elsewhere", package="elsewhere"),
+        Contestant("elsewhere, twice", absent, ours=False, package="elsewhere"),
+    ]
+    heard = []
+    result = contest.run(1, heard.append, [sleeper(1e-4, 1), *strangers])
+    assert len(result.rates) == 1
+    assert result.missing == ["elsewhere"]
+    assert heard == [one.name for one in (sleeper(1e-4, 1), *strangers)]
+    assert "Not installed: elsewhere." in report.footing(result)
+    assert report.headers(report.yardsticks(result)) == ["environment", "steps/s"]
+
+
+def rate(value: float, sees: str, ours: bool = True, yardstick: str = "", unit: str = "steps/s"):
+    return contest.Rate(f"{sees} {value}", value, value, unit, sees, ours, yardstick)
+
+
+RESULT = contest.Result(
+    [
+        rate(5000.0, "state"),
+        rate(200.0, "pictures"),
+        rate(0.5, "", unit="µs"),
+        rate(10.0, "pictures", ours=False, yardstick="Atari"),
+        rate(1000.0, "state", ours=False, yardstick="breakout"),
+        rate(400.0, "state", ours=False),
+    ],
+    5,
+    [],
+    "a machine",
+    {"Python": "3"},
+)
+
+
+def test_pictures_are_not_compared_with_states_but_states_with_pictures():
+    atari, breakout = report.yardsticks(RESULT)
+    assert [report.ratio(one, atari) for one in RESULT.rates] == [500.0, 20.0, None, 1.0, None, None]
+    assert [report.ratio(one, breakout) for one in RESULT.rates] == [5.0, None, None, None, 1.0, None]
+
+
+def test_the_table_is_told_in_markdown_and_in_json():
+    lines = report.markdown(RESULT).splitlines()
+    assert lines[0] == "| environment | steps/s | beside Atari | beside breakout |"
+    assert lines[2] == "| state 5000.0 | 5,000 | 500 × | 5 × |"
+    assert lines[3] == "| pictures 200.0 | 200 | 20 × |  |"
+    assert lines[4] == "|  0.5 | 0.500 µs |  |  |"
+    assert len({line.count("|") for line in lines[:8]}) == 1
+    assert lines[9] == "Medians of 5 rounds, random actions; a machine; Python 3."
+    told = json.loads(report.as_json(RESULT))
+    assert told["rates"][0]["beside"] == {"Atari": 500.0, "breakout": 5.0}
+    assert told["rates"][2]["beside"] == {"Atari": None, "breakout": None}
+
+
+def test_the_command_writes_the_table(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(contestants, "others", lambda: [sleeper(1e-3, 1, ours=False, yardstick="a sleeper")])
+    place = tmp_path / "envs.md"
+    assert run(["bench", "--envs", "--rounds", "1", "--out", str(place)]) == 0
+    told = capsys.readouterr()
+    assert "beside a sleeper" in place.read_text(encoding="utf-8")
+    assert "one, through gymnasium.make" in told.out
+    assert f"wrote {place}" in told.err
+
+
+def test_another_ending_is_refused_before_anything_is_measured(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(contest, "run", None)
+    assert run(["bench", "--envs", "--out", str(tmp_path / "envs.png")]) == 2
+    assert "is written as .md" in capsys.readouterr().err
