@@ -7,11 +7,13 @@ import warnings
 import gymnasium as gym
 import numpy as np
 import pytest
+from gymnasium.vector.utils import batch_space
 
 sb3 = pytest.importorskip("stable_baselines3", reason="Stable-Baselines3 is not installed")
 
 from stable_baselines3.common.env_checker import check_env  # noqa: E402
 from stable_baselines3.common.evaluation import evaluate_policy  # noqa: E402
+from stable_baselines3.common.preprocessing import is_image_space  # noqa: E402
 
 from silverball.envs import IDS, PinballVectorEnv  # noqa: E402
 from silverball.envs.sb3 import SilverballVecEnv  # noqa: E402
@@ -55,6 +57,45 @@ def test_a_step_is_that_of_the_vector_environment_with_the_ends_told():
     assert ended_ones > truncated_ones > 0
 
 
+@pytest.mark.parametrize(
+    ("options", "shape"),
+    [
+        ({"stack": 1}, (1, 40, 36)),
+        ({"stack": 3}, (3, 40, 36)),
+        ({"stack": 1, "rgb": True}, (40, 36, 3)),
+        ({"stack": 2, "rgb": True}, (6, 40, 36)),
+    ],
+    ids=str,
+)
+def test_pictures_are_images(options, shape):
+    options = {"table": "classic", "time_limit": 1.0, "observation": "pixels", "size": (40, 36), **options}
+    envs, plain = SilverballVecEnv(3, seed=3, **options), PinballVectorEnv(3, "SameStep", **options)
+    assert envs.observation_space.shape == shape
+    assert is_image_space(envs.observation_space)
+
+    plain.reset(seed=3)
+    assert envs.reset().shape == (3, *shape)
+    for _ in range(70):
+        images, _, ended, told = envs.step(np.ones(3, int))
+        expected, *_, infos = plain.step(np.ones(3, int))
+        assert images in batch_space(envs.observation_space, 3)
+        last = [told[row]["terminal_observation"] for row in np.flatnonzero(ended)]
+        assert all(image in envs.observation_space for image in last)
+        pairs = [*zip(images, expected, strict=True)]
+        pairs += [*zip(last, infos["final_obs"][ended] if last else [], strict=True)]
+        for image, pictures in pairs:
+            if shape[-1] == 3:
+                assert image.tolist() == pictures.tolist()
+            elif pictures.ndim == 2:
+                assert image.tolist() == [pictures.tolist()]
+            elif pictures.ndim == 3:
+                assert image.tolist() == pictures.tolist()
+            else:
+                assert image[-3:].tolist() == [pictures[-1, :, :, colour].tolist() for colour in range(3)]
+                assert image[0].tolist() == pictures[0, :, :, 0].tolist()
+    sb3.PPO("CnnPolicy", envs, n_steps=8, batch_size=8, n_epochs=1, device="cpu").learn(48)
+
+
 def test_seeds_count_at_the_next_reset():
     envs = SilverballVecEnv(2, **OPTIONS)
     envs.seed(5)
@@ -66,7 +107,7 @@ def test_seeds_count_at_the_next_reset():
 
 def test_ppo_learns_on_states_and_on_pictures():
     for options in ({}, {"observation": "dict"}, {"observation": "pixels", "size": (36, 36)}):
-        envs = SilverballVecEnv(4, seed=0, **OPTIONS, **options)
+        envs = SilverballVecEnv(4, seed=0, table="classic", time_limit=2.0, **options)
         policy = {"pixels": "CnnPolicy", "dict": "MultiInputPolicy"}.get(
             options.get("observation"), "MlpPolicy"
         )

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
+from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
@@ -31,7 +32,9 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
     """Many pinball tables as Stable-Baselines3 wants them.
 
     An episode that ends begins anew in the same step. Its last observation, how it ended, its return, length
-    and counts of events are in its `info`; the infos of all others are empty.
+    and counts of events are in its `info`; the infos of all others are empty. Pictures are what
+    Stable-Baselines3 knows as images: in grey (stack, height, width), in colour (3 × stack, height, width) or
+    (height, width, 3) where only one is shown.
 
     Args:
         num_envs: How many.
@@ -53,7 +56,10 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
             num_envs, AutoresetMode.SAME_STEP, threads=threads, render_mode=render_mode, **options
         )
         self.render_mode = render_mode
-        super().__init__(num_envs, self.envs.single_observation_space, self.envs.single_action_space)
+        space: Any = self.envs.single_observation_space
+        if self.envs.options.observation == "pixels":
+            space = Box(0, 255, self._shown(np.zeros((1, *space.shape), np.uint8)).shape[1:], np.uint8)
+        super().__init__(num_envs, space, self.envs.single_action_space)
         self.metadata = self.envs.metadata
         self._first_seed = seed
         self._returns, self._lengths = np.zeros(num_envs), np.zeros(num_envs, np.int64)
@@ -72,7 +78,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         self.reset_infos = [
             {name: infos[name][number].item() for name in INFO} for number in range(self.num_envs)
         ]
-        return observations
+        return self._shown(observations)
 
     def step_async(self, actions: NDArray[Any]) -> None:
         """Take the actions of the next step."""
@@ -87,7 +93,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         told: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         for row in np.flatnonzero(ended):
             told[row] = {
-                "terminal_observation": infos["final_obs"][row],
+                "terminal_observation": self._shown_one(infos["final_obs"][row]),
                 "TimeLimit.truncated": bool(truncated[row] and not terminated[row]),
                 "episode": {
                     "r": float(self._returns[row]),
@@ -97,7 +103,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
                 **{name: infos["final_info"][name][row].item() for name in INFO},
             }
         self._returns[ended], self._lengths[ended] = 0.0, 0
-        return observations, rewards.astype(np.float32), ended, told
+        return self._shown(observations), rewards.astype(np.float32), ended, told
 
     def close(self) -> None:
         """Nothing is open."""
@@ -125,6 +131,19 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
     def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
         """No environment is wrapped in anything."""
         return [False for _ in self._get_indices(indices)]
+
+    def _shown(self, observations: Any) -> Any:
+        """Observations [env, …] as Stable-Baselines3 wants them."""
+        options = self.envs.options
+        if options.observation != "pixels" or options.rgb == (options.stack == 1):
+            return observations
+        if not options.rgb:
+            return observations[:, None]
+        count, stack, height, width, channels = observations.shape
+        return np.moveaxis(observations, -1, 2).reshape(count, stack * channels, height, width)
+
+    def _shown_one(self, observation: Any) -> Any:
+        return observation if isinstance(observation, dict) else self._shown(observation[None])[0]
 
     def _get_indices(self, indices: Any) -> Iterable[int]:
         chosen: Iterable[int] = super()._get_indices(indices)
