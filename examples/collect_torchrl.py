@@ -1,6 +1,6 @@
 """TorchRL takes the vector environment as it is; a rollout of a random policy.
 
-pip install 'silverball[rl]' torchrl
+pip install '.[rl]' torchrl
 python examples/collect_torchrl.py
 """
 

@@ -1,6 +1,6 @@
 """A player for boards that it has never seen: PPO of Stable-Baselines3 on random boards, in 15 minutes.
 
-pip install 'silverball[rl]' stable-baselines3 matplotlib
+pip install '.[rl]' stable-baselines3 matplotlib
 python examples/train_sb3.py --minutes 15 --out curve.png --policy policy.npz
 """
 

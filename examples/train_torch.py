@@ -1,6 +1,6 @@
 """PPO in one file, in the manner of CleanRL: the loop sees nothing but Gymnasium's vector interface.
 
-pip install 'silverball[rl]' torch
+pip install '.[rl]' torch
 python examples/train_torch.py --steps 500000
 """
 
