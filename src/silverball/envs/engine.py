@@ -33,8 +33,9 @@ from silverball.world.batch import pool_of_threads
 
 FORMAT = 2  # of saved states
 MARK = 16  # bytes that say of which boards and which version a saved state is
-LEAST_SLICE = 256  # environments below which a thread is not worth its start
-RING = 4  # windows in the ring of pictures: more are moved more seldom, and take more memory
+LEAST_SLICE = 1000  # work below which a thread is not worth its start: environments, states of one tick each
+PICTURE = 3  # that of a picture, of each that is copied
+RING = 4  # windows in the ring of pictures that are shown where they are: more are moved more seldom
 COUNT_ROWS = len(COUNTS) + 2
 
 
@@ -71,6 +72,8 @@ class Engine:
         self.final_counts = np.zeros((kept, COUNT_ROWS), np.int64)
         self.final_scenes = records(kept * self.stack, SCENE).reshape(kept, self.stack)
         self._held = np.zeros((1, count, 3), np.bool_)
+        pictures = max(1, self.stack * int(self.rules["copies"][0])) if self.shows_pictures else 0
+        self._work = options.frame_skip + PICTURE * pictures
         self._write_addresses()
         self.move = straight(move, self.addresses, 0, 1, 0)
         self.forget()
@@ -101,7 +104,7 @@ class Engine:
             self.ring = 0
         else:
             self.pictures = pictures_of(self.pool, self.options.size, self.options.rgb)
-            self.ring = RING * self.stack if self.stack > 1 else 1
+            self.ring = self.stack * (RING if self.stack > 1 and self.owns_output else 1)
         self.film = self.pictures.film.copy()
         self.film["stack"] = self.stack
         # One picture is drawn right where it goes; of several the window slides along a ring.
@@ -187,7 +190,7 @@ class Engine:
         """Do a task in all environments, in slices on threads; this thread takes the first slice."""
         self._renew()
         number = int(task)
-        threads = min(self.batch.threads, self.count // LEAST_SLICE)
+        threads = min(self.batch.threads, self.count * self._work // LEAST_SLICE)
         if threads < 2:
             self.move(self.addresses, 0, self.count, number)
             return
@@ -203,11 +206,15 @@ class Engine:
 
     def _slide(self) -> None:
         """Let the window of pictures slide on by one."""
-        if self.stack > 1:
-            film = self.film
-            wraps = film["at"][0] + 1 + self.stack > self.ring
-            film["wraps"] = wraps
-            film["at"] = 0 if wraps else film["at"][0] + 1
+        if self.stack < 2:
+            return
+        film = self.film
+        at = film["at"][0] + 1
+        if self.ring == self.stack:
+            film["at"] = at % self.ring
+        else:
+            film["wraps"] = wraps = at + self.stack > self.ring
+            film["at"] = 0 if wraps else at
 
     def _renew(self) -> None:
         """Let the next step write to arrays that nobody sees, unless its output stays where it is."""

@@ -5,9 +5,11 @@ in this step in bright, the paddles and the balls as sprites. Each is blended by
 so that the order does not matter. The board fills the picture: its top is the first row, its left the first
 column.
 
-The last pictures of an environment lie in a ring that is longer than an observation: the window of the
-newest slides along it. Where nobody else writes to the ring, a picture is drawn by mending the old one in
-its place: balls and lights are taken away and put where they are now, paddles if they have moved.
+The last pictures of an environment lie in a ring, and the window of the newest slides along it. Where the
+window itself is the observation, the ring is longer, and the pictures move back to its beginning now and
+then; where the window is copied, the ring is no longer than that and the window goes round. Where nobody
+else writes to the ring, a picture is drawn by mending the old one in its place: balls and lights are taken
+away and put where they are now, paddles if they have moved.
 """
 
 from __future__ import annotations
@@ -78,7 +80,7 @@ def draw_finals(addresses: Any, rows: Any, pictures: int) -> None:
 @internal
 def show(at: Any, index: int, number: int) -> None:
     """Draw a scene of an environment in its place in the ring."""
-    scene, place = the.scenes(at)[index, number], the.film(at)[0].at + number
+    scene, place = the.scenes(at)[index, number], place_of(at, number)
     picture, drawn = frame(at, index, place), the.drawn(at)[index, place]
     if the.rules(at)[0].mends == 0 or drawn.board != scene.board:
         draw(at, scene, picture)
@@ -91,8 +93,19 @@ def show(at: Any, index: int, number: int) -> None:
 @inlined
 def wind(at: Any, index: int) -> None:
     """Copy the window of an environment to where its observation goes."""
-    size = at.stack * at.pixels
-    copy_bytes(at.copies_at + index * size, frame(at, index, the.film(at)[0].at), size)
+    target, start = at.copies_at + index * at.stack * at.pixels, the.film(at)[0].at
+    straight = min(
+        at.stack, at.ring - start
+    )  # pictures up to the end of the ring; the others are at its start
+    copy_bytes(target, frame(at, index, start), straight * at.pixels)
+    copy_bytes(target + straight * at.pixels, frame(at, index, 0), (at.stack - straight) * at.pixels)
+
+
+@inlined
+def place_of(at: Any, number: int) -> int:
+    """Where in the ring a picture of the window is."""
+    place = the.film(at)[0].at + number
+    return int(place if place < at.ring else place - at.ring)
 
 
 @inlined

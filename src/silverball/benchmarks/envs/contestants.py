@@ -22,7 +22,7 @@ CLASSIC, RANDOM, PIXELS = (
     "silverball/PinballPixels-v0",
 )
 FEW, MANY = 2048, 8192  # environments side by side that show states: their records fit the cache, or do not
-FEW_PICTURED, MANY_PICTURED = 128, 1024  # that show pictures, the same
+FEW_PICTURED, MANY_PICTURED = 256, 1024  # that show pictures, the same
 ATARIS = 16
 BREAKOUTS = 1024
 BOARDS = 16
