@@ -94,7 +94,7 @@ def test_pictures_are_not_compared_with_states_but_states_with_pictures():
 def test_the_table_is_told_in_markdown_and_in_json():
     lines = report.markdown(RESULT).splitlines()
     assert lines[0] == "| environment | steps/s | beside Atari | beside breakout |"
-    assert lines[2] == "| state 5000.0 | 5,000 | 500 × | 5 × |"
+    assert lines[2] == "| state 5000.0 | 5,000 | 500 × | 5.00 × |"
     assert lines[3] == "| pictures 200.0 | 200 | 20 × |  |"
     assert lines[4] == "|  0.5 | 0.500 µs |  |  |"
     assert len({line.count("|") for line in lines[:8]}) == 1

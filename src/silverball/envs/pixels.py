@@ -96,7 +96,7 @@ def wind(at: Any, index: int) -> None:
     target, start = at.copies_at + index * at.stack * at.pixels, the.film(at)[0].at
     straight = min(
         at.stack, at.ring - start
-    )  # pictures up to the end of the ring; the others are at its start
+    )  # pictures before the end of the ring; the others follow from its start
     copy_bytes(target, frame(at, index, start), straight * at.pixels)
     copy_bytes(target + straight * at.pixels, frame(at, index, 0), (at.stack - straight) * at.pixels)
 

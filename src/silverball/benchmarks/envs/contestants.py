@@ -113,13 +113,6 @@ def others() -> list[Contestant]:
             f"CartPole (Gymnasium), {MANY} environments", lambda: _many("CartPole-v1", MANY), ours=False
         ),
         Contestant(
-            f"breakout (PufferLib's Ocean), {BREAKOUTS} environments, one thread",
-            _breakout,
-            ours=False,
-            yardstick="Ocean breakout",
-            package="pufferlib",
-        ),
-        Contestant(
             "VideoPinball (ALE), one", _atari_one, "pictures", ours=False, package="ale-py"
         ),
         Contestant(
@@ -137,6 +130,13 @@ def others() -> list[Contestant]:
             ours=False,
             yardstick="EnvPool",
             package="envpool",
+        ),
+        Contestant(
+            f"breakout (PufferLib's Ocean), {BREAKOUTS} environments, one thread",
+            _breakout,
+            ours=False,
+            yardstick="Ocean breakout",
+            package="pufferlib",
         ),
     ]  # fmt: skip
 

@@ -36,7 +36,7 @@ def cells(rate: Rate, measures: list[Rate]) -> list[str]:
 def _times(value: float | None) -> str:
     if value is None:
         return ""
-    return f"{value:,.0f} ×" if value >= 100.0 else f"{value:.3g} ×"
+    return f"{value:,.0f} ×" if value >= 10.0 else f"{value:.2f} ×"
 
 
 def headers(measures: list[Rate]) -> list[str]:
