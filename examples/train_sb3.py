@@ -144,6 +144,7 @@ def draw(curve, others, path):
     axes.set(xlabel="steps [million]", ylabel="points a ball", xlim=(0, 1.02 * last), ylim=(0, None))
     axes.yaxis.set_major_formatter("{x:,.0f}")
     steps, minutes = np.array([(0, 0.0), *curve.minutes]).T
+    steps, minutes = np.append(steps, 2 * steps[-1]), np.append(minutes, 2 * minutes[-1])  # beyond the end
     clock = axes.secondary_xaxis(
         "top",
         functions=(
@@ -153,7 +154,7 @@ def draw(curve, others, path):
     )
     clock.set_xlabel("minutes of training")
     axes.grid(alpha=0.3)
-    axes.legend(loc="center right", bbox_to_anchor=(1, 0.45))
+    axes.legend(loc="center right", bbox_to_anchor=(1, 0.6 * others["reflex"] / axes.get_ylim()[1]))
     figure.savefig(path, dpi=120)
     print(f"wrote {path}")
 
