@@ -69,7 +69,7 @@ def policy_of(model, command=""):
 
 
 def evaluate(policy, envs):
-    """Points of a ball and its life [s], one in each environment: means, and half of the 95 % intervals."""
+    """Points of a ball and its life [s], one on each board: means, and half of the 95 % intervals."""
     rows, _ = envs.reset(seed=0)
     points, steps, plays = np.zeros(len(rows)), np.zeros(len(rows)), np.ones(len(rows), bool)
     while plays.any():
@@ -173,7 +173,9 @@ chosen = parser.parse_args()
 
 torch.set_num_threads(1)  # the network is small: two threads mostly wait for each other
 options = {"frame_skip": 60 // DECISIONS, "time_limit": LONGEST}
-unseen = PinballVectorEnv(chosen.balls, "SameStep", boards=chosen.balls, board_seed=UNSEEN, **options)
+unseen = PinballVectorEnv(
+    chosen.balls, "SameStep", own_boards=True, boards=chosen.balls, board_seed=UNSEEN, **options
+)
 worlds = {name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN) for name in ("random", "reflex")}
 others = {name: time_balls(one, PlayerKind[name.upper()], LONGEST).score[0] for name, one in worlds.items()}
 for name, points in others.items():

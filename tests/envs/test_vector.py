@@ -8,6 +8,7 @@ import pytest
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from silverball.envs import IDS, PinballEnv, PinballVectorEnv
+from silverball.table import load_table
 
 MODES = tuple(AutoresetMode)
 CLASSIC = "silverball/PinballClassic-v0"
@@ -217,3 +218,59 @@ def test_arrays_that_do_not_fit_are_left_alone():
     assert not gym.make_vec(CLASSIC, 3).write_to(np.zeros(shape, np.float32), flags, flags)
     stacked = gym.make_vec(CLASSIC, 3, zero_copy=True, observation="pixels")
     assert not stacked.write_to(np.zeros(stacked.observation_space.shape, np.uint8), flags, flags)
+
+
+def test_environments_can_have_boards_of_their_own():
+    envs = PinballVectorEnv(5, "SameStep", own_boards=True, boards=3, board_seed=40, time_limit=1.0)
+    observations, infos = envs.reset(seed=7)
+    assert infos["board"].tolist() == [40, 41, 42, 40, 41]
+    singles = [PinballEnv(boards=1, board_seed=40 + number % 3, time_limit=1.0) for number in range(5)]
+    for number, env in enumerate(singles):
+        assert env.reset(seed=7 + number)[0].tolist() == observations[number].tolist()
+    for action in np.random.default_rng(0).integers(0, 4, (200, 5)):
+        observations, rewards, terminated, truncated, infos = envs.step(action)
+        assert infos["board"].tolist() == [40, 41, 42, 40, 41]
+        for number, env in enumerate(singles):
+            observation, *rest = env.step(int(action[number]))
+            assert rest[:3] == [rewards[number], terminated[number], truncated[number]]
+            if terminated[number] or truncated[number]:
+                observation, _ = env.reset()
+            assert observation.tolist() == observations[number].tolist()
+
+
+def test_tables_can_be_given_one_by_one():
+    classic = load_table("classic")
+    bare = classic.model_copy(update={"triangular_prism": (), "cylinder": classic.cylinder[:2]})
+    envs = PinballVectorEnv(4, own_boards=True, table=[bare, "classic"])
+    observations, infos = envs.reset(seed=7)
+    assert infos["board"].tolist() == [0, 1, 0, 1]
+    assert envs.single_observation_space == PinballEnv(table="classic").observation_space
+    assert observations in envs.observation_space
+    fields = {field.group.name: field for field in envs._engine.pool.fields}
+    prisms, cylinders = (fields[name] for name in ("triangular_prisms", "cylinders"))
+    assert not observations[0, prisms.first : prisms.end].any()
+    assert observations[1, prisms.first : prisms.end].all()
+    shown = observations[:2, cylinders.first : cylinders.end]
+    assert shown[0, :6].tolist() == shown[1, :6].tolist()
+    assert not shown[0, 6:].any()
+    alone = PinballEnv(table=[bare, "classic"])
+    boards = {alone.reset(seed=seed)[1]["board"] for seed in range(20)}
+    assert boards == {0, 1}, "a single one draws for every episode"
+    for action in np.random.default_rng(0).integers(0, 4, (300, 4)):
+        envs.step(action)
+    pictures = PinballVectorEnv(2, own_boards=True, table=[bare, "classic"], observation="pixels", stack=1)
+    empty, full = pictures.reset(seed=7)[0].astype(int)
+    assert full.sum() > empty.sum()
+
+
+def test_tables_that_do_not_fit_together_are_refused():
+    classic, rolling = load_table("classic"), load_table("rolling")
+    for tables, words in (
+        ([classic, rolling], "table 1 of the list .* has another"),
+        ([classic, "random"], "table 1 of the list .* is a recipe"),
+        ([], "empty"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            PinballVectorEnv(2, table=tables)
+    with pytest.raises(TypeError, match="a list of them, got int"):
+        PinballVectorEnv(2, table=[classic, 7])

@@ -86,7 +86,7 @@ def _rewards() -> str:
     return (
         f'Points of the step × {POINT:g} (a cylinder is worth 100 points, a prism 50); with `reward="time"` the '
         "step's seconds if a ball is still on the board at its end. `info` carries the totals of the episode so "
-        f"far: {', '.join(f'`{name}`' for name in INFO)} (`board`: the seed of the board, −1 for a drawn one)."
+        f"far: {', '.join(f'`{name}`' for name in INFO)} (`board`: the seed of the board, in a list of tables its number, −1 for a single one)."
     )
 
 

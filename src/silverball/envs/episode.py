@@ -182,7 +182,7 @@ def begin(at: Any, rules: Any, index: int) -> None:
     key0, key1 = episode.key & WORD, (episode.key >> 32) & WORD
     high, low = threefry(key0, key1, episode.number & WORD, 0)
     choice, _ = threefry(key0, key1, episode.number & WORD, 1)
-    which = (choice * rules.boards) >> 32
+    which = (choice * rules.boards) >> 32 if rules.own_boards == 0 else index % rules.boards
     the.board_of(at)[index] = which
     copy_bytes(at.worlds_at + index * WORLD_SIZE, at.blanks_at + which * WORLD_SIZE, WORLD_SIZE)
     world, log = the.worlds(at)[index], the.logs(at)[index]

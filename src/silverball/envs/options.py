@@ -6,6 +6,7 @@ import dataclasses
 import difflib
 import math
 import os
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -34,9 +35,10 @@ class Options:
         ValueError: One of them cannot be.
     """
 
-    table: Table | str | os.PathLike[str] = option(
+    table: Table | str | os.PathLike[str] | Sequence[Table | str | os.PathLike[str]] = option(
         "random",
-        "a built-in name, a path or a table; a recipe gives every episode a random board",
+        "a built-in name, a path or a table; a recipe gives every episode a random board, a list of finished "
+        "tables with the same board and paddles one of them",
     )
     boards: int = option(
         64, "of a recipe: how many boards are made beforehand, for the episodes to draw from"

@@ -1,20 +1,21 @@
 """Which boards do the episodes draw from? A pool, made before the first step and shared by all environments.
 
 A board takes some 50 ms to make and check, a step a tenth of a microsecond; so episodes draw a board from a
-pool instead of making one. All boards of a pool have the same borders, slant walls and paddles: they come
-from one recipe and differ by their obstacles.
+pool instead of making one. All boards of a pool have the same borders and paddles, so that what is observed
+means the same on each: they come from one recipe, or from a list of tables that are alike in this.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.slots import Field, fields
+from silverball.envs.slots import CylinderSlot, Field, PrismSlot, fields
 from silverball.physics.layout import LOG, WORLD, Kind, Part, records
 from silverball.table import Table, generate_table, load_table
 from silverball.world import WorldBatch
@@ -26,7 +27,7 @@ class Pool(NamedTuple):
 
     Attributes:
         tables: The finished tables.
-        seeds: The seed of each board, int64 [board]; −1 for a table that was not made from a seed.
+        seeds: The seed of each board, int64 [board]; of a list of tables their numbers; −1 for one table.
         boards: The compiled tables.
         blanks: WORLD records of worlds in which nothing has happened yet, one for each board.
         layouts: The groups of each board's obstacles in an observation, float32 [board, column].
@@ -46,52 +47,86 @@ class Pool(NamedTuple):
         return self.fields[-1].end
 
 
-def pool_of(table: Table | str | os.PathLike[str], count: int, board_seed: int) -> Pool:
-    """The pool of a recipe, or of one table.
+Named = Table | str | os.PathLike[str]
+"""A table, the name of a built-in one, or a path."""
+
+
+def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool:
+    """The pool of a recipe, of one table, or of a list of tables.
 
     Args:
-        table: A built-in name, a path, or a table.
+        table: A table, a built-in name or a path; or a list of these, of finished tables.
         count: How many boards, if it is a recipe.
         board_seed: The seed of the first board; the others follow.
 
     Raises:
         TableError: There is no such table, or it has problems.
         TypeError: It is something else.
+        ValueError: Tables of a list cannot be in one pool.
     """
+    if isinstance(table, (list, tuple)):
+        return _listed(tuple(_loaded(one) for one in table))
+    one = _loaded(table)  # type: ignore[arg-type]
+    return _drawn(one, count, board_seed) if one.random is not None else _compiled((one,), [-1])
+
+
+def _loaded(table: Named) -> Table:
     if isinstance(table, (str, os.PathLike)):
-        table = load_table(table)
+        return load_table(table)
     if not isinstance(table, Table):
-        raise TypeError(f"table must be a built-in name, a path or a Table, got {type(table).__name__}")
-    return _made(table, count, board_seed) if table.random is not None else _made(table, 1, -1)
+        raise TypeError(
+            f"table must be a built-in name, a path, a Table or a list of them, got {type(table).__name__}"
+        )
+    return table
 
 
 @lru_cache(maxsize=8)
-def _made(table: Table, count: int, board_seed: int) -> Pool:
-    seeds = np.arange(board_seed, board_seed + count)
-    tables = (table,) if table.random is None else tuple(generate_table(int(s), table) for s in seeds)
+def _drawn(recipe: Table, count: int, board_seed: int) -> Pool:
+    seeds = range(board_seed, board_seed + count)
+    return _compiled(tuple(generate_table(seed, recipe) for seed in seeds), seeds)
+
+
+@lru_cache(maxsize=8)
+def _listed(tables: tuple[Table, ...]) -> Pool:
+    if not tables:
+        raise ValueError("the list of tables is empty, it needs at least one")
+    for number, table in enumerate(tables):
+        which = f"table {number} of the list ({table.name})"
+        if table.random is not None:
+            raise ValueError(f"{which} is a recipe: draw boards from it with generate_table(seed, recipe)")
+        for part in ("board", "paddle"):
+            if getattr(table, part) != getattr(tables[0], part):
+                raise ValueError(f"{which} has another [{part}] than the first one; they must be the same")
+    return _compiled(tables, range(len(tables)))
+
+
+def _compiled(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     boards = compile_tables(tables)
-    layout = fields(len(tables[0].triangular_prism), len(tables[0].cylinder))
+    layout = fields(
+        max(len(table.triangular_prism) for table in tables), max(len(table.cylinder) for table in tables)
+    )
     blanks = records(len(tables), WORLD)
     for part, side in ((Part.LEFT_PADDLE, 0), (Part.RIGHT_PADDLE, 1)):
         rest = boards.collider["angle_rest"][boards.board["collider_first"] + part]
         blanks["paddle"]["angle"][:, side] = rest
         blanks["paddle"]["angle_commanded"][:, side] = rest
-    return Pool(tables, seeds, boards, blanks, _layouts(boards, layout), layout)
+    return Pool(tables, np.array(seeds, np.int64), boards, blanks, _layouts(boards, layout), layout)
 
 
 def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:
-    """The obstacles of each board as they stand in an observation."""
+    """The obstacles of each board as they stand in an observation; 0 where others have more of them."""
     prisms, cylinders = layout[-2:]
     shown = np.zeros((len(boards.board), cylinders.end - prisms.first), np.float32)
     for row, board in zip(shown, boards.board, strict=True):
         parts = boards.collider[board["collider_first"] : board["collider_end"]]
         up, across = board["half_length"], board["half_width"]
         corners = parts[parts["kind"] == Kind.TRIANGULAR_PRISM]
+        first = row[: len(corners) * len(PrismSlot)]
         for corner in range(3):
-            row[2 * corner : prisms.end - prisms.first : 6] = corners[f"x{corner}"] / up
-            row[2 * corner + 1 : prisms.end - prisms.first : 6] = corners[f"z{corner}"] / across
+            first[2 * corner :: 6] = corners[f"x{corner}"] / up
+            first[2 * corner + 1 :: 6] = corners[f"z{corner}"] / across
         round_ones = parts[parts["kind"] == Kind.CYLINDER]
-        rest = row[prisms.end - prisms.first :]
+        rest = row[prisms.end - prisms.first :][: len(round_ones) * len(CylinderSlot)]
         rest[0::3], rest[1::3] = round_ones["x"] / up, round_ones["z"] / across
         rest[2::3] = round_ones["radius"] / across
     return shown

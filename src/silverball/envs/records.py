@@ -70,7 +70,8 @@ RULES = np.dtype(
         ("balls", "i8"), ("by_button", "i8"), ("by_time", "i8"),  # balls of an episode; create, reward
         ("stall", "i8"), ("limit", "i8"),  # steps
         ("jitter_bit", "i8"), ("create_bit", "i8"),  # 0: there is no such button
-        ("boards", "i8"), ("mode", "i8"),
+        ("boards", "i8"), ("own_boards", "i8"),  # 1: environment i plays board i, in turn if there are fewer
+        ("mode", "i8"),
         ("per_x", "f8"), ("per_z", "f8"), ("per_speed", "f8"), ("per_quiet", "f8"), ("per_ball", "f8"),
         ("rest", "f8", (2,)), ("up", "f8", (2,)),  # angles of the paddles [rad]
         ("per_angle", "f8", (2,)), ("per_turn", "f8", (2,)),

@@ -45,6 +45,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         threads: How many threads a step may use; None: one for each core. It never changes a result.
         render_mode: "rgb_array" or None.
         max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows.
+        own_boards: Whether environment i always plays board i of the pool, in turn if there are fewer boards,
+            instead of one that is drawn for every episode.
         options: See `silverball.envs.options.OPTIONS`.
 
     Raises:
@@ -71,6 +73,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         threads: int | None = None,
         render_mode: str | None = None,
         max_episode_steps: int | None = None,
+        own_boards: bool = False,
         **options: Any,
     ) -> None:
         self.num_envs = checked_int("num_envs", num_envs, 1, 2**22)
@@ -83,6 +86,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
         mode = MODES[self.autoreset_mode]
         self._engine = engine = Engine(self.options, self.num_envs, mode, threads, bool(zero_copy))
+        engine.rules["own_boards"] = bool(own_boards)
         if max_episode_steps is not None:
             limit = checked_int("max_episode_steps", max_episode_steps, 1, 2**62)
             engine.rules["limit"] = min(limit, int(engine.rules["limit"][0]))
