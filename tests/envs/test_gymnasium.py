@@ -72,8 +72,10 @@ def test_a_step_after_the_end_is_refused():
     env = gym.make(CLASSIC, time_limit=1 / 60)
     env.reset(seed=0)
     assert env.step(0)[3]
+    state = env.unwrapped.save_state()
     with pytest.raises(gym.error.ResetNeeded):
         env.step(0)
+    assert env.unwrapped.save_state() == state, "nothing has moved"
     env.reset()
     assert env.step(0)[3]
 
@@ -149,7 +151,9 @@ def test_a_copy_goes_on_like_its_original(again):
     env.reset(seed=11)
     for action in range(4):
         env.step(action)
+    env.action_space.seed(3)
     twin = again(env)
+    assert [twin.action_space.sample() for _ in range(9)] == [env.action_space.sample() for _ in range(9)]
     for _ in range(2000):
         one, other = env.step(3), twin.step(3)
         assert one[0].tolist() == other[0].tolist()
@@ -172,6 +176,43 @@ def test_the_table_can_be_rendered():
     assert picture.dtype == np.uint8
     assert (picture != later).any()
     assert gym.make(CLASSIC).render() is None
+
+
+def test_pictures_show_nothing_of_another_episode_or_branch():
+    env, fresh = (gym.make(CLASSIC, render_mode="rgb_array") for _ in range(2))
+    env.reset(seed=8)
+    state, over = env.unwrapped.save_state(), False
+    while not over:
+        env.render()
+        over = env.step(0)[2]
+    env.render()
+    env.reset(seed=5), fresh.reset(seed=5)
+    for _ in range(40):
+        env.step(3), fresh.step(3)
+        assert (env.render() == fresh.render()).all()
+    env.unwrapped.restore_state(state)
+    again = gym.make(CLASSIC, render_mode="rgb_array").unwrapped
+    again.restore_state(state)
+    assert (env.render() == again.render()).all()
+
+
+def test_tables_side_by_side_show_nothing_of_each_other():
+    envs = gym.make_vec(CLASSIC, 3, render_mode="rgb_array")
+    alone = gym.make(CLASSIC, render_mode="rgb_array")
+    envs.reset(seed=4), alone.reset(seed=5)
+    for _ in range(60):
+        envs.step(np.zeros(3, int)), alone.step(0)
+        assert (envs.render()[1] == alone.render()).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "rate"),
+    [({}, 60), ({"frame_skip": 4}, 15), ({"tick_rate": 240}, 240), ({"frame_skip": 500}, 1)],
+)
+def test_films_of_renderings_run_as_fast_as_the_table(options, rate):
+    assert gym.make(CLASSIC, **options).metadata["render_fps"] == rate
+    assert gym.make_vec(CLASSIC, 2, **options).metadata["render_fps"] == rate
+    assert PinballEnv.metadata["render_fps"] == 60
 
 
 def test_ids_can_be_made_by_the_name_of_the_module_too():

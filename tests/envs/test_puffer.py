@@ -25,7 +25,7 @@ OPTIONS = {"table": "classic", "time_limit": 1.0}
 def test_steps_are_those_of_the_vector_environment(more):
     envs = SilverballPufferEnv(3, seed=5, **OPTIONS, **more)
     plain = PinballVectorEnv(3, "SameStep", **OPTIONS, **more)
-    assert envs.reset()[0].tolist() == plain.reset(seed=5)[0].tolist()
+    assert envs.reset()[0].tolist() == plain.reset(seed=5 * 3)[0].tolist()
     told = []
     for actions in np.random.default_rng(0).integers(0, 4, (150, 3)):
         observations, rewards, terminals, truncations, infos = envs.step(actions)
@@ -42,11 +42,13 @@ def test_steps_are_those_of_the_vector_environment(more):
 def test_its_vectors_run_them_side_by_side():
     envs = pufferlib.vector.make(
         SilverballPufferEnv,
-        env_kwargs={"num_envs": 2, **OPTIONS},
-        num_envs=2,
+        env_kwargs={"num_envs": 4, **OPTIONS},
+        num_envs=3,
         backend=pufferlib.vector.Serial,
     )
-    envs.reset(seed=0)
-    observations, *_ = envs.step(np.zeros(4, np.int32))
-    assert observations.shape == (4, 63)
+    for seed in (0, 1):
+        first, *_ = envs.reset(seed=seed)
+        assert len({tuple(row) for row in first.tolist()}) == 12, "no two play the same"
+    observations, *_ = envs.step(np.zeros(12, np.int32))
+    assert observations.shape == (12, 63)
     envs.close()

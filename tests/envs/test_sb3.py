@@ -123,7 +123,12 @@ def test_attributes_and_methods_are_reached_through_it():
     envs = SilverballVecEnv(3, seed=0, **OPTIONS)
     envs.reset()
     assert envs.get_attr("num_envs", [0, 2]) == [3, 3]
-    assert [state.shape[0] for state in envs.env_method("save_state", indices=[1])] == [3]
+    first, last = envs.env_method("save_state", indices=[0, 2])
+    envs.env_method("restore_state", first, indices=[2])
+    assert envs.env_method("save_state", indices=[2]) == [first] != [last]
+    assert envs.env_method("observe")[0].shape == (3, 63)
+    with pytest.raises(ValueError, match="without indices"):
+        envs.env_method("observe", indices=[1])
     envs.set_attr("spec", None)
     with pytest.raises(ValueError, match="share"):
         envs.set_attr("spec", None, indices=[0])

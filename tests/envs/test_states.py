@@ -133,6 +133,37 @@ def test_a_state_of_other_boards_or_another_rate_is_refused():
             PinballVectorEnv(2, **other).restore_state(env.save_state())
 
 
+@pytest.mark.parametrize("options", [{"table": "classic"}, OPTIONS[1], OPTIONS[2]], ids=str)
+@pytest.mark.parametrize("number", [-1, 3, 10**9])
+def test_a_state_on_a_board_that_is_not_there_is_refused(options, number):
+    env, envs = PinballEnv(**options), PinballVectorEnv(2, **options)
+    env.reset(seed=0), envs.reset(seed=0)
+    places = [env._engine.board_at]
+    if "observation" in options:
+        places.append(places[0] + 8)  # the board of the first scene
+    for place in places:
+        state = bytearray(env.save_state())
+        state[place : place + 8] = np.int64(number).tobytes()
+        for one in (env, envs):
+            before = bytes(np.asarray(one.save_state()))
+            with pytest.raises(StateError, match="other boards"):
+                one.restore_state(bytes(state))
+            assert bytes(np.asarray(one.save_state())) == before
+
+
+def test_a_state_from_before_the_first_reset_has_no_seed_yet():
+    blank = PinballEnv(table="classic").save_state()
+    starts = []
+    for _ in range(2):
+        env = PinballEnv(table="classic")
+        env.restore_state(blank)
+        starts.append(env.reset()[0].tolist())
+        env.reset(seed=0)
+        starts.append(env.save_state())
+    assert starts[0] != starts[2]
+    assert starts[1] == starts[3]
+
+
 def test_a_vector_refuses_as_many_states_as_it_has_no_place_for():
     envs = PinballVectorEnv(3, table="classic")
     envs.reset(seed=0)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+
 import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
-from silverball.envs import IDS, PinballEnv, PinballVectorEnv
+from silverball.envs import IDS, PinballEnv, PinballVectorEnv, engine
 from silverball.table import load_table
+from silverball.world.batch import pool_of_threads
 
 MODES = tuple(AutoresetMode)
 CLASSIC = "silverball/PinballClassic-v0"
@@ -154,14 +158,136 @@ def test_steps_return_new_arrays_or_with_zero_copy_always_the_same():
         assert np.shares_memory(first, second) is zero_copy
 
 
-def test_any_number_of_threads_gives_the_same_bits():
-    def result(threads: int) -> list[bytes]:
-        envs = gym.make_vec(CLASSIC, 1000, threads=threads)
-        envs.reset(seed=1)
-        random = np.random.default_rng(2)
-        return [envs.step(random.integers(0, 4, 1000))[0].tobytes() for _ in range(30)]
+@pytest.mark.parametrize(
+    "options", [{"table": "classic"}, {"boards": 2, "observation": "pixels", "size": (20, 12), "stack": 3}]
+)
+@pytest.mark.parametrize("zero_copy", [False, True])
+def test_any_number_of_threads_gives_the_same_bits(options, zero_copy, monkeypatch):
+    monkeypatch.setattr(engine, "LEAST_SLICE", 1)
+    calls = []
+    monkeypatch.setattr(
+        engine, "pool_of_threads", lambda threads: calls.append(threads) or pool_of_threads(threads)
+    )
 
-    assert result(1) == result(3)
+    def result(threads: int) -> list[bytes]:
+        envs = PinballVectorEnv(40, "Disabled", zero_copy, threads, time_limit=0.3, **options)
+        envs.reset(seed=1)
+        random, seen = np.random.default_rng(2), []
+        for _ in range(60):
+            observations, _, terminated, truncated, _ = envs.step(random.integers(0, 4, 40))
+            seen.append(observations.tobytes())
+            mask = terminated | truncated | (random.random(40) < 0.1)
+            if mask.any():
+                seen.append(envs.reset(options={"reset_mask": mask})[0].tobytes())
+        return seen
+
+    alone = result(1)
+    assert calls == []
+    assert result(3) == alone
+    assert set(calls) == {3}
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda envs: pickle.loads(pickle.dumps(envs))])
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("options", [{"balls": 2}, {"observation": "pixels", "size": (20, 12), "stack": 2}])
+def test_a_copy_goes_on_like_its_original_and_leaves_it_alone(again, mode, options):
+    envs = PinballVectorEnv(3, mode, boards=2, max_episode_steps=90, own_boards=True, **options)
+    envs.reset(seed=5)
+    envs.action_space.seed(3)
+    envs.mine = "kept"
+    actions = np.random.default_rng(0).integers(0, 4, (200, 3))
+    for action in actions[:50]:
+        envs.step(action)
+    before, twin = envs.save_state().tobytes(), again(envs)
+
+    def future(one):
+        told = [one.action_space.sample()]
+        for action in actions:
+            told.append(one.step(action))
+            over = told[-1][2] | told[-1][3]
+            if mode is AutoresetMode.DISABLED and over.any():
+                told.append(one.reset(options={"reset_mask": over}))
+        return tuple(told)
+
+    twins = copy.deepcopy(future(twin))
+    assert envs.save_state().tobytes() == before
+    assert same(twins, future(envs))
+    assert twin.mine == "kept"
+    assert twin._engine.batch.threads == envs._engine.batch.threads
+
+
+def test_an_engine_is_not_copied():
+    with pytest.raises(TypeError, match="copy the environment"):
+        copy.deepcopy(PinballVectorEnv(1, table="classic")._engine)
+
+
+@pytest.mark.parametrize(
+    "options", [{"table": "classic"}, {"table": "classic", "observation": "pixels", "stack": 1}], ids=str
+)
+def test_arrays_of_ones_own_are_written_to(options):
+    envs, plain = (PinballVectorEnv(3, "Disabled", zero_copy, **options) for zero_copy in (True, False))
+    shape = envs.observation_space.shape
+    arrays = (np.zeros(shape, envs.observation_space.dtype), np.zeros(3, bool), np.zeros(3, bool))
+    envs.reset(seed=1), plain.reset(seed=1)
+    assert envs.write_to(*arrays)
+    mask = np.array([True, False, False])
+    for one in (envs, plain):
+        observations, _ = one.reset(options={"reset_mask": mask})
+    assert arrays[0].tolist() == observations.tolist(), "those that go on are there too"
+    for action in np.random.default_rng(0).integers(0, 4, (80, 3)):
+        result = [one.step(action) for one in (envs, plain)]
+        assert arrays[0].tolist() == result[1][0].tolist()
+    assert arrays[1].tolist() == result[1][2].tolist()
+
+
+def test_arrays_that_cannot_be_written_to_are_not():
+    envs = PinballVectorEnv(3, zero_copy=True, table="classic")
+    envs.reset(seed=1)
+
+    def arrays(shape=(3, 63), kind=np.float32, flags=(3,)):
+        return np.zeros(shape, kind), np.zeros(flags, bool), np.zeros(flags, bool)
+
+    still = arrays()
+    still[0].flags.writeable = False
+    for given in (
+        still, arrays((63, 3)), arrays(kind=np.float64), arrays(flags=(3, 1)),
+        (np.zeros((3, 126), np.float32)[:, ::2], *arrays()[1:]),
+    ):  # fmt: skip
+        assert not envs.write_to(*given)
+        envs.step(np.full(3, 3))
+        assert not given[0].any()
+    assert not PinballVectorEnv(3, table="classic").write_to(*arrays()), "new arrays are what it returns"
+    named = PinballVectorEnv(3, zero_copy=True, table="classic", observation="dict")
+    assert not named.write_to(*arrays())
+
+
+def test_a_picture_that_somebody_has_written_to_is_whole_again_after_a_reset():
+    options = {"boards": 1, "observation": "pixels", "size": (20, 12), "stack": 2, "zero_copy": True}
+    envs, other = PinballVectorEnv(2, "Disabled", **options), PinballVectorEnv(2, "Disabled", **options)
+    envs.reset(seed=0)
+    for _ in range(20):
+        envs.step(np.zeros(2, int))[0][:] = 7
+    assert envs.reset(seed=1)[0].tolist() == other.reset(seed=1)[0].tolist()
+    for _ in range(20):
+        assert envs.step(np.ones(2, int))[0].tolist() == other.step(np.ones(2, int))[0].tolist()
+
+
+@pytest.mark.parametrize("seed", [1.5, "xy", -1, [0, 1.5], [0, -1]])
+def test_what_is_no_seed_is_refused_in_words(seed):
+    with pytest.raises(ValueError, match="seed must be a whole number from 0"):
+        PinballVectorEnv(2, table="classic").reset(seed=seed)
+    if not isinstance(seed, list):
+        with pytest.raises(ValueError, match="seed must be a whole number from 0"):
+            PinballEnv(table="classic").reset(seed=seed)
+
+
+def test_options_that_are_none_are_refused_in_words():
+    with pytest.raises(TypeError, match="options must be a dict"):
+        PinballVectorEnv(2, table="classic").reset(options=[1])
+    envs = PinballVectorEnv(2, table="classic")
+    envs.reset(seed=0)
+    with pytest.raises(ValueError, match="actions must be whole numbers"):
+        envs.step([[1], [1, 2]])
 
 
 def test_fewer_steps_can_be_asked_for_as_gymnasium_does():

@@ -12,7 +12,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from silverball.envs.outputs import WRITTEN, Outputs
 from silverball.envs.pictures import Pictures, pictures_of
 from silverball.envs.pixels import draw_finals
 from silverball.envs.pool import Pool, PooledBatch, pool_of
-from silverball.envs.records import COUNTS, EPISODE, FILM, RULES, SCENE, Mode, Task
+from silverball.envs.records import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import SETTINGS, straight
@@ -51,6 +51,7 @@ class Engine:
             float32 [env, column], empty for pictures; rewards, terminated, truncated [env]; counts, the
             events so far, int64 [env, count]: `COUNTS`, then the board's seed and whether it stalled.
         window: The pictures of the last observation, uint8 [env, stacked, pixel]; empty for states.
+        board_at: Where in the bytes of a state the number of its board is.
         finals, final_counts: Observations and counts of episodes that ended in the last step.
     """
 
@@ -83,6 +84,7 @@ class Engine:
         sizes = (MARK, WORLD.itemsize, EPISODE.itemsize, 8, self.stack * SCENE.itemsize)
         edges = np.cumsum((0, *(size * self.count for size in sizes)))
         self.memory = np.zeros(edges[-1], np.uint8)
+        self.board_at = int(edges[3])
         marks, worlds, episodes, board_of, scenes = (
             self.memory[start:end] for start, end in itertools.pairwise(edges)
         )
@@ -168,7 +170,9 @@ class Engine:
     # --- what moves it
 
     def step_one(self, action: int) -> tuple[float, int]:
-        """Move the one environment on; its reward and `End` bits."""
+        """Move the one environment on; its reward and `End` bits. Nothing moves where the episode is over."""
+        if self.episodes["over"][0]:
+            return 0.0, End.WAS_OVER
         self._slide()
         ends: tuple[float, int] = self.move(self.addresses, 0, 1, action)
         return ends
@@ -230,15 +234,16 @@ class Engine:
         own = last.arrays[name]
         pairs = ((observations, own), (terminated, last.terminated), (truncated, last.truncated))
         fits = all(
-            given.dtype == mine.dtype and given.size == mine.size and given.flags.c_contiguous
+            given.dtype == mine.dtype and given.size == mine.size
+            and given.flags.c_contiguous and given.flags.writeable
             for given, mine in pairs
-        )
+        )  # fmt: skip
         if not (fits and self.owns_output and self.stack <= 1):
             return False
         shown = {name: observations.reshape(own.shape)}
         self.outputs.replace(terminated=terminated, truncated=truncated, **shown)
         self._places[:] = self.outputs.last.addresses
-        self.rules["mends"] = 0
+        self.rules["mends"], self.rules["redraw"] = 0, self.shows_pictures
         return True
 
     @property
@@ -256,6 +261,12 @@ class Engine:
         return drawn
 
     # --- beginning and saving
+
+    @property
+    def has_begun(self) -> NDArray[np.bool_]:
+        """In which environments an episode has begun since they were made or seeded, bool [env]."""
+        begun: NDArray[np.bool_] = self.episodes["number"] >= 0
+        return begun
 
     def forget(self) -> None:
         """Be as if never reset."""
@@ -280,10 +291,21 @@ class Engine:
         size = sum(part.shape[1] for part in self.parts)
         if states.ndim != 2 or states.shape[1] != size or (states[:, :MARK] != self.parts[0][0]).any():
             self.refuse(states.shape[-1] if states.ndim else 0)
-        start = 0
-        for part in self.parts:
-            part[rows] = states[:, start : start + part.shape[1]]
-            start += part.shape[1]
+        edges = np.cumsum((0, *(part.shape[1] for part in self.parts)))
+        parts = [states[:, start:end] for start, end in itertools.pairwise(edges)]
+        boards = [np.ascontiguousarray(parts[3]).view(np.uint64)]
+        if self.stack:
+            boards.append(
+                _as_records(np.ascontiguousarray(parts[4]).reshape(-1), SCENE)["board"].view(np.uint64)
+            )
+        if any((numbers >= len(self.pool.tables)).any() for numbers in boards):
+            self.refuse(size)
+        for own, part in zip(self.parts, parts, strict=True):
+            own[rows] = part
+
+    def __reduce__(self) -> NoReturn:
+        """Nothing to copy: the kernels know the arrays by their addresses. Environments copy themselves."""
+        raise TypeError("an engine cannot be copied or pickled: copy the environment that it belongs to")
 
     def refuse(self, size: int) -> None:
         """Say what is wrong with a state that cannot be restored."""

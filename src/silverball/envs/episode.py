@@ -60,6 +60,8 @@ def move(addresses: Any, first: int, end: int, task: int) -> tuple[float, int]:
         observe_envs(at, first, end)
     else:
         if task >= 0:
+            if the.episodes(at)[0].over != 0:
+                return 0.0, End.WAS_OVER + 0
             the.actions(at)[0] = task
         return step_envs(at, first, end)
     return 0.0, 0

@@ -120,6 +120,11 @@ class Options:
         """Time of a step [s]."""
         return self.frame_skip / self.tick_rate
 
+    @property
+    def frames_per_second(self) -> int:
+        """Pictures for people in a second of play, one for each step; at least 1."""
+        return max(1, round(1.0 / self.step_seconds))
+
     def steps_in(self, seconds: float | None) -> int:
         """The least number of whole steps that last so long; 2⁶² for None."""
         return 2**62 if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))

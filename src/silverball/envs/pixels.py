@@ -51,6 +51,8 @@ def show_first(at: Any, index: int) -> None:
     the.scenes(at)[index, last].lit = 0
     for number in range(last):
         copy_scene(at, index, last, number)
+    for place in range(at.ring):  # nothing is mended of what was there, whatever has become of it
+        the.drawn(at)[index, place].board = -1
     show_again(at, index)
 
 

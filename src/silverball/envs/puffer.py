@@ -32,7 +32,8 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
     Args:
         num_envs: How many.
         buf: The trainer's buffers; None: own ones.
-        seed: Of the first episodes: environment i gets seed + i.
+        seed: Of the first episodes: environment i gets seed × num_envs + i, so that no two workers, which get
+            seeds one after the other, play the same.
         threads: How many threads a step may use; PufferLib's workers are processes, so one.
         options: See `silverball.envs.options.OPTIONS`; observations cannot be "dict".
     """
@@ -53,7 +54,8 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
 
     def reset(self, seed: int | None = None) -> tuple[Any, list[dict[str, float]]]:
         """Begin an episode in every environment."""
-        observations, _ = self.envs.reset(seed=self.seed if seed is None else seed)
+        first = (self.seed if seed is None else seed) * self.envs.num_envs
+        observations, _ = self.envs.reset(seed=first)
         if not self._is_direct:
             self.observations[:] = observations
         self.rewards[:], self.terminals[:], self.truncations[:] = 0.0, False, False

@@ -124,9 +124,18 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         setattr(self.envs, attr_name, value)
 
     def env_method(self, method_name: str, *arguments: Any, indices: Any = None, **named: Any) -> list[Any]:
-        """Call a method of the vector environment; its result for each of the chosen environments."""
-        result = getattr(self.envs, method_name)(*arguments, **named)
-        return [result for _ in self._get_indices(indices)]
+        """Call a method of the vector environment; its result for each of the chosen environments.
+
+        `save_state` and `restore_state` act on the chosen ones alone; others need all of them.
+        """
+        chosen = list(self._get_indices(indices))
+        if method_name == "save_state":
+            return [row.tobytes() for row in self.envs.save_state(chosen)]
+        if method_name == "restore_state":
+            named["index"] = chosen
+        elif len(chosen) < self.num_envs:
+            raise ValueError(f"{method_name!r} acts on all environments: call it without indices")
+        return [getattr(self.envs, method_name)(*arguments, **named)] * len(chosen)
 
     def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
         """No environment is wrapped in anything."""

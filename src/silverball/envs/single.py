@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from operator import index
+from sys import byteorder
 from typing import Any, NoReturn, SupportsFloat, cast
 
 import gymnasium
@@ -12,12 +13,19 @@ from numpy.typing import NDArray
 from silverball.envs.engine import MARK, Engine
 from silverball.envs.options import Options
 from silverball.envs.records import Mode
+from silverball.envs.seeds import GREATEST_SEED, key_of
 from silverball.envs.spaces import action_space, observation_space, shown_one
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
 
-GREATEST_SEED = 2**63
+REMADE = {
+    "_engine", "_viewer", "_codes", "_weights", "_move", "_addresses", "_row", "_counts", "_copy_row",
+    "_info", "_memory", "_mark", "_size", "_board", "_boards",
+}  # fmt: skip
+"""Attributes that follow from the options or look at the engine's arrays; a copy makes its own."""
+
 _HEAD, _ALL = slice(MARK), slice(None)  # of a state's bytes
+from_bytes = int.from_bytes
 
 
 class PinballEnv(gymnasium.Env[Any, Any]):
@@ -48,8 +56,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self._engine = engine = Engine(self.options, 1, Mode.DISABLED, threads=1, owns_output=True)
         self.observation_space = observation_space(self.options, engine.pool)
         self.action_space = action_space(self.options)
+        self.metadata = {**self.metadata, "render_fps": self.options.frames_per_second}
         self._viewer: Viewer | None = None
-        self._is_seeded = False
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
         # What the step needs, ready to hand.
@@ -59,6 +67,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self._info = info_of(self._counts.tolist())
         self._memory = memoryview(cast(Any, engine.memory))
         self._mark, self._size = bytes(engine.memory[:MARK]), len(engine.memory)
+        self._board, self._boards = slice(engine.board_at, engine.board_at + 8), len(engine.pool.tables)
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  (Gymnasium's own)
 
@@ -73,13 +82,16 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
         Returns:
             The observation, and the counts of events, all zero but `created`.
+
+        Raises:
+            ValueError: The seed is no whole number, or negative.
         """
-        super().reset(seed=seed)
-        if seed is not None:
-            self._engine.seed(seed % GREATEST_SEED)
-        elif not self._is_seeded:
+        key = None if seed is None else key_of(seed)
+        super().reset(seed=None if seed is None else int(seed))
+        if key is not None:
+            self._engine.seed(key)
+        elif not self._engine.has_begun.all():
             self._engine.seed(self.np_random.integers(GREATEST_SEED, dtype=np.uint64).astype(np.int64))
-        self._is_seeded = True
         self._engine.reset()
         self._info = info_of(self._counts.tolist())
         return self._shown(), self._info.copy()
@@ -137,20 +149,23 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """Go back to a saved state, bit for bit; `observe` gives its observation.
 
         Args:
-            state: What `save_state` of an environment with the same boards, tick rate and stack returned.
+            state: What `save_state` of an environment with the same boards, tick rate and stack returned. It
+                is no file format: bytes that somebody has changed are not recognised.
 
         Raises:
             StateError: It is something else; nothing has changed.
         """
         if type(state) is not bytes:
             state = _as_bytes(state)
-        if len(state) != self._size or state[_HEAD] != self._mark:
-            self._engine.refuse(len(state))
-        self._memory[_ALL] = state
-        self._is_seeded = True
         if self._copy_row is None:
+            self._engine.restore(np.frombuffer(state, np.uint8)[None], _ALL)
             self._engine.observe()
             self._info = info_of(self._counts.tolist())
+            return
+        is_such_a_one = len(state) == self._size and state[_HEAD] == self._mark
+        if not is_such_a_one or from_bytes(state[self._board], byteorder) >= self._boards:
+            self._engine.refuse(len(state))
+        self._memory[_ALL] = state
 
     def observe(self) -> Any:
         """The observation of the present state, as a new object."""
@@ -166,8 +181,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
     def __reduce__(self) -> tuple[Any, ...]:
         """How `copy` and `pickle` make another: the arrays are known by address and must be made anew."""
         chosen = {name: getattr(self.options, name) for name in self.options.__dataclass_fields__}
-        kept = (self.save_state(), self._is_seeded, self._np_random, self._np_random_seed, self.spec)
-        return _made_again, (type(self), self.render_mode, chosen, kept)
+        kept = {name: value for name, value in vars(self).items() if name not in REMADE}
+        return _made_again, (type(self), self.render_mode, chosen, self.save_state(), kept)
 
     # --- helpers
 
@@ -189,13 +204,15 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
 
 def _made_again(
-    make: type[PinballEnv], render_mode: str | None, options: dict[str, Any], kept: Any
+    make: type[PinballEnv],
+    render_mode: str | None,
+    chosen: dict[str, Any],
+    state: bytes,
+    kept: dict[str, Any],
 ) -> PinballEnv:
-    env = make(render_mode, **options)
-    state, env._is_seeded, env._np_random, env._np_random_seed, env.spec = kept
-    is_seeded = env._is_seeded
+    env = make(render_mode, **chosen)
     env.restore_state(state)
-    env._is_seeded = is_seeded
+    vars(env).update(kept)
     return env
 
 

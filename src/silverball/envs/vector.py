@@ -18,7 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from silverball.envs.engine import Engine
 from silverball.envs.options import Options
 from silverball.envs.records import Mode
-from silverball.envs.single import GREATEST_SEED, checked_render_mode
+from silverball.envs.seeds import GREATEST_SEED, key_of
+from silverball.envs.single import checked_render_mode
 from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
@@ -32,6 +33,9 @@ MODES = {
     AutoresetMode.SAME_STEP: Mode.SAME_STEP,
 }
 
+REMADE = {"_engine", "_viewer"}
+"""Attributes that look at the engine's arrays; a copy makes its own."""
+
 
 class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     """Many pinball tables that move together.
@@ -40,8 +44,9 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         num_envs: How many.
         autoreset_mode: When an environment whose episode is over begins the next: `AutoresetMode.NEXT_STEP`,
             `SAME_STEP` or `DISABLED`, or their values as text.
-        zero_copy: Whether every step writes to the same arrays: faster, and right for trainers that copy what
-            they keep. Else every step returns new arrays.
+        zero_copy: Whether every step writes to the same memory: faster, and right for trainers that copy what
+            they keep. What it returns is to be read only; several pictures are a window that slides. Without
+            it every step returns new arrays.
         threads: How many threads a step may use; None: one for each core. It never changes a result.
         render_mode: "rgb_array" or None.
         max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows.
@@ -80,7 +85,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self.options = Options.of(options)
         self.autoreset_mode = _checked_mode(autoreset_mode)
         self.metadata = {
-            "render_modes": ["rgb_array"], "render_fps": 60, "autoreset_mode": self.autoreset_mode,
+            "render_modes": ["rgb_array"], "render_fps": self.options.frames_per_second,
+            "autoreset_mode": self.autoreset_mode,
         }  # fmt: skip
         self.render_mode = checked_render_mode(render_mode)
         threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
@@ -97,7 +103,6 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
         self._all = np.ones(self.num_envs, np.bool_)
-        self._is_seeded = np.zeros(self.num_envs, np.bool_)
         self._has_begun = False  # all of them
         self._viewer: Viewer | None = None
 
@@ -122,14 +127,19 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             The observations, and the counts of events.
 
         Raises:
-            ValueError: The mask or the list of seeds has another length, or the mask names none.
+            ValueError: The mask or the list of seeds has another length, the mask names none, or a seed is no
+                whole number from 0.
             TypeError: The mask is no array of bool.
         """
-        super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
+        if options is not None and not isinstance(options, dict):
+            raise TypeError(f'options must be a dict such as {{"reset_mask": mask}}, got {options!r}')
         mask = self._checked_mask((options or {}).get("reset_mask"))
-        self._seed(seed, mask)
+        keys = self._keys(seed)
+        super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
+        self._seed(keys, mask)
         self._engine.masks[:] = mask
         self._engine.reset()
+        self._has_begun = bool(self._engine.has_begun.all())
         output = self._engine.outputs.last
         return self._shown(), output.told() if mask.all() else _infos(output.counts, mask)
 
@@ -168,6 +178,17 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             self._viewer = Viewer(self._engine.batch)
         return tuple(self._viewer.picture(index) for index in range(self.num_envs))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """How `copy` and `pickle` make another: the arrays are known by address and must be made anew."""
+        engine = self._engine
+        chosen = {name: getattr(self.options, name) for name in self.options.__dataclass_fields__}
+        made = (
+            self.num_envs, self.autoreset_mode, engine.owns_output, engine.batch.threads, self.render_mode,
+            None, bool(engine.rules["own_boards"][0]),
+        )  # fmt: skip
+        kept = {name: value for name, value in vars(self).items() if name not in REMADE}
+        return _made_again, (type(self), made, chosen, int(engine.rules["limit"][0]), self.save_state(), kept)
+
     # --- saving and branching
 
     def save_state(self, index: Index = None) -> NDArray[np.uint8]:
@@ -191,7 +212,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             index: Which environments.
 
         Raises:
-            StateError: The states belong to other boards, another tick rate or stack, or are damaged.
+            StateError: The states belong to other boards, another tick rate or stack, or are none. Bytes that
+                somebody has changed are not recognised.
             ValueError: The index is none, or has another length.
         """
         if isinstance(state, (bytes, bytearray, memoryview)):
@@ -207,8 +229,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 f"there are {len(rows)} states for {count} environments; give one, or one for each"
             )
         self._engine.restore(rows, where)
-        self._is_seeded[where] = True
-        self._has_begun = bool(self._is_seeded.all())
+        self._has_begun = bool(self._engine.has_begun.all())
         if self._engine.shows_pictures:
             self._engine.observe()
 
@@ -228,9 +249,15 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             truncated: bool [env].
 
         Returns:
-            Whether they do. Not so, and nothing has changed, if the arrays are of other types or shapes, or
-            not in one piece, or if an observation is several pictures, which slide along a ring.
+            Whether they do. Not so, and nothing has changed, if the arrays are of other types or shapes, not
+            in one piece or read-only, or if an observation is a dict or several pictures, which slide along a
+            ring.
         """
+        count = (self.num_envs,)
+        if (observations.shape, terminated.shape, truncated.shape) != (
+            self.observation_space.shape, count, count,
+        ):  # fmt: skip
+            return False
         return self._engine.write_to(observations, terminated, truncated)
 
     # --- helpers
@@ -242,7 +269,11 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def _take(self, actions: Any) -> None:
         """Check actions and hand them over as numbers."""
-        given = np.asarray(actions)
+        try:
+            given = np.asarray(actions)
+        except ValueError:  # rows of different lengths
+            given = np.asarray(actions, object)
+        kind, shape = given.dtype, given.shape
         if (
             given.ndim == 2
             and self.options.actions == "multibinary"
@@ -256,7 +287,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if given.shape != (self.num_envs,) or given.dtype.kind not in "iub":
             raise ValueError(
                 f"actions must be whole numbers in {self.action_space.__class__.__name__} of the shape "
-                f"{self.action_space.shape}, got {given.dtype} {np.shape(actions)}"
+                f"{self.action_space.shape}, got {kind} {shape}"
             )
         # Numbers below a power of two have no other bits, and negative ones have a sign.
         if not 0 <= np.bitwise_or.reduce(given) < self._codes:
@@ -273,23 +304,25 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 'call reset, with options={"reset_mask": terminated | truncated} to begin these alone'
             )
 
-    def _seed(self, seed: int | list[int | None] | None, mask: NDArray[np.bool_]) -> None:
-        """Give the masked environments their seeds; those without any get random ones."""
-        keys = np.full(self.num_envs, -1, np.int64)
-        if isinstance(seed, (int, np.integer)):
-            keys[:] = [(int(seed) + number) % GREATEST_SEED for number in range(self.num_envs)]
-        elif seed is not None:
-            if len(seed) != self.num_envs:
-                raise ValueError(f"seed must be one number or {self.num_envs} of them, got {len(seed)}")
-            keys[:] = [-1 if one is None else int(one) % GREATEST_SEED for one in seed]
-        strangers = mask & (keys < 0) & ~self._is_seeded
+    def _keys(self, seed: Any) -> NDArray[np.int64]:
+        """The seed of each environment, int64 [env]; −1: none was given."""
+        if seed is None:
+            return np.full(self.num_envs, -1, np.int64)
+        if not isinstance(seed, (list, tuple, np.ndarray)) or np.ndim(seed) == 0:
+            first = key_of(seed)
+            return np.array([(first + number) % GREATEST_SEED for number in range(self.num_envs)], np.int64)
+        if len(seed) != self.num_envs:
+            raise ValueError(f"seed must be one number or {self.num_envs} of them, got {len(seed)}")
+        return np.array([-1 if one is None else key_of(one) for one in seed], np.int64)
+
+    def _seed(self, keys: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
+        """Give the masked environments their seeds; those that never had any get random ones."""
+        strangers = mask & (keys < 0) & ~self._engine.has_begun
         if strangers.any():
             drawn = self.np_random.integers(GREATEST_SEED, size=self.num_envs, dtype=np.uint64)
             keys[strangers] = drawn.astype(np.int64)[strangers]
         where = mask & (keys >= 0)
         self._engine.seed(keys[where], where)
-        self._is_seeded |= where
-        self._has_begun = bool(self._is_seeded.all())
 
     def _checked_mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
         if mask is None:
@@ -315,6 +348,21 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         infos["final_obs"], infos["_final_obs"] = final, ended
         infos["final_info"] = _infos(engine.final_counts, ended)
         infos["_final_info"] = ended.copy()
+
+
+def _made_again(
+    make: type[PinballVectorEnv],
+    made: tuple[Any, ...],
+    chosen: dict[str, Any],
+    limit: int,
+    states: NDArray[np.uint8],
+    kept: dict[str, Any],
+) -> PinballVectorEnv:
+    envs = make(*made, **chosen)
+    envs._engine.rules["limit"] = limit
+    envs.restore_state(states)
+    vars(envs).update(kept)
+    return envs
 
 
 def _infos(counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:

@@ -13,31 +13,43 @@ from silverball.world.events import read_balls, read_events, read_paddles
 
 if TYPE_CHECKING:
     from silverball.drawing import Moment, Renderer
+    from silverball.drawing.effects import Effects
 
 SIZE = (330, 680)  # width and height [pixel]
 MOST_RENDERERS = 8  # kept at once; a board takes some megabytes
 
 
 class Viewer:
-    """Draws worlds of a batch, each on its board."""
+    """Draws worlds of a batch: worlds on the same board share its renderer, but no flash, spark or trail."""
 
     def __init__(self, batch: WorldBatch) -> None:
         self._batch = batch
         self._renderers: dict[int, Renderer] = {}
-        self._noted: dict[int, tuple[int, int]] = {}
+        self._effects: dict[int, Effects] = {}
+        self._noted: dict[int, tuple[int, int, int]] = {}  # of each world: board, seed, tick
 
     def picture(self, index: int) -> NDArray[np.uint8]:
         """World `index` now, RGB [row, column, 3]."""
-        batch, board = self._batch, int(self._batch.board_of[index])
+        board = int(self._batch.board_of[index])
         renderer = self._renderer(board)
-        record = batch.state[index]
-        moment = (int(record["seed"]), int(record["tick"]))
-        if self._noted.get(index) != moment:
-            height = batch.tables[board].board.height
-            names = batch.boards.names[board]
-            renderer.note(read_events(batch.logs[index], names, height), batch.tick_rate)
-            self._noted[index] = moment
+        renderer.effects = self._follow(index, board)
         return np.array(renderer.array(self._moment(index)))
+
+    def _follow(self, index: int, board: int) -> Effects:
+        """What is still seen of the last moments of a world; nothing of another episode or branch."""
+        from silverball.drawing.effects import Effects
+
+        batch, record = self._batch, self._batch.state[index]
+        before, now = self._noted.get(index), (board, int(record["seed"]), int(record["tick"]))
+        effects = self._effects.get(index)
+        if effects is None or before is None or before[:2] != now[:2] or before[2] > now[2]:
+            effects = self._effects[index] = Effects(batch.tables[board].board.ball_radius)
+            before = None
+        if before != now:
+            height, names = batch.tables[board].board.height, batch.boards.names[board]
+            effects.note(read_events(batch.logs[index], names, height), batch.tick_rate)
+            self._noted[index] = now
+        return effects
 
     def _renderer(self, board: int) -> Renderer:
         from silverball.drawing import Renderer
