@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from silverball.envs import PinballEnv, PinballVectorEnv
+from silverball.envs.engine import MARK
+from silverball.envs.records import SCENE
 from silverball.errors import StateError
 
 OPTIONS = [
@@ -138,9 +140,9 @@ def test_a_state_of_other_boards_or_another_rate_is_refused():
 def test_a_state_on_a_board_that_is_not_there_is_refused(options, number):
     env, envs = PinballEnv(**options), PinballVectorEnv(2, **options)
     env.reset(seed=0), envs.reset(seed=0)
-    places = [env._engine.board_at]
+    places = [MARK]
     if "observation" in options:
-        places.append(places[0] + 8)  # the board of the first scene
+        places.append(len(env.save_state()) - 3 * SCENE.itemsize)  # the board of the first scene
     for place in places:
         state = bytearray(env.save_state())
         state[place : place + 8] = np.int64(number).tobytes()

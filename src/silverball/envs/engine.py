@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 from concurrent.futures import Future
+from sys import byteorder
 from typing import Any, NoReturn
 
 import numpy as np
@@ -31,8 +32,9 @@ from silverball.physics.kernel import SETTINGS, straight
 from silverball.physics.layout import WORLD, Part, records
 from silverball.world.batch import pool_of_threads
 
-FORMAT = 2  # of saved states
+FORMAT = 3  # of saved states
 MARK = 16  # bytes that say of which boards and which version a saved state is
+HEAD = MARK + 8  # with the number of the board
 LEAST_SLICE = 1000  # work below which a thread is not worth its start: environments, states of one tick each
 PICTURE = 3  # that of a picture, of each that is copied
 RING = 4  # windows in the ring of pictures that are shown where they are: more are moved more seldom
@@ -51,7 +53,6 @@ class Engine:
             float32 [env, column], empty for pictures; rewards, terminated, truncated [env]; counts, the
             events so far, int64 [env, count]: `COUNTS`, then the board's seed and whether it stalled.
         window: The pictures of the last observation, uint8 [env, stacked, pixel]; empty for states.
-        board_at: Where in the bytes of a state the number of its board is.
         finals, final_counts: Observations and counts of episodes that ended in the last step.
     """
 
@@ -81,11 +82,10 @@ class Engine:
 
     def _allocate(self, threads: int) -> None:
         """Make the arrays of all that changes; for one environment in one run of bytes."""
-        sizes = (MARK, WORLD.itemsize, EPISODE.itemsize, 8, self.stack * SCENE.itemsize)
+        sizes = (MARK, 8, WORLD.itemsize, EPISODE.itemsize, self.stack * SCENE.itemsize)
         edges = np.cumsum((0, *(size * self.count for size in sizes)))
         self.memory = np.zeros(edges[-1], np.uint8)
-        self.board_at = int(edges[3])
-        marks, worlds, episodes, board_of, scenes = (
+        marks, board_of, worlds, episodes, scenes = (
             self.memory[start:end] for start, end in itertools.pairwise(edges)
         )
         marks.reshape(self.count, MARK)[:] = np.frombuffer(self._mark(), np.uint8)
@@ -93,7 +93,7 @@ class Engine:
         self.scenes = _as_records(scenes, SCENE).reshape(self.count, self.stack)
         state, board = _as_records(worlds, WORLD), board_of.view(np.int64)
         self.batch = PooledBatch(self.pool, self.count, self.options.tick_rate, threads, state, board)
-        self.parts = [part.reshape(self.count, -1) for part in (marks, worlds, episodes, board_of, scenes)]
+        self.parts = [part.reshape(self.count, -1) for part in (marks, board_of, worlds, episodes, scenes)]
 
     def _mark(self) -> bytes:
         """What a state must share with the environments that it is restored into."""
@@ -263,6 +263,12 @@ class Engine:
     # --- beginning and saving
 
     @property
+    def heads(self) -> frozenset[bytes]:
+        """All that the first HEAD bytes of a state can be: the mark, then the number of the board."""
+        boards = range(len(self.pool.tables))
+        return frozenset(self._mark() + board.to_bytes(HEAD - MARK, byteorder) for board in boards)
+
+    @property
     def has_begun(self) -> NDArray[np.bool_]:
         """In which environments an episode has begun since they were made or seeded, bool [env]."""
         begun: NDArray[np.bool_] = self.episodes["number"] >= 0
@@ -293,13 +299,10 @@ class Engine:
             self.refuse(states.shape[-1] if states.ndim else 0)
         edges = np.cumsum((0, *(part.shape[1] for part in self.parts)))
         parts = [states[:, start:end] for start, end in itertools.pairwise(edges)]
-        boards = [np.ascontiguousarray(parts[3]).view(np.uint64)]
-        if self.stack:
-            boards.append(
-                _as_records(np.ascontiguousarray(parts[4]).reshape(-1), SCENE)["board"].view(np.uint64)
-            )
-        if any((numbers >= len(self.pool.tables)).any() for numbers in boards):
-            self.refuse(size)
+        boards, scenes = (np.ascontiguousarray(parts[number]).reshape(-1) for number in (1, 4))
+        for numbers in (boards.view(np.int64), scenes.view(SCENE)["board"]):
+            if ((numbers < 0) | (numbers >= len(self.pool.tables))).any():
+                self.refuse(size)
         for own, part in zip(self.parts, parts, strict=True):
             own[rows] = part
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from operator import index
-from sys import byteorder
 from typing import Any, NoReturn, SupportsFloat, cast
 
 import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.engine import MARK, Engine
+from silverball.envs.engine import HEAD, Engine
 from silverball.envs.options import Options
 from silverball.envs.records import Mode
 from silverball.envs.seeds import GREATEST_SEED, key_of
@@ -20,12 +19,11 @@ from silverball.errors import StateError
 
 REMADE = {
     "_engine", "_viewer", "_codes", "_weights", "_move", "_addresses", "_row", "_counts", "_copy_row",
-    "_info", "_memory", "_mark", "_size", "_board", "_boards",
+    "_info", "_memory", "_heads", "_size",
 }  # fmt: skip
 """Attributes that follow from the options or look at the engine's arrays; a copy makes its own."""
 
-_HEAD, _ALL = slice(MARK), slice(None)  # of a state's bytes
-from_bytes = int.from_bytes
+_HEAD, _ALL = slice(HEAD), slice(None)  # of a state's bytes
 
 
 class PinballEnv(gymnasium.Env[Any, Any]):
@@ -66,8 +64,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self._copy_row = self._row.copy if self.options.observation == "state" else None
         self._info = info_of(self._counts.tolist())
         self._memory = memoryview(cast(Any, engine.memory))
-        self._mark, self._size = bytes(engine.memory[:MARK]), len(engine.memory)
-        self._board, self._boards = slice(engine.board_at, engine.board_at + 8), len(engine.pool.tables)
+        self._heads, self._size = engine.heads, len(engine.memory)
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  (Gymnasium's own)
 
@@ -162,8 +159,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
             self._engine.observe()
             self._info = info_of(self._counts.tolist())
             return
-        is_such_a_one = len(state) == self._size and state[_HEAD] == self._mark
-        if not is_such_a_one or from_bytes(state[self._board], byteorder) >= self._boards:
+        if len(state) != self._size or state[_HEAD] not in self._heads:
             self._engine.refuse(len(state))
         self._memory[_ALL] = state
 
