@@ -96,9 +96,7 @@ def show(at: Any, index: int, number: int) -> None:
 def wind(at: Any, index: int) -> None:
     """Copy the window of an environment to where its observation goes."""
     target, start = at.copies_at + index * at.stack * at.pixels, the.film(at)[0].at
-    straight = min(
-        at.stack, at.ring - start
-    )  # pictures before the end of the ring; the others follow from its start
+    straight = min(at.stack, at.ring - start)  # pictures up to the ring's end; the rest is at its start
     copy_bytes(target, frame(at, index, start), straight * at.pixels)
     copy_bytes(target + straight * at.pixels, frame(at, index, 0), (at.stack - straight) * at.pixels)
 
