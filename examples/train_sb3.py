@@ -118,7 +118,8 @@ class Curve(BaseCallback):
 
     def _on_rollout_end(self):
         self.minutes.append((self.num_timesteps, self.elapsed() / 60))
-        if self.num_timesteps - self.unseen[-1][0] >= self.every:
+        last = self.unseen[-1][0]
+        if self.num_timesteps - last >= min(self.every, max(self.every / 10, 2 * last)):  # often at first
             self.evaluate()
 
 
@@ -165,7 +166,9 @@ parser.add_argument("--steps", type=int, default=10**9, help="at most")
 parser.add_argument("--envs", type=int, default=512)
 parser.add_argument("--boards", type=int, default=512, help="to train on")
 parser.add_argument("--balls", type=int, default=1000, help="to evaluate with, on as many unseen boards")
-parser.add_argument("--every", type=int, default=3_000_000, help="steps between two evaluations")
+parser.add_argument(
+    "--every", type=int, default=3_000_000, help="steps between two evaluations, fewer at first"
+)
 parser.add_argument("--seed", type=int, default=0)
 parser.add_argument("--out", default="curve.png", help="picture of the learning curve")
 parser.add_argument("--policy", help="file for the policy as plain arrays (.npz)")

@@ -70,7 +70,8 @@ def test_mode_is_an_attribute_and_in_the_metadata():
     for mode in MODES:
         envs = gym.make_vec(CLASSIC, 2, autoreset_mode=mode)
         assert envs.autoreset_mode is envs.metadata["autoreset_mode"] is mode
-    assert gym.make_vec(CLASSIC, 2, autoreset_mode="SameStep").autoreset_mode is AutoresetMode.SAME_STEP
+    for text in ("SameStep", "SAME_STEP"):
+        assert gym.make_vec(CLASSIC, 2, autoreset_mode=text).autoreset_mode is AutoresetMode.SAME_STEP
     assert PinballVectorEnv.metadata == {}, "the modes of instances must not leak into the class"
 
 
@@ -191,7 +192,7 @@ def test_any_number_of_threads_gives_the_same_bits(options, zero_copy, monkeypat
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("options", [{"balls": 2}, {"observation": "pixels", "size": (20, 12), "stack": 2}])
 def test_a_copy_goes_on_like_its_original_and_leaves_it_alone(again, mode, options):
-    envs = PinballVectorEnv(3, mode, boards=2, max_episode_steps=90, own_boards=True, **options)
+    envs = PinballVectorEnv(3, mode, boards=3, max_episode_steps=90, own_boards=True, **options)
     envs.reset(seed=5)
     envs.action_space.seed(3)
     envs.mine = "kept"
@@ -286,8 +287,19 @@ def test_options_that_are_none_are_refused_in_words():
         PinballVectorEnv(2, table="classic").reset(options=[1])
     envs = PinballVectorEnv(2, table="classic")
     envs.reset(seed=0)
-    with pytest.raises(ValueError, match="actions must be whole numbers"):
-        envs.step([[1], [1, 2]])
+    for actions, words in (
+        ([[1], [1, 2]], "actions must be whole numbers, got object"),
+        ([0.0, 1.0], "actions must be whole numbers, got float64"),
+        ([[0, 1], [1, 0]], r"actions must have the shape \(2,\), got \(2, 2\)"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            envs.step(actions)
+    bits = PinballVectorEnv(2, table="classic", actions="multibinary")
+    bits.reset(seed=0)
+    with pytest.raises(ValueError, match="every bit must be 0 or 1, got 0 to 2"):
+        bits.step([[0, 1], [2, 0]])
+    with pytest.raises(ValueError, match=r"actions must have the shape \(2, 2\), got \(2, 3\)"):
+        bits.step(np.zeros((2, 3), int))
 
 
 def test_fewer_steps_can_be_asked_for_as_gymnasium_does():
@@ -347,15 +359,15 @@ def test_arrays_that_do_not_fit_are_left_alone():
 
 
 def test_environments_can_have_boards_of_their_own():
-    envs = PinballVectorEnv(5, "SameStep", own_boards=True, boards=3, board_seed=40, time_limit=1.0)
+    envs = PinballVectorEnv(5, "SameStep", own_boards=True, boards=5, board_seed=40, time_limit=1.0)
     observations, infos = envs.reset(seed=7)
-    assert infos["board"].tolist() == [40, 41, 42, 40, 41]
-    singles = [PinballEnv(boards=1, board_seed=40 + number % 3, time_limit=1.0) for number in range(5)]
+    assert infos["board"].tolist() == [40, 41, 42, 43, 44]
+    singles = [PinballEnv(boards=1, board_seed=40 + number, time_limit=1.0) for number in range(5)]
     for number, env in enumerate(singles):
         assert env.reset(seed=7 + number)[0].tolist() == observations[number].tolist()
     for action in np.random.default_rng(0).integers(0, 4, (200, 5)):
         observations, rewards, terminated, truncated, infos = envs.step(action)
-        assert infos["board"].tolist() == [40, 41, 42, 40, 41]
+        assert infos["board"].tolist() == [40, 41, 42, 43, 44]
         for number, env in enumerate(singles):
             observation, *rest = env.step(int(action[number]))
             assert rest[:3] == [rewards[number], terminated[number], truncated[number]]
@@ -387,6 +399,14 @@ def test_tables_can_be_given_one_by_one():
     pictures = PinballVectorEnv(2, own_boards=True, table=[bare, "classic"], observation="pixels", stack=1)
     empty, full = pictures.reset(seed=7)[0].astype(int)
     assert full.sum() > empty.sum()
+
+
+def test_what_only_a_vector_can_have_is_refused_in_words():
+    with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: say boards=5"):
+        PinballVectorEnv(5, own_boards=True, boards=3)
+    for name in ("own_boards", "zero_copy", "autoreset_mode", "threads"):
+        with pytest.raises(TypeError, match=f"{name} is for many environments: gymnasium.make_vec takes it"):
+            PinballEnv(table="classic", **{name: 1})
 
 
 def test_tables_that_do_not_fit_together_are_refused():

@@ -15,6 +15,12 @@ from silverball.table import Table
 
 POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
 BUTTONS = ("left", "right", "jitter", "create")
+OF_VECTORS = (
+    "autoreset_mode",
+    "zero_copy",
+    "threads",
+    "own_boards",
+)  # what a vector environment takes besides
 MOST_BOARDS = 2**16
 MOST_BALLS = 1000
 LONGEST = 1e7  # [s]
@@ -103,6 +109,8 @@ class Options:
         """
         names = [field.name for field in dataclasses.fields(cls)]
         for name in given:
+            if name in OF_VECTORS:
+                raise TypeError(f"{name} is for many environments: gymnasium.make_vec takes it")
             if name not in names:
                 near = difflib.get_close_matches(name, names, 1)
                 hint = f"; did you mean {near[0]}?" if near else ""

@@ -43,15 +43,15 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     Args:
         num_envs: How many.
         autoreset_mode: When an environment whose episode is over begins the next: `AutoresetMode.NEXT_STEP`,
-            `SAME_STEP` or `DISABLED`, or their values as text.
+            `SAME_STEP` or `DISABLED`, or their names or values as text.
         zero_copy: Whether every step writes to the same memory: faster, and right for trainers that copy what
             they keep. What it returns is to be read only; several pictures are a window that slides. Without
             it every step returns new arrays.
         threads: How many threads a step may use; None: one for each core. It never changes a result.
         render_mode: "rgb_array" or None.
         max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows.
-        own_boards: Whether environment i always plays board i of the pool, in turn if there are fewer boards,
-            instead of one that is drawn for every episode.
+        own_boards: Whether environment i always plays board i instead of one that is drawn for every episode:
+            of a recipe, which must then have as many `boards`; of a list of tables in turn.
         options: See `silverball.envs.options.OPTIONS`.
 
     Raises:
@@ -93,6 +93,12 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         mode = MODES[self.autoreset_mode]
         self._engine = engine = Engine(self.options, self.num_envs, mode, threads, bool(zero_copy))
         engine.rules["own_boards"] = bool(own_boards)
+        boards = len(engine.pool.tables)
+        if own_boards and 1 < boards < self.num_envs and not isinstance(self.options.table, (list, tuple)):
+            raise ValueError(
+                f"own_boards=True needs a board for each of the {self.num_envs} environments, and there are "
+                f"{boards}: say boards={self.num_envs}"
+            )
         if max_episode_steps is not None:
             limit = checked_int("max_episode_steps", max_episode_steps, 1, 2**62)
             engine.rules["limit"] = min(limit, int(engine.rules["limit"][0]))
@@ -273,22 +279,15 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             given = np.asarray(actions)
         except ValueError:  # rows of different lengths
             given = np.asarray(actions, object)
-        kind, shape = given.dtype, given.shape
-        if (
-            given.ndim == 2
-            and self.options.actions == "multibinary"
-            and (
-                given.shape[1] == len(self._weights)
-                and given.dtype.kind in "iub"
-                and ((given >> 1) == 0).all()
-            )
-        ):
+        if given.dtype.kind not in "iub":
+            raise ValueError(f"actions must be whole numbers, got {given.dtype} of the shape {given.shape}")
+        buttons = len(self._weights)
+        if self.options.actions == "multibinary" and given.shape == (self.num_envs, buttons):
+            if ((given >> 1) != 0).any():
+                raise ValueError(f"every bit must be 0 or 1, got {given.min()} to {given.max()}")
             given = given @ self._weights
-        if given.shape != (self.num_envs,) or given.dtype.kind not in "iub":
-            raise ValueError(
-                f"actions must be whole numbers in {self.action_space.__class__.__name__} of the shape "
-                f"{self.action_space.shape}, got {kind} {shape}"
-            )
+        if given.shape != (self.num_envs,):
+            raise ValueError(f"actions must have the shape {self.action_space.shape}, got {given.shape}")
         # Numbers below a power of two have no other bits, and negative ones have a sign.
         if not 0 <= np.bitwise_or.reduce(given) < self._codes:
             raise ValueError(
@@ -375,6 +374,8 @@ def _infos(counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]
 
 
 def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
+    if mode in AutoresetMode.__members__:
+        return AutoresetMode[str(mode)]
     try:
         return AutoresetMode(mode)
     except ValueError:

@@ -29,6 +29,9 @@ SCALE = 4096  # steps of 1 in which weights and values are rounded
 LARGEST = 2**17  # of a weight, in those steps
 DECISIONS = 15  # a second
 ACTIONS = 4  # none, left, right, both
+ROWS = (
+    64  # that go through the network at once: for more, a BLAS starts threads, which wait more than they work
+)
 
 Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
 """Weights [in, out] and biases [out], in steps of 1/SCALE."""
@@ -97,6 +100,12 @@ class Policy:
 
     def actions(self, raw: Rows) -> NDArray[np.int64]:
         """What it presses where these numbers (see `sight.Raw`) are seen: bits [row], 1 left, 2 right."""
+        bits = np.zeros(len(raw), np.int64)
+        for first in range(0, len(raw), ROWS):
+            bits[first : first + ROWS] = self._few_actions(raw[first : first + ROWS])
+        return bits
+
+    def _few_actions(self, raw: Rows) -> NDArray[np.int64]:
         values, is_mirrored = see(raw)
         for number, (weights, biases) in enumerate(self._exact):
             if number > 0:

@@ -11,7 +11,7 @@ from silverball.players import PlayerKind, make_player
 from silverball.players.ball_time import time_balls
 from silverball.players.games import play
 from silverball.players.sight import COLUMNS, MIRRORED, SEEN, Raw, look, see
-from silverball.players.trained import SCALE, Policy, Trained, hold_of, press_batch, stored_policy
+from silverball.players.trained import ROWS, SCALE, Policy, Trained, hold_of, press_batch, stored_policy
 from silverball.table import Cylinder, generate_table
 from silverball.world import World, WorldBatch
 
@@ -220,3 +220,11 @@ def test_arrays_that_do_not_fit_are_refused(tmp_path):
     np.savez(path, command="x")
     with pytest.raises(SilverballError, match="layers"):
         Policy.load(path)
+
+
+def test_many_rows_are_answered_as_one_by_one():
+    raw = np.random.default_rng(0).uniform(-1.0, 1.0, (2 * ROWS + 7, len(Raw)))
+    bits = stored_policy().actions(raw)
+    assert bits.tolist() == [int(stored_policy().actions(row[None])[0]) for row in raw]
+    assert len(set(bits.tolist())) > 1
+    assert stored_policy().actions(raw[:0]).shape == (0,)

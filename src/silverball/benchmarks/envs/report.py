@@ -47,7 +47,8 @@ def headers(measures: list[Rate]) -> list[str]:
 def footing(result: Result) -> list[str]:
     """What it was measured on, and who was missing."""
     versions = ", ".join(f"{name} {version}" for name, version in result.versions.items())
-    lines = [f"Medians of {result.rounds} rounds, random actions; {result.machine}; {versions}."]
+    rounds = f"Medians of {result.rounds} rounds" if result.rounds > 1 else "One round"
+    lines = [f"{rounds}, random actions; {result.machine}; {versions}."]
     if result.missing:
         lines.append(f"Not installed: {', '.join(result.missing)}.")
     return lines
