@@ -1,7 +1,7 @@
 """Which boards do the episodes draw from? A pool, made before the first step and shared by all environments.
 
-A board takes some 50 ms to make and check, a step a tenth of a microsecond; so episodes draw a board from a
-pool instead of making one. All boards of a pool have the same borders and paddles, so that what is observed
+A board takes 10 ms or more to make and check, a step a tenth of a microsecond; so episodes draw one from a
+pool instead. All boards of a pool have the same borders and paddles, so that what is observed
 means the same on each: they come from one recipe, or from a list of tables that are alike in this.
 """
 

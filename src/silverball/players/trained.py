@@ -29,9 +29,7 @@ SCALE = 4096  # steps of 1 in which weights and values are rounded
 LARGEST = 2**17  # of a weight, in those steps
 DECISIONS = 15  # a second
 ACTIONS = 4  # none, left, right, both
-ROWS = (
-    64  # that go through the network at once: for more, a BLAS starts threads, which wait more than they work
-)
+ROWS = 64  # that go through the network at once; for more a BLAS starts threads, which mostly wait
 
 Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
 """Weights [in, out] and biases [out], in steps of 1/SCALE."""
