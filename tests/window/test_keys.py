@@ -144,6 +144,53 @@ def test_the_help_stops_the_time_while_it_is_shown(player):
     assert not player.world.balls
 
 
+@pytest.mark.parametrize("name", ["space", "a", "left", "right shift", "up", "down", "return"])
+def test_the_help_has_two_pages_that_paddles_space_and_arrows_turn(open_window, name):
+    player = open_window(mode=None)
+    page = player.menus.signature
+    player.tap(pygame.K_F1)
+    for expected in (1, 0, 1):
+        player.tap(pygame.key.key_code(name))
+        assert player.window.listener.help_page == expected
+    assert player.menus.signature == page  # nothing was chosen behind it
+    player.tap(pygame.K_F1)
+    player.tap(pygame.K_F1)
+    assert player.window.listener.help_page == 0
+
+
+def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window, monkeypatch):
+    from silverball.app import overlay
+
+    written = []
+    real = overlay.line
+    monkeypatch.setattr(overlay, "line", lambda text, *rest: written.append(text) or real(text, *rest))
+    player = open_window("classic", mode=Mode.ARCADE)
+    overlay._rules.cache_clear()
+    player.tap(pygame.K_F1)
+    player.tap(pygame.K_d)
+    text = " ".join(written)
+    arcade = player.program.table.arcade
+    for word in ("HOW TO SCORE", f"×{arcade.double}", f"{arcade.ball_save:g} s", "paddles are dead"):
+        assert word in text
+
+
+@pytest.mark.parametrize(
+    "size", [(1280, 720), (300, 900), (900, 300), (400, 400), (170, 340), (60, 90), (20, 30)]
+)
+@pytest.mark.parametrize("page", [0, 1])
+def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
+    from silverball.app import overlay
+    from silverball.app.scoring import how_to_score
+
+    placed = []
+    monkeypatch.setattr(overlay, "_place", lambda target, image, *rest: placed.append(image.get_size()))
+    rules = how_to_score(player.program.table, Mode.ARCADE)
+    overlay.draw_help(pygame.Surface(size), size[0] / 11.0, 7, player.window.listener.controls, page, rules)
+    ((width, height),) = placed
+    assert width <= size[0]
+    assert height <= size[1]
+
+
 def test_r_makes_a_new_board_and_shift_r_the_same_again(open_window):
     player = open_window("random", seed=11)
     first = player.program.table

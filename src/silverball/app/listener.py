@@ -22,6 +22,7 @@ from silverball.app.controls import (
     says_something,
 )
 from silverball.app.gamepad import Gamepads, PadButton
+from silverball.app.overlay import HELP_PAGES
 
 if TYPE_CHECKING:
     from silverball.app.latency import LatencyMeter
@@ -39,7 +40,8 @@ class Listener:
         buttons: The paddle buttons that are held.
         pads: The gamepads.
         controls: Which key does what.
-        shows_help: Whether all keys are shown; the game waits meanwhile.
+        shows_help: Whether the help is shown; the game waits meanwhile.
+        help_page: Which page of it: the keys, or how to score.
         shows_debug: Whether what the physics sees is shown.
     """
 
@@ -57,6 +59,7 @@ class Listener:
         self.pads = Gamepads()
         self.controls = Controls(program.settings)
         self.shows_help = self.shows_debug = False
+        self.help_page = 0
 
     def use(self, settings: Settings) -> None:
         """Other settings were chosen."""
@@ -89,14 +92,25 @@ class Listener:
         menus = self._program.menus
         if menus.wants_key and name != "escape" and not is_command(event.mod):
             self._program.capture(name)
+        elif menus.wants_text and self._typed(event, name, action):
+            self._sounds.menu("back" if name == "backspace" else "choose")
         elif action is not None:
             self._press(f"key {name}", action, again=bool(event.mod & pygame.KMOD_SHIFT))
+        elif name in MENU_KEYS and self.shows_help:
+            self._turn_help()
         elif name in MENU_KEYS and menus.is_open:
             self._program.press_menu(MENU_KEYS[name])
         elif says_something(event.key) and not is_command(event.mod):
             shown = name.upper() if is_latin(event.key) else "this key"
             helps = [key.upper() for key in self.controls.keys(Action.HELP)] or ["the menu"]
             self._messages.say(f"{shown} does nothing here; {helps[0]} shows the keys")
+
+    def _typed(self, event: pygame.Event, name: str, action: Action | None) -> bool:
+        """Whether a key was a letter of what is being entered; the page knows whose A and D are."""
+        if self.shows_help or is_command(event.mod):
+            return False
+        is_button = action in (*PADDLES, Action.CREATE)
+        return self._program.menus.type(event.unicode, name, is_button=is_button)
 
     def _pad(self, button: PadButton) -> None:
         action = self.controls.of_pad(button.name)
@@ -111,6 +125,7 @@ class Listener:
         program = self._program
         if action is Action.HELP or (self.shows_help and action is Action.BACK):
             self.shows_help = not self.shows_help
+            self.help_page = 0
             self._messages.clear()
         elif action is Action.DEBUG:
             self.shows_debug = not self.shows_debug
@@ -134,10 +149,10 @@ class Listener:
             self._pass_on(action)
 
     def _pass_on(self, action: Action, *, again: bool = False) -> None:
-        """A button for the game or the menus, which wait while the keys are shown."""
+        """A button for the game or the menus, which wait while the help is shown."""
         program = self._program
         if self.shows_help:
-            self._messages.say("the game waits while the keys are shown; F1 goes on")
+            self._press_in_help(action)
         elif action is Action.SINGLE_TICK:
             program.single_tick(self.buttons.take())
         else:
@@ -147,6 +162,20 @@ class Listener:
                 self._sounds.menu(
                     "move" if action in PADDLES else "back" if action is Action.BACK else "choose"
                 )
+
+    def _press_in_help(self, action: Action) -> None:
+        """The paddles and Space turn the pages of the help; whoever wants to play is told how to go on."""
+        if action in (*PADDLES, Action.CREATE):
+            self._turn_help()
+        helps = [key.upper() for key in self.controls.keys(Action.HELP)] or ["Esc"]
+        if self._program.has_game and action not in PADDLES:
+            self._messages.say(f"the game waits while the help is shown; {helps[0]} goes on")
+        elif action not in (*PADDLES, Action.CREATE):
+            self._messages.say(f"{helps[0]} leaves the help")
+
+    def _turn_help(self) -> None:
+        self.help_page = (self.help_page + 1) % HELP_PAGES
+        self._sounds.menu("move")
 
     def _release(self, source: str, action: Action | None) -> None:
         self.buttons.release(source)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Controls, Held
 from silverball.app.display import Display
 from silverball.app.keeping import Ended, Keeper
+from silverball.app.library import file_name, trouble_of, trouble_words
 from silverball.app.menus import Button, Menus, ReplayFace
 from silverball.app.orders import carry_out
 from silverball.app.performers import BEST, Cast
@@ -22,10 +23,12 @@ from silverball.app.settings import Settings
 from silverball.app.stages import Playing, Showing, Stage, Watching
 from silverball.errors import BoardFull, NoRoom, SilverballError
 from silverball.game.news import Mode
+from silverball.plain import plain
 from silverball.table import Table
 
 if TYPE_CHECKING:
-    from silverball.app.library import Library
+    from silverball.app.library import Key, Library
+    from silverball.app.tablefiles import Stamp
     from silverball.drawing.dots import Dots
     from silverball.game.replay import Replay
     from silverball.game.store import Store
@@ -33,6 +36,7 @@ if TYPE_CHECKING:
 SEEDS = 1_000_000  # a new board's seed is below it: short enough to tell a friend
 WAIT = "one moment, please: the physics is being made ready"
 OVER_SECONDS = 2.5  # for which the end of a game is shown before a page of the menus comes
+LOOK_EVERY = 0.5  # [s] between two looks whether a table file has changed
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 AS_PLAYED = SPEEDS.index(1.0)
 
@@ -78,6 +82,7 @@ class Program:
         self.stage: Stage | None = None
         self.is_ready = self.is_over = False
         self.is_held = False
+        library.choose(settings.table)
         self.menus = Menus(settings, library.entries(), library.scores, themes=themes)
         self.menus.know(has_last_game=store.last_game() is not None)
         self.display = Display()
@@ -94,7 +99,12 @@ class Program:
         self.ended = Ended()
         self._is_shown_off = False  # the program plays because nobody is there
         self._is_fresh = True  # nobody has played on this board yet
-        self._look_at(settings.table, seed)
+        self._looked = 0.0  # when the table files were looked at
+        self._played: Table | None = None  # of what the board of the game was made
+        self._key: Key | None = None  # under which its score is listed
+        self._told: Stamp = ()  # of the file of the chosen table when it was played or told of last
+        self._doubted: Stamp = ()  # of that file when it was first found broken: is it being written?
+        self._see(self._read(settings.table), seed)
 
     # --- what there is to see -----------------------------------------------------------------------
 
@@ -123,6 +133,16 @@ class Program:
         return isinstance(self.stage, Playing) and self.menus.is_open and not self.stage.has_ended
 
     @property
+    def has_game(self) -> bool:
+        """Whether a game is played, paused or not, and not over."""
+        return isinstance(self.stage, Playing) and not self.stage.has_ended
+
+    @property
+    def mode(self) -> Mode:
+        """The game that is played, or the one that is chosen."""
+        return self.stage.game.mode if isinstance(self.stage, Playing) else Mode(self.settings.mode)
+
+    @property
     def is_heard(self) -> bool:
         """Whether the board makes sounds: not while it only shows off."""
         return not self._is_shown_off
@@ -136,8 +156,9 @@ class Program:
         """What the score display shows."""
         below = None
         if self.stage is not None:
-            best = self._library.best(self.settings.table, self.stage.game.mode)
-            below = self.display.frame(self.stage.game.face, seconds, best if self.stage.is_played else 0)
+            is_played, mode = self.stage.is_played, self.stage.game.mode
+            best = self._library.best(self._key, mode) if is_played and self._key is not None else 0
+            below = self.display.frame(self.stage.game.face, seconds, best)
         if not self.menus.is_open and below is None:
             from silverball.drawing.dots import Dots
 
@@ -154,6 +175,7 @@ class Program:
         """
         self._now = seconds
         carry_out(self.menus.tick(seconds), self)
+        self._look_at_files()
         stage = self.stage
         if isinstance(stage, Playing) and stage.has_ended:
             self._after_the_end(stage)
@@ -173,7 +195,7 @@ class Program:
         """Move on by one tick while the game waits."""
         stage = self.stage
         if stage is None or self.is_moving or stage.has_ended:
-            self.say("one tick at a time is for a game that is paused")
+            self.say(_why_no_tick(stage))
             return
         self._no_longer_counts()
         self._goes_on(lambda: stage.advance(held, 1))
@@ -251,7 +273,7 @@ class Program:
             if self._ended_at is not None:  # its score is kept
                 self._ended_at = self._now - OVER_SECONDS  # seen enough
         elif action is Action.CREATE:
-            self._try(stage.game.create_ball)
+            self._try(lambda: self._bring_ball(stage))
         elif action is Action.JITTER:
             self._try(stage.game.jitter)
         elif action is Action.PAUSE or action is Action.BACK:
@@ -260,6 +282,11 @@ class Program:
             self._new_board(again)
         elif action in PADDLES and all(paddle.side != str(action) for paddle in self.table.paddle):
             self.say(f"this table has no {action} paddle")
+
+    def _bring_ball(self, stage: Playing) -> None:
+        question = stage.bring_ball(self._key_of(Action.CREATE))
+        if question:
+            self.display.say(question, at_once=True)
 
     def _try(self, do: Callable[[], object]) -> None:
         try:
@@ -310,6 +337,8 @@ class Program:
             seed = self.seed  # the board that is seen is the one that is played
         if self._look_at(table, seed):
             self._when_ready(lambda: self.begin(mode))
+        else:
+            self.menus.open_main()
 
     def watch(self, replay: Replay) -> None:
         """Show a replay as soon as the physics is ready."""
@@ -343,24 +372,32 @@ class Program:
             self.say(WAIT)
 
     def _look_at(self, table: str, seed: int | None) -> bool:
-        """Show another board; False, and the old one, if it cannot be used."""
+        """Show another board; False, told why, and the old one, if it cannot be used."""
         try:
-            recipe = self._library.recipe(table)
-            seed = secrets.randbelow(SEEDS) if seed is None else seed
-            finished = self._library.finished(recipe, seed)
+            self._see(self._read(table), seed)
         except SilverballError as error:
-            if not hasattr(self, "table"):
-                raise
-            self.say(str(error))
-            self.menus.open_main()
+            self.say(trouble_of(table, error))
             return False
+        return True
+
+    def _read(self, table: str) -> Table:
+        """The table of a name, or in a file as it is now."""
+        try:
+            return self._library.recipe(table)
+        finally:
+            reading = self._library.reading(table)
+            if table == self.settings.table:
+                self._told = reading.stamp if reading is not None else ()
+
+    def _see(self, recipe: Table, seed: int | None) -> None:
+        """Show the board that a seed makes of a table, None drawing one."""
+        seed = secrets.randbelow(SEEDS) if seed is None else seed
+        self.table: Table = self._library.finished(recipe, seed)
         self.recipe: Table = recipe
-        self.table: Table = finished
         self.seed = seed
         self._is_fresh = True
         if recipe.random is not None:
             self.menus.know(last_seed=seed)
-        return True
 
     def begin(self, mode: Mode) -> None:
         """Begin a game on the board that is seen; the physics is ready."""
@@ -369,6 +406,8 @@ class Program:
         self.keep_last_game()
         self.menus.close()
         self._is_fresh = False
+        self._played = self.recipe  # its file may say something else before the game is over
+        self._key = self._library.key(self.recipe)
         self._start(Playing(Game(self.table, self.seed, mode)))
 
     def _start(self, stage: Stage) -> None:
@@ -383,24 +422,75 @@ class Program:
         return keys[0].upper() if keys else "?"
 
     def _new_board(self, again: bool) -> None:
-        stage = self.stage
+        stage, before = self.stage, self.recipe
         mode = stage.game.mode if stage is not None else Mode(self.settings.mode)
+        seed = self.seed if again else None
+        words = ""
+        try:
+            self._see(self._read(self.settings.table), seed)
+        except SilverballError as error:
+            words = f"{trouble_of(self.settings.table, error)}. This is the table as it was"
+            if not self._look_at_kept(before, seed):
+                return
         self.menus.close()
-        if not self._look_at(self.settings.table, self.seed if again else None):
-            return
         self._when_ready(lambda: self.begin(mode))
-        if self.recipe.random is None:
-            self.say(f"{self.table.name} is always the same table; the balls come at other places")
-        elif again:
-            self.say(f"board {self.seed} from the start")
+        self.say(words or self._board_words(before, again))
+
+    def _look_at_kept(self, recipe: Table, seed: int | None) -> bool:
+        """Show another board of a table that is at hand; False if no board comes of this seed."""
+        try:
+            self._see(recipe, seed)
+        except SilverballError as error:
+            self.say(str(error))
+            return False
+        return True
+
+    def _board_words(self, before: Table, again: bool) -> str:
+        """What there is to say of the board that has just been made."""
+        news = f"{file_name(self.settings.table)} was read again" if self.recipe != before else ""
+        if self.recipe.random is not None:
+            key = self._key_of(Action.NEW_BOARD)
+            words = (
+                f"board {self.seed} from the start"
+                if again
+                else f"board {self.seed}. Shift+{key} plays it again"
+            )
+            return f"{news}: {words}" if news else words
+        return news or f"{plain(self.table.name)} is always the same table; the balls come at other places"
+
+    def _look_at_files(self) -> None:
+        """Learn of table files that have come, gone or changed; tell if it is the one that is played."""
+        if self._now - self._looked < LOOK_EVERY:
+            return
+        self._looked = self._now
+        is_choosing = self.menus.is_open and not self.is_paused
+        if self._library.look(whole=is_choosing) and is_choosing:
+            self.menus.know(tables=self._library.entries())
+        reading = self._library.reading(self.settings.table)
+        if reading is None or reading.stamp == self._told or isinstance(self.stage, Watching | Showing):
+            return
+        if reading.problem and reading.stamp != self._doubted:
+            self._doubted = reading.stamp  # perhaps it is being written at this moment
+            return
+        self._told = reading.stamp
+        if reading.table == self.recipe:
+            return  # written anew as it was
+        if self.stage is None:
+            self._look_at(self.settings.table, self.seed)
+            return
+        file, key = file_name(self.settings.table), self._key_of(Action.NEW_BOARD)
+        if reading.table is not None:
+            self.say(f"{file} has changed: {key} plays the new one")
         else:
-            self.say(f"board {self.seed}. Shift+R plays it again")
+            self.say(
+                f"{trouble_words(self.settings.table, reading.problem)}. {key} plays the table as it was"
+            )
 
     def _after_the_end(self, stage: Playing) -> None:
         """Keep a game that is over at once, and show what comes after it when it has been seen."""
         if self._ended_at is None:
             self.ended = self.keeper.ended(
-                stage.game, self.recipe, self.settings.initials, counts=self._counts
+                stage.game, self._played or self.recipe, self.settings.initials, counts=self._counts
             )
             self.menus.know(has_last_game=True)
             if self.ended.words:
@@ -424,8 +514,10 @@ class Program:
         self._when_ready(lambda: self._show_off(player, nobody_there))
 
     def _show_off(self, player: str, nobody_there: bool) -> None:
-        if self.recipe.random is not None or self.stage is not None:
-            self._look_at(self.settings.table, None)
+        wants_board = self.recipe.random is not None or self.stage is not None
+        if wants_board and not self._look_at(self.settings.table, None) and not nobody_there:
+            self.menus.reopen()
+            return
         self._start(Showing(self.table, self.seed, self.cast.begin(player)))
         self._is_shown_off = nobody_there
         self._announce()
@@ -437,6 +529,8 @@ class Program:
         self.menus.know(performer=self.cast.playing)
 
     def _stop_watching(self) -> None:
+        if isinstance(self.stage, Watching):
+            self.end_watching()
         self.stage = None
         self.menus.reopen()
 
@@ -463,17 +557,33 @@ class Program:
     def end_watching(self) -> None:
         """Nobody watches any longer: the chosen table is seen again."""
         self.stage = None
-        self._look_at(self.settings.table, None)
+        self._look_at(self.settings.table, self.menus.seed)
+
+    def see_board(self, seed: int | None) -> None:
+        """Show the board that a seed makes, unless a game is played."""
+        if not self.has_game:
+            self.stage = None
+            self._look_at(self.settings.table, seed)
 
     def use(self, settings: Settings) -> None:
         """Use other settings and keep them."""
         changed = settings.table != self.settings.table
         self.settings = settings
         self._controls = Controls(settings)
+        self._library.choose(settings.table)
         self.store.keep_settings(settings.model_dump(mode="json"))
-        if changed and not isinstance(self.stage, Playing):
+        if changed and not self.has_game:
             self.end_watching()
 
     def _refuse(self, error: SilverballError) -> None:
         self.say(str(error))
         self.menus.reopen()
+
+
+def _why_no_tick(stage: Stage | None) -> str:
+    """Why nothing can be moved on by a single tick now."""
+    if stage is not None and stage.has_ended:
+        return "the game is over" if isinstance(stage, Playing) else "the replay has ended"
+    if isinstance(stage, Watching):
+        return "one tick at a time is for a replay that is held"
+    return "one tick at a time is for a game that is paused"

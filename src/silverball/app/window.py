@@ -17,6 +17,7 @@ import pygame
 
 from silverball.app import overlay
 from silverball.app.clock import TickClock
+from silverball.app.controls import Action
 from silverball.app.debug import DebugView
 from silverball.app.framerate import FrameTimes
 from silverball.app.latency import LatencyMeter
@@ -26,6 +27,7 @@ from silverball.app.messages import Messages
 from silverball.app.picture import Picture
 from silverball.app.program import Program
 from silverball.app.rehearsal import Rehearsal
+from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
@@ -111,6 +113,7 @@ class Window:
         self._stage: Stage | None = None
         self._before: Moment | None = None  # one tick before the present one
         self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
+        self._moved_at = 0.0  # at the last picture of a stage that had not ended
         for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
             self.messages.say(trouble)
         if replay is not None:
@@ -189,6 +192,7 @@ class Window:
         self.program.pass_time(self._seconds)
         if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
             self.sounds.menu(PAGE_SOUNDS[self.program.menus.page])
+            self.listener.shows_help = False  # whoever asked for it has gone, or wants to sign a score
         self._follow_settings()
         self._frame_times.add(self._seconds)
         is_watched = self.program.is_playing and bool(self._stage and self._stage.game.world.balls)
@@ -359,6 +363,11 @@ class Window:
         moment = Moment.before(program.table)
         if stage is not None:
             moment = Moment.of(stage.game.world)
+            if stage.has_ended:
+                # Nothing moves any more, but what was on its way is gone soon: a lost ball, sparks, lights.
+                moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
+            else:
+                self._moved_at = self._seconds
             if self._before is not None and program.is_moving:
                 moment = Moment.between(self._before, moment, self._clock.share)
         self._picture.show(program.table, program.board_seed, program.settings)
@@ -372,7 +381,11 @@ class Window:
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
         if self.listener.shows_help:
-            overlay.draw_help(target, scale, program.seed, self.listener.controls)
+            shoves = self.listener.controls.keys(Action.JITTER)
+            rules = how_to_score(program.table, program.mode, shoves[0].upper() if shoves else "")
+            overlay.draw_help(
+                target, scale, program.seed, self.listener.controls, self.listener.help_page, rules
+            )
         if self.messages.strength > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
 

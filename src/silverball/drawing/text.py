@@ -40,17 +40,38 @@ def number(value: int, size: int, color: Color) -> list[pygame.Surface]:
     return [line(glyph, size, color) for glyph in f"{value:,}"]
 
 
+def text_width(text: str, size: int) -> int:
+    """How wide `line` makes a text [pixel]."""
+    if size >= SMALL:
+        return font(size).size(text)[0]
+    return -(-font(ENLARGED * size).size(text)[0] // ENLARGED)
+
+
 def wrapped(text: str, size: int, width: int) -> list[str]:
-    """The lines into which a text breaks so that none is wider than `width` [pixel], words kept whole."""
+    """The lines into which a text breaks so that none is wider than `width` [pixel].
+
+    Words are kept whole, but for those that are wider than a line, as a path may be.
+    """
     lines: list[str] = []
     for paragraph in text.split("\n"):
         current = ""
         for word in paragraph.split():
-            longer = f"{current} {word}" if current else word
-            if current and font(size).size(longer)[0] > width:
-                lines.append(current)
-                current = word
-            else:
-                current = longer
+            for piece in _pieces(word, size, width):
+                longer = f"{current} {piece}" if current else piece
+                if current and text_width(longer, size) > width:
+                    lines.append(current)
+                    current = piece
+                else:
+                    current = longer
         lines.append(current)
     return lines
+
+
+def _pieces(word: str, size: int, width: int) -> list[str]:
+    """A word in as few pieces as fit a line each; a letter is never cut."""
+    pieces = []
+    while len(word) > 1 and text_width(word, size) > width:
+        count = next((end for end in range(len(word) - 1, 1, -1) if text_width(word[:end], size) <= width), 1)
+        pieces.append(word[:count])
+        word = word[count:]
+    return [*pieces, word]

@@ -332,9 +332,9 @@ def test_nobody_at_the_menu_for_a_while_starts_the_show_and_a_button_ends_it():
     assert menus.page == "main"
 
 
-def test_no_show_starts_over_a_paused_game_or_while_initials_are_entered():
+def test_no_show_starts_over_a_paused_game_or_in_a_game():
     menus = menus_with()
-    for open_page in (menus.open_pause, lambda: menus.open_over(9, 1), menus.close):
+    for open_page in (menus.open_pause, menus.close):
         open_page()
         assert menus.tick(1000.0) is None
         assert menus.tick(5000.0) is None

@@ -24,6 +24,7 @@ class AttractPage(Page):
 
     name = "attract"
     repeats = False
+    quiet = False
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Somebody is there."""

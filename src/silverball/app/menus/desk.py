@@ -26,12 +26,14 @@ class TableEntry(NamedTuple):
         title: What the player reads.
         about: A few words more.
         is_random: Whether every seed makes another board of it.
+        problem: Why it cannot be played; empty if it can.
     """
 
     name: str
     title: str
     about: str = ""
     is_random: bool = False
+    problem: str = ""
 
 
 class ScoreRow(NamedTuple):
@@ -57,7 +59,10 @@ class Page(ABC):
     repeats = True
     """Whether a paddle button that is held counts again and again."""
     quiet = True
-    """Whether the program may begin to play by itself when nobody touches anything."""
+    """Whether the program may begin to play by itself when nobody touches anything; where not, then neither
+    on the pages that are opened from here."""
+    extra_patience = 0.0
+    """How much longer than elsewhere that takes [s]."""
     shown_at = 0.0
     """Since when it is shown as it is [s]: texts begin to scroll then."""
 
@@ -92,6 +97,7 @@ class Desk:
         has_last_game: Whether there is a last game to watch.
         performer: Who plays while the program plays by itself; None if it has not done so yet.
         now: The time of the last tick [s].
+        idle: How long nobody has touched anything by then [s].
         pages: The open pages, the visible one last; none while the game runs.
     """
 
@@ -112,7 +118,7 @@ class Desk:
         self.last_seed: int | None = None
         self.has_last_game = False
         self.performer: Performer | None = None
-        self.now = 0.0
+        self.now = self.idle = 0.0
         self.pages: list[Page] = []
         self._message = ("", 0.0)
         self._left: list[Page] = []  # the pages that were open when a replay began

@@ -19,7 +19,7 @@ from silverball.app.menus.commands import Attract, Button, Command, EndReplay, I
 from silverball.app.menus.desk import Desk, ScoreRow, TableEntry
 from silverball.app.menus.front import main_page
 from silverball.app.menus.gamepages import over_page, pause_page
-from silverball.app.menus.letters import InitialsPage
+from silverball.app.menus.letters import InitialsPage, LettersPage
 from silverball.app.menus.remap import CapturePage
 from silverball.app.menus.transport import ReplayFace, TransportPage
 from silverball.app.performers import Performer
@@ -30,6 +30,7 @@ from silverball.game.news import Mode
 
 REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it counts again
 REPEAT_EVERY = 0.09  # [s]
+HURRY_AFTER, HURRY_EVERY = 4.0, 0.03  # [s] who holds it for so long has a long way to go
 BACK_AFTER = 1.0  # [s] for which both paddle buttons are held to go back
 IDLE = 30.0  # [s] without a button, after which the program plays by itself
 
@@ -67,6 +68,11 @@ class Menus:
         return self._desk.settings
 
     @property
+    def seed(self) -> int | None:
+        """The seed that was chosen for random boards; None: another one for every game."""
+        return self._desk.seed
+
+    @property
     def is_open(self) -> bool:
         """Whether a page is shown; else the buttons are the game's."""
         return bool(self._desk.pages)
@@ -85,6 +91,11 @@ class Menus:
     def wants_pad(self) -> bool:
         """Whether the next gamepad button belongs to `capture`."""
         return self._wants("pad")
+
+    @property
+    def wants_text(self) -> bool:
+        """Whether keys that bear letters are for `type`."""
+        return bool(self._desk.pages) and isinstance(self._desk.pages[-1], LettersPage)
 
     @property
     def signature(self) -> Hashable:
@@ -120,6 +131,21 @@ class Menus:
         page = desk.pages[-1] if desk.pages else None
         return page.capture(desk, name) if isinstance(page, CapturePage) else None
 
+    def type(self, written: str, key: str, *, is_button: bool) -> bool:
+        """A key was pressed while a text is entered; whether it was meant for that.
+
+        Args:
+            written: What the key writes; empty if that is not known.
+            key: The name of the key.
+            is_button: Whether it is a button of the menus as well.
+        """
+        desk = self._desk
+        page = desk.pages[-1] if desk.pages else None
+        if not isinstance(page, LettersPage) or not page.type(written, key, desk, is_button=is_button):
+            return False
+        self._touched = desk.now
+        return True
+
     def tick(self, seconds: float) -> Command | None:
         """Time has gone on: held buttons count again, and pages end by themselves.
 
@@ -132,14 +158,16 @@ class Menus:
             self._touched = desk.now
         if not desk.pages:
             return None
+        if self._down:
+            self._touched = desk.now
+        desk.idle = desk.now - self._touched
         page = desk.pages[-1]
         command = page.tick(desk)
         if command is not None or not desk.pages:
             return command
         if self._down:
-            self._touched = desk.now
             return self._held()
-        if page.quiet and page.name != "attract" and desk.now - self._touched >= IDLE:
+        if all(one.quiet for one in desk.pages) and desk.idle >= IDLE + page.extra_patience:
             return self.open_attract()
         return None
 
@@ -276,5 +304,6 @@ class Menus:
             return None
         if self._is_spent or not self._desk.pages[-1].repeats or now < self._next:
             return None
-        self._next = max(self._next + REPEAT_EVERY, now)
+        every = REPEAT_EVERY if now - max(self._down.values()) < HURRY_AFTER else HURRY_EVERY
+        self._next = max(self._next + every, now)
         return self._pass_on(next(iter(self._down)))

@@ -39,7 +39,7 @@ def remap_page(desk: Desk, kind: Kind) -> ChoicePage:
             Item("BACK", "ALSO: HOLD BOTH PADDLES", desk.back),
         ]
 
-    return ChoicePage(kind, TITLES[kind], items, quiet=False)
+    return ChoicePage(kind, TITLES[kind], items)
 
 
 def action_page(desk: Desk, kind: Kind, line: ActionLine) -> ChoicePage:
@@ -64,7 +64,7 @@ def action_page(desk: Desk, kind: Kind, line: ActionLine) -> ChoicePage:
             Item("BACK", hint, desk.back),
         ]
 
-    return ChoicePage(f"{kind} of an action", line.label, items, quiet=False)
+    return ChoicePage(f"{kind} of an action", line.label, items)
 
 
 class CapturePage(Page):
@@ -77,7 +77,6 @@ class CapturePage(Page):
     """
 
     name = "capture"
-    quiet = False
     repeats = False
 
     def __init__(self, kind: Kind, line: ActionLine, way: Literal["new", "more"]) -> None:
@@ -154,7 +153,7 @@ class CapturePage(Page):
             Item(f"OTHER {THING[self.kind]}", says, again),
             Item("LEAVE IT", says, desk.back),
         ]
-        return ChoicePage("conflict", f"{shown(name)} FOR {self._line.label}?", lambda: items, quiet=False)
+        return ChoicePage("conflict", f"{shown(name)} FOR {self._line.label}?", lambda: items)
 
 
 def _is_last(desk: Desk, line: ActionLine, kind: Kind, name: str) -> bool:
