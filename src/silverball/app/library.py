@@ -14,7 +14,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.menus import ScoreRow, TableEntry
-from silverball.app.tablefiles import FIRST_GLANCE, GLANCE, Reading, TableFiles, first_problem, is_path
+from silverball.app.tablefiles import (
+    FIRST_GLANCE,
+    GLANCE,
+    Reading,
+    Stamp,
+    TableFiles,
+    first_problem,
+    is_path,
+)
 from silverball.errors import SilverballError
 from silverball.game.folder import keep
 from silverball.game.news import Mode
@@ -50,11 +58,15 @@ class Library:
         self._given = dict(given or {})
         self._files = TableFiles(folder / TABLES)
         self._seen = -1  # the version of the files that was told last
+        self._chosen = ""
+        self._told: Stamp = ()  # of the chosen file when it was asked for or told of last
+        self._doubted: Stamp = ()  # of that file when it was first found broken
         self._rows: dict[tuple[str, Mode], list[ScoreRow]] = {}
         self._lists: set[tuple[str, str]] | None = None  # digests and modes that have scores
 
     def choose(self, name: str) -> None:
         """Watch the file of the chosen table, if it has one, wherever it lies."""
+        self._chosen = name
         self._files.choose(name)
 
     def look(self, *, whole: bool) -> bool:
@@ -86,11 +98,28 @@ class Library:
         """
         if name in self._given:
             return self._given[name]
-        return self._files.read(name) if is_path(name) else load_table(name)
+        if not is_path(name):
+            return load_table(name)
+        try:
+            return self._files.read(name)
+        finally:
+            reading = self._files.reading(name)
+            if name == self._chosen and reading is not None:
+                self._told = reading.stamp
 
-    def reading(self, name: str) -> Reading | None:
-        """What the file of a table said when it was read last; None if it was not, or is no file."""
-        return None if name in self._given else self._files.reading(name)
+    def news(self) -> Reading | None:
+        """What the chosen file says now, once after every change; None if there is nothing new.
+
+        A file that cannot be used is told of only at the second look: perhaps it was being written.
+        """
+        reading = self._files.reading(self._chosen)
+        if self._chosen in self._given or reading is None or reading.stamp == self._told:
+            return None
+        if reading.problem and reading.stamp != self._doubted:
+            self._doubted = reading.stamp
+            return None
+        self._told = reading.stamp
+        return reading
 
     def finished(self, recipe: Table, seed: int) -> Table:
         """The board that a seed makes of a table."""

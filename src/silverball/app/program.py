@@ -20,7 +20,7 @@ from silverball.app.menus import Button, Menus, ReplayFace
 from silverball.app.orders import carry_out
 from silverball.app.performers import BEST, Cast
 from silverball.app.settings import Settings
-from silverball.app.stages import Playing, Showing, Stage, Watching
+from silverball.app.stages import Playing, Showing, Stage, Watching, why_no_tick
 from silverball.errors import BoardFull, NoRoom, SilverballError
 from silverball.game.news import Mode
 from silverball.plain import plain
@@ -28,7 +28,6 @@ from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.app.library import Key, Library
-    from silverball.app.tablefiles import Stamp
     from silverball.drawing.dots import Dots
     from silverball.game.replay import Replay
     from silverball.game.store import Store
@@ -102,9 +101,7 @@ class Program:
         self._looked = 0.0  # when the table files were looked at
         self._played: Table | None = None  # of what the board of the game was made
         self._key: Key | None = None  # under which its score is listed
-        self._told: Stamp = ()  # of the file of the chosen table when it was played or told of last
-        self._doubted: Stamp = ()  # of that file when it was first found broken: is it being written?
-        self._see(self._read(settings.table), seed)
+        self._see(library.recipe(settings.table), seed)
 
     # --- what there is to see -----------------------------------------------------------------------
 
@@ -195,7 +192,7 @@ class Program:
         """Move on by one tick while the game waits."""
         stage = self.stage
         if stage is None or self.is_moving or stage.has_ended:
-            self.say(_why_no_tick(stage))
+            self.say(why_no_tick(stage))
             return
         self._no_longer_counts()
         self._goes_on(lambda: stage.advance(held, 1))
@@ -374,20 +371,11 @@ class Program:
     def _look_at(self, table: str, seed: int | None) -> bool:
         """Show another board; False, told why, and the old one, if it cannot be used."""
         try:
-            self._see(self._read(table), seed)
+            self._see(self._library.recipe(table), seed)
         except SilverballError as error:
             self.say(trouble_of(table, error))
             return False
         return True
-
-    def _read(self, table: str) -> Table:
-        """The table of a name, or in a file as it is now."""
-        try:
-            return self._library.recipe(table)
-        finally:
-            reading = self._library.reading(table)
-            if table == self.settings.table:
-                self._told = reading.stamp if reading is not None else ()
 
     def _see(self, recipe: Table, seed: int | None) -> None:
         """Show the board that a seed makes of a table, None drawing one."""
@@ -427,7 +415,7 @@ class Program:
         seed = self.seed if again else None
         words = ""
         try:
-            self._see(self._read(self.settings.table), seed)
+            self._see(self._library.recipe(self.settings.table), seed)
         except SilverballError as error:
             words = f"{trouble_of(self.settings.table, error)}. This is the table as it was"
             if not self._look_at_kept(before, seed):
@@ -466,19 +454,15 @@ class Program:
         is_choosing = self.menus.is_open and not self.is_paused
         if self._library.look(whole=is_choosing) and is_choosing:
             self.menus.know(tables=self._library.entries())
-        reading = self._library.reading(self.settings.table)
-        if reading is None or reading.stamp == self._told or isinstance(self.stage, Watching | Showing):
+        if isinstance(self.stage, Watching | Showing):
+            return  # when that is over, the file is read in any case
+        reading = self._library.news()
+        if reading is None or reading.table == self.recipe:
             return
-        if reading.problem and reading.stamp != self._doubted:
-            self._doubted = reading.stamp  # perhaps it is being written at this moment
-            return
-        self._told = reading.stamp
-        if reading.table == self.recipe:
-            return  # written anew as it was
         if self.stage is None:
             self._look_at(self.settings.table, self.seed)
             return
-        file, key = file_name(self.settings.table), self._key_of(Action.NEW_BOARD)
+        file, key = file_name(self.settings.table), self._key_of(Action.NEW_BOARD).replace("?", "a new game")
         if reading.table is not None:
             self.say(f"{file} has changed: {key} plays the new one")
         else:
@@ -578,12 +562,3 @@ class Program:
     def _refuse(self, error: SilverballError) -> None:
         self.say(str(error))
         self.menus.reopen()
-
-
-def _why_no_tick(stage: Stage | None) -> str:
-    """Why nothing can be moved on by a single tick now."""
-    if stage is not None and stage.has_ended:
-        return "the game is over" if isinstance(stage, Playing) else "the replay has ended"
-    if isinstance(stage, Watching):
-        return "one tick at a time is for a replay that is held"
-    return "one tick at a time is for a game that is paused"

@@ -187,3 +187,12 @@ class Watching:
 def _could_come(face: Face) -> bool:
     """Whether one of the balls left in a game of so many could come now."""
     return 0 < face.ball < face.balls and face.on_board < face.most_balls and not face.tilted
+
+
+def why_no_tick(stage: Stage | None) -> str:
+    """Why nothing can be moved on by a single tick now."""
+    if stage is not None and stage.has_ended:
+        return "the game is over" if isinstance(stage, Playing) else "the replay has ended"
+    if isinstance(stage, Watching):
+        return "one tick at a time is for a replay that is held"
+    return "one tick at a time is for a game that is paused"

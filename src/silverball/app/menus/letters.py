@@ -148,7 +148,7 @@ class LettersPage(Page):
             x = left + place * step
             here = choice if place == count and choice not in (END, DELETE) else ""
             letter = self.text[place] if place < count else here
-            light = FULL if here or choice == END else layout.HALF
+            light = FULL if here or choice == END or self._is_typed else layout.HALF
             dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
             if place != count or not self._is_typed or layout.blinks(seconds):
                 dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else layout.HALF)
