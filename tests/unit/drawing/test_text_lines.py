@@ -19,6 +19,14 @@ def test_no_line_is_wider_than_it_may_be_and_no_letter_is_lost(text, size, width
     assert "".join(lines).replace(" ", "") == text.replace(" ", "")
 
 
+@pytest.mark.parametrize("size", range(8, 40))
+def test_a_sentence_fits_its_width_at_every_size(size):
+    words = "typo.toml cannot be played: board.gravitation: unknown key: did you mean `gravity`?"
+    for width in range(12 * size, 24 * size, size // 2):
+        for one in wrapped(words, size, width):
+            assert line(one, size, (255, 255, 255)).get_width() <= width
+
+
 @pytest.mark.parametrize("size", [8, 11, 29, 30, 50])
 def test_the_width_of_a_text_is_the_width_of_its_picture(size):
     assert (
