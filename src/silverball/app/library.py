@@ -182,14 +182,19 @@ def file_name(name: str) -> str:
     return plain(Path(name).name)
 
 
+def file_in_words(name: str) -> str:
+    """The same in a sentence."""
+    file = file_name(name)
+    return f"'{file}'" if " " in file else file
+
+
 def trouble_words(name: str, problem: str) -> str:
     """What is wrong with a table that cannot be played, and how to learn all of it, as one sentence."""
     told = plain(problem)
     if not is_path(name):
         return told
-    return (
-        f"{file_name(name)} cannot be played: {told} (all of it: silverball check {plain(shlex.quote(name))})"
-    )
+    command = f"silverball check {plain(shlex.quote(name))}"
+    return f"{file_in_words(name)} cannot be played: {told} (all of it: {command})"
 
 
 def trouble_of(name: str, error: SilverballError) -> str:

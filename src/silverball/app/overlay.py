@@ -67,7 +67,7 @@ def _first(controls: Controls, action: Action) -> str:
 
 def _foot(turn: str, other: str, leave: str) -> str:
     """How one comes to the other page, and away."""
-    return f"paddle or {turn}: {other}   {leave}: go on"
+    return f"paddle or {turn}: {other} · {leave}: go on"
 
 
 def small_text_size(scale: float) -> int:

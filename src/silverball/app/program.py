@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Controls, Held
 from silverball.app.display import Display
 from silverball.app.keeping import Ended, Keeper
-from silverball.app.library import file_name, trouble_of, trouble_words
+from silverball.app.library import file_in_words, trouble_of, trouble_words
 from silverball.app.menus import Button, Menus, ReplayFace
 from silverball.app.orders import carry_out
 from silverball.app.performers import BEST, Cast
@@ -435,7 +435,7 @@ class Program:
 
     def _board_words(self, before: Table, again: bool) -> str:
         """What there is to say of the board that has just been made."""
-        news = f"{file_name(self.settings.table)} was read again" if self.recipe != before else ""
+        news = f"{file_in_words(self.settings.table)} was read again" if self.recipe != before else ""
         if self.recipe.random is not None:
             key = self._key_of(Action.NEW_BOARD)
             words = (
@@ -462,7 +462,10 @@ class Program:
         if self.stage is None:
             self._look_at(self.settings.table, self.seed)
             return
-        file, key = file_name(self.settings.table), self._key_of(Action.NEW_BOARD).replace("?", "a new game")
+        file, key = (
+            file_in_words(self.settings.table),
+            self._key_of(Action.NEW_BOARD).replace("?", "a new game"),
+        )
         if reading.table is not None:
             self.say(f"{file} has changed: {key} plays the new one")
         else:

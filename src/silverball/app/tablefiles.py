@@ -10,7 +10,9 @@ import itertools
 import os
 import stat
 import threading
+import time
 import tomllib
+from collections import deque
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -20,6 +22,7 @@ from silverball.table.file import SIZE_LIMIT
 
 ENDING = ".toml"
 GLANCE = 0.01  # [s] that a look waits for what is read: a table of a hundred parts is ready by then
+PACE = 0.02  # [s] between two of many files, in which the game has Python to itself
 FIRST_GLANCE = 0.5  # [s] the same before the first picture: some fifty tables
 
 Mark: TypeAlias = tuple[str, int, int, int, int, int]
@@ -55,6 +58,7 @@ class TableFiles:
         self._names: tuple[str, ...] = ()
         self._readings: dict[str, Reading] = {}
         self._thread = threading.Thread()
+        self._stale: deque[str] = deque()  # to be read; the thread takes them from the left
         self._versions = itertools.count(1)  # of two threads none takes the same
         self.version = 0
         """Another number whenever something else can be said of the files."""
@@ -79,20 +83,19 @@ class TableFiles:
             wait: How long to wait for it at most [s]; what takes longer is seen at a later look.
             whole: Whether the folder is looked through; else only the chosen file.
         """
-        if self._thread.is_alive():
-            self._thread.join(wait)
-            return
-        if whole:
-            self._list()
-        stale = []
-        for name in self._names if whole else filter(None, (self._chosen,)):
-            before = self._readings.get(name)
-            if before is None or _stamp(name, before.stamp) != before.stamp:
-                stale.append(name)
-        if stale:
-            self._thread = threading.Thread(target=self._read_all, args=(stale,), daemon=True)
+        if self._chosen and self._differs(self._chosen) and [self._chosen] != list(self._stale)[:1]:
+            self._stale.appendleft(self._chosen)  # it is what the player waits for
+        if not self._thread.is_alive():
+            if whole:
+                self._list()
+                self._stale.extend(
+                    name for name in self._names if name != self._chosen and self._differs(name)
+                )
+            if not self._stale:
+                return
+            self._thread = threading.Thread(target=self._read_all, daemon=True)
             self._thread.start()
-            self._thread.join(wait)
+        self._thread.join(wait)
 
     def read(self, name: str) -> Table:
         """The table in a file as it is at this moment.
@@ -129,9 +132,18 @@ class TableFiles:
             self._readings = {name: one for name, one in self._readings.items() if name in names}
             self.version = next(self._versions)
 
-    def _read_all(self, names: list[str]) -> None:
-        for name in names:
+    def _differs(self, name: str) -> bool:
+        """Whether a file was not read yet, or has changed since."""
+        before = self._readings.get(name)
+        return before is None or _stamp(name, before.stamp) != before.stamp
+
+    def _read_all(self) -> None:
+        start = time.monotonic()
+        while self._stale:
+            name = self._stale.popleft()
             self._note(name, _read(name)[0])
+            if time.monotonic() - start > FIRST_GLANCE:
+                time.sleep(PACE)
 
     def _note(self, name: str, reading: Reading) -> None:
         self._readings[name] = reading

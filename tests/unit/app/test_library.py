@@ -421,6 +421,41 @@ def test_five_hundred_files_are_all_offered_though_none_is_waited_for(tmp_path, 
         assert {f"Table {number}" for number in range(500)} <= titles
 
 
+def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monkeypatch):
+    chosen = write(tmp_path, "zz.toml", title="Chosen")
+    for number in range(50):
+        write(tmp_path, f"t{number:03}.toml")
+    read, gate = [], threading.Event()
+
+    def slow(name):
+        read.append(os.path.basename(name))
+        gate.wait()
+        return load_table(name)
+
+    monkeypatch.setattr("silverball.app.tablefiles.load_table", slow)
+    with Store(tmp_path) as store:
+        library = Library(store, tmp_path)
+        library.look(whole=True)  # one of the fifty is being read, and takes its time
+        library.choose(str(chosen))
+        library.look(whole=False)
+        gate.set()
+        limit = time.monotonic() + 60.0
+        while "zz.toml" not in read:
+            assert time.monotonic() < limit
+            time.sleep(0.01)
+        assert read.index("zz.toml") == 1
+
+
+def test_a_file_with_a_space_in_its_name_is_told_apart_from_the_sentence(tmp_path):
+    path = write(tmp_path, "a table.toml")
+    evening = Evening(tmp_path, Settings(table=str(path), mode="free"))
+    evening.program.get_ready()
+    evening.program.play(Mode.FREE, str(path))
+    write(tmp_path, "a table.toml", z=2.0)
+    settle(evening, "'a table.toml' has changed")
+    evening.store.close()
+
+
 def test_the_names_in_the_folder_may_be_anything_and_the_folder_may_be_a_file(tmp_path):
     (tmp_path / "tables").write_text("not a folder")
     with Store(tmp_path) as store:
