@@ -86,9 +86,9 @@ def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
     padding = size // 2
     lines = wrapped(text, size, width - 2 * padding)
     words = column([line(text, size, palette.TEXT) for text in lines], 0)
-    if words.get_height() + 2 > height and size > LEAST_MESSAGE_SIZE:
+    if words.get_height() + padding > height and size > LEAST_MESSAGE_SIZE:
         return _message(text, size - 1, width, height)
-    return plate(words, width, max(height, words.get_height() + 2))
+    return plate(words, width, max(height, words.get_height() + padding))
 
 
 @lru_cache(maxsize=4)
