@@ -9,6 +9,7 @@
     ├── FaultError        a world has stopped at an impossible state; `fault` names it
     ├── NoDisplay         there is no screen to open a window on
     ├── MissingExtra      an optional package is needed; the message says which extra to install
+    │   └── OutdatedExtra an optional package is there, but too old
     └── OutputError       a file cannot be written (unknown ending, no such folder, no permission)
 
 A message says where, what was expected, what was given and what to do. The command line prints the
@@ -95,6 +96,17 @@ class MissingExtra(SilverballError):
     def __init__(self, what: str, extra: str) -> None:
         super().__init__(
             f"{what} needs an optional package: install it with  pip install 'silverball[{extra}]'"
+        )
+
+
+class OutdatedExtra(MissingExtra):
+    """An optional package is installed, but too old."""
+
+    def __init__(self, what: str, package: str, found: str, needed: str, extra: str) -> None:
+        SilverballError.__init__(
+            self,
+            f"{what} needs {package} {needed} or later, and {found} is installed: "
+            f"bring it up to date with  pip install --upgrade 'silverball[{extra}]'",
         )
 
 

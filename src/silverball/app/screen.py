@@ -5,21 +5,17 @@ A pixel here is a real pixel of the screen: nothing is scaled, so it is sharp on
 
 from __future__ import annotations
 
-import os
-import sys
-from pathlib import Path
-
 import pygame
 
 from silverball.drawing.icon import ball_icon
-from silverball.errors import NoDisplay
+from silverball.video import open_video
 
 DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take
 GREATEST_HEIGHT = 1200  # [pixel] of the window at first
 ICON_SIDE = 64  # [pixel]
 LEAST_SIZE = (170, 340)  # [pixel] below which nothing can be read
+REMEDY = "`silverball demo` makes a film of a game without one, for example: silverball demo --out demo.gif"
 FRAME_RATES = (60, 240)  # [1/s] the least and the greatest that is aimed at, whatever the screen says
-_NOT_A_SCREEN = ("dummy", "offscreen", "evdev")
 
 
 class Screen:
@@ -34,7 +30,7 @@ class Screen:
     """
 
     def __init__(self, title: str, *, without_display: bool = False) -> None:
-        open_video(without_display=without_display)
+        open_video(REMEDY, without_display=without_display)
         self.desktop: tuple[int, int] = pygame.display.get_desktop_sizes()[0]
         self._title = title
         self._window: pygame.Window | None = None
@@ -94,41 +90,3 @@ class Screen:
     def _opened(self) -> pygame.Window:
         assert self._window is not None, "open() comes first"
         return self._window
-
-
-def open_video(*, without_display: bool = False) -> None:
-    """Start SDL's video.
-
-    Raises:
-        NoDisplay: SDL finds no screen, or was told to use a driver that shows nothing.
-    """
-    os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # real pixels on Windows
-    os.environ.setdefault("SDL_VIDEO_X11_WMCLASS", "Silverball")  # what a desktop lists it under
-    if sys.platform == "linux" and not {"XDG_RUNTIME_DIR", "WAYLAND_DISPLAY"} & os.environ.keys():
-        # Wayland cannot work without these; asked nevertheless, its library prints an error of its own.
-        os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
-    try:
-        pygame.display.init()
-    except pygame.error as error:
-        raise NoDisplay(_sentence(f"SDL says: {error}")) from None
-    driver = pygame.display.get_driver()
-    if driver.lower() in _NOT_A_SCREEN and not without_display:
-        pygame.display.quit()
-        raise NoDisplay(_sentence(f"SDL uses the driver {driver!r}, which shows nothing"))
-    if driver == "x11" and not has_gpu():
-        # SDL would put each frame through OpenGL, which without a GPU takes 4 ms instead of 0.3 ms.
-        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
-    else:
-        os.environ.setdefault("SDL_RENDER_VSYNC", "1")  # a flip waits for the screen: no picture is torn
-
-
-def has_gpu() -> bool:
-    """Whether Linux knows of a graphics card; elsewhere it is taken for granted."""
-    return sys.platform != "linux" or any(Path("/dev/dri").glob("renderD*"))
-
-
-def _sentence(reason: str) -> str:
-    return (
-        f"there is no display to open a window on ({reason}); "
-        "`silverball demo` makes a film of a game without one, for example: silverball demo --out demo.gif"
-    )
