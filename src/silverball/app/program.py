@@ -94,6 +94,7 @@ class Program:
         self.ended = Ended()
         self._is_shown_off = False  # the program plays because nobody is there
         self._is_fresh = True  # nobody has played on this board yet
+        self._is_blind = store.is_blind  # the settings are not known yet
         self._look_at(settings.table, seed)
 
     # --- what there is to see -----------------------------------------------------------------------
@@ -153,6 +154,7 @@ class Program:
             seconds: By a clock that never goes back [s].
         """
         self._now = seconds
+        self._try_to_save(seconds)
         carry_out(self.menus.tick(seconds), self)
         stage = self.stage
         if isinstance(stage, Playing) and stage.has_ended:
@@ -162,6 +164,20 @@ class Program:
         # A replay is played a little ahead, so that a jump is quick.
         if isinstance(stage, Watching) and self._goes_on(lambda: stage.player.prepare(480)):
             self.menus.show_replay(self._replay_face(stage))
+
+    def _try_to_save(self, seconds: float) -> None:
+        """Save what waits for another program that held the file of the scores."""
+        words = self.keeper.pass_time(seconds)
+        if words is None:
+            return
+        if self._is_blind:
+            self._is_blind = False
+            here = {"table": self.settings.table, "mode": self.settings.mode}
+            self._take(Settings.of(self.store.settings()).changed(**here))
+            self.menus.use(self.settings)
+            self.menus.know(has_last_game=self.store.last_game() is not None)
+        if words:
+            self.say(words)
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move what goes on on the board by a number of ticks."""
@@ -408,6 +424,8 @@ class Program:
             self._ended_at = self._now
         elif self._now - self._ended_at >= OVER_SECONDS and not self.menus.is_open:
             self.menus.open_over(stage.game.score, self.ended.rank)
+            if not self.store.is_safe:
+                self.menus.say("not yet saved")
 
     def _show_replay(self, replay: Replay) -> None:
         from silverball.game.replay import ReplayPlayer
@@ -468,11 +486,17 @@ class Program:
     def use(self, settings: Settings) -> None:
         """Use other settings and keep them."""
         changed = settings.table != self.settings.table
-        self.settings = settings
-        self._controls = Controls(settings)
-        self.store.keep_settings(settings.model_dump(mode="json"))
+        values, before = settings.model_dump(mode="json"), self.settings.model_dump(mode="json")
+        if self._is_blind:  # the others must stay what they are
+            values = {name: value for name, value in values.items() if value != before[name]}
+        self._take(settings)
+        self.store.keep_settings(values)
         if changed and not isinstance(self.stage, Playing):
             self.end_watching()
+
+    def _take(self, settings: Settings) -> None:
+        self.settings = settings
+        self._controls = Controls(settings)
 
     def _refuse(self, error: SilverballError) -> None:
         self.say(str(error))
