@@ -330,7 +330,7 @@ FORGERIES |= {
     ),
     "stopped, but called over": lambda forger: forger.set(
         "classic",
-        replay=re.sub(r"ended = \w+", "ended = over", forger.text("classic")).join(("", "")),
+        replay=again(forger.text("classic"), ended="over"),
     ),
     "ended by a fault": lambda forger: forger.set(
         "classic", replay=again(forger.text("classic"), ended="not_finite")

@@ -220,6 +220,7 @@ class Store:
         Raises:
             SilverballError: There is no score of that number.
         """
+        self.try_again()
         one = self._waiting_score(id)
         if one is not None:
             one.initials = initials
