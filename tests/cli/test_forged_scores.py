@@ -260,6 +260,9 @@ for name in (
     FORGERIES[f"an easier table named {name!r}"] = lambda forger, name=name: forger.add(
         forger.add_list(rich(name)), rich_game(name)
     )
+FORGERIES["the list of one built-in table renamed to another"] = lambda forger: forger.set_list(
+    "classic", table_name="Random"
+)
 
 # ── another game ──
 FORGERIES |= {

@@ -123,7 +123,8 @@ def _see_that_it_is_the_game(score: Score, replay: Replay) -> None:
     )
     for what, claimed, found in pairs:
         if claimed != found:
-            raise _NotProven(f"its replay is of another game: the {what} is {found}, not {_shown(claimed)}")
+            expected = plain(str(claimed)[:SHOWN])
+            raise _NotProven(f"its replay is of another game: the {what} is {found}, not {expected}")
     if replay.ended not in ENDED:
         raise _NotProven(f"its replay is of a game that was not over: {replay.ended}")
 
@@ -137,28 +138,24 @@ def _see_that_it_is_the_table(score: Score, replay: Replay, table_text: str) -> 
         )
     if table_digest(table) != score.table_digest:
         raise _NotProven("the table that is kept with the list is not the one that its digest names")
-    built_in = is_built_in(score.table_digest)
-    if _read_as(score.table_name) not in {_read_as(table.name), *(_built_in_names() if built_in else ())}:
+    key = _built_in_keys().get(score.table_digest)
+    if _read_as(score.table_name) not in {_read_as(table.name), key}:
         names = f"{_shown(score.table_name)}, the table that is kept with it {_shown(table.name)}"
         raise _NotProven(f"its list is called {names}")
-    if _read_as(table.name) in _built_in_names() and not built_in:
+    if _read_as(table.name) in _built_in_names() and key is None:
         raise _NotProven(
             f"its table is called {_shown(table.name)}, but is not the built-in table of this name"
         )
     board = table if table.random is None else generate_table(score.seed, table)
     if table_digest(board) != table_digest(replay.table):
-        other = (
-            "not this one, though of its name"
-            if replay.table.name == board.name
-            else f"not {_shown(board.name)}"
-        )
-        found = _shown(replay.table.name)
+        found, wanted = _shown(replay.table.name), _shown(board.name)
+        other = f"not {wanted}" if found != wanted else "but another one of this name"
         raise _NotProven(f"its replay is of another game: the table is {found}, {other}")
 
 
 def is_built_in(digest: str) -> bool:
     """Whether a digest is that of a built-in table."""
-    return _built_in(digest) is not None
+    return digest in _built_in_keys()
 
 
 def _read_as(name: str) -> str:
@@ -174,12 +171,14 @@ def _built_in_names() -> frozenset[str]:
 
 def _built_in(digest: str) -> Table | None:
     """The built-in table of a digest."""
-    return _built_in_tables().get(digest)
+    key = _built_in_keys().get(digest)
+    return None if key is None else load_table(key)
 
 
 @cache
-def _built_in_tables() -> dict[str, Table]:
-    return {table_digest(table): table for table in map(load_table, table_names())}
+def _built_in_keys() -> dict[str, str]:
+    """The names by which built-in tables are loaded, by the digests of the tables."""
+    return {table_digest(load_table(key)): key for key in table_names()}
 
 
 @lru_cache(maxsize=16)
@@ -223,6 +222,5 @@ class _Contacts:
                 self.digests.append(hash((event.tick - self._since, event.kind, event.part)))
 
 
-def _shown(value: object) -> str:
-    text = str(value)
-    return plain(repr(text if len(text) <= SHOWN else f"{text[:SHOWN]}…") if isinstance(value, str) else text)
+def _shown(name: str) -> str:
+    return f"'{plain(name if len(name) <= SHOWN else name[:SHOWN] + '…')}'"
