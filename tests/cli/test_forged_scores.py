@@ -260,6 +260,17 @@ for name in (
     FORGERIES[f"an easier table named {name!r}"] = lambda forger, name=name: forger.add(
         forger.add_list(rich(name)), rich_game(name)
     )
+for key, easier in {
+    "mine": with_points(CLASSIC, 71, "Mine"),
+    "classic": rich(),
+    "my boards": EASIER_RECIPE,
+}.items():
+    FORGERIES[f"the table of {key} edited and played on, under the digest of before"] = (
+        lambda forger, key=key, easier=easier: (
+            forger.set_list(key, table_text=dump_table(easier), table_name=easier.name)
+            and forger.put(key, played(easier))
+        )
+    )
 FORGERIES["the list of one built-in table renamed to another"] = lambda forger: forger.set_list(
     "classic", table_name="Random"
 )

@@ -39,6 +39,7 @@ class Ended(NamedTuple):
 
 
 RETRY_SECONDS = 1.0  # between two tries to write what waits
+REMIND_SECONDS = 10.0  # between two times that the player is told of a score that is not yet saved
 LOST = "this score cannot be kept: the data folder cannot be written"
 WAITS = "another program holds the scores: this one is kept in a file beside them until it can join them"
 NOT_YET = "this score is not yet saved: another program holds the scores. It is tried again every second"
@@ -56,26 +57,28 @@ class Keeper:
     def __init__(self, store: Store, library: Library) -> None:
         self._store, self._library = store, library
         self._score_waits = False  # and the player knows
-        self._next_try = 0.0
+        self._next_try = self._next_words = 0.0
 
-    def pass_time(self, seconds: float) -> str | None:
+    def pass_time(self, seconds: float) -> str:
         """Real time has gone on: try to write what waits for another program.
 
         Args:
             seconds: By a clock that never goes back [s].
 
         Returns:
-            None if nothing has changed, else what to tell the player, which may be nothing.
+            What to tell the player; empty if nothing.
         """
         if not self._store.is_held or seconds < self._next_try:
-            return None
+            return ""
         self._next_try = seconds + RETRY_SECONDS
-        if not self._store.try_again():
-            return None
-        self._library.forget_scores()
-        words = "" if not self._score_waits else SAVED if self._store.keeps else LOST
-        self._score_waits = False
-        return words
+        is_saved = self._store.try_again()
+        if is_saved:
+            self._library.forget_scores()
+        if not self._score_waits or (not is_saved and (self._store.is_safe or seconds < self._next_words)):
+            return ""
+        self._next_words = seconds + REMIND_SECONDS
+        self._score_waits = not is_saved
+        return NOT_YET if not is_saved else SAVED if self._store.keeps else LOST
 
     def last_game(self, game: Game) -> None:
         """Keep a game as the one that was played last, if anything was played."""

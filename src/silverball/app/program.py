@@ -168,9 +168,7 @@ class Program:
     def _try_to_save(self, seconds: float) -> None:
         """Save what waits for another program that held the file of the scores."""
         words = self.keeper.pass_time(seconds)
-        if words is None:
-            return
-        if self._is_blind:
+        if self._is_blind and not self.store.is_held:
             self._is_blind = False
             here = {"table": self.settings.table, "mode": self.settings.mode}
             self._take(Settings.of(self.store.settings()).changed(**here))
@@ -424,8 +422,6 @@ class Program:
             self._ended_at = self._now
         elif self._now - self._ended_at >= OVER_SECONDS and not self.menus.is_open:
             self.menus.open_over(stage.game.score, self.ended.rank)
-            if not self.store.is_safe:
-                self.menus.say("not yet saved")
 
     def _show_replay(self, replay: Replay) -> None:
         from silverball.game.replay import ReplayPlayer

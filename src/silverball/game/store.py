@@ -69,6 +69,7 @@ class Store:
         self._remembered: dict[Any, list[tuple[Any, ...]]] = {}
         self._has_missed = False  # whether something was asked for that could not be read
         self._trouble = ""
+        self._is_closed = False
         self.try_again()
 
     @property
@@ -164,6 +165,9 @@ class Store:
         What still waits stays in its file for the next start; what could not be written even there is tried
         again for some seconds.
         """
+        if self._is_closed:
+            return
+        self._is_closed = True
         deadline = time.monotonic() + database.BUSY_SECONDS
         while not self.try_again():
             if self._room.is_safe or time.monotonic() > deadline:

@@ -10,7 +10,7 @@ from test_program import LEAKY, Evening
 
 from holder import ALONE, WRITES, held
 from silverball.app.controls import Action
-from silverball.app.keeping import NOT_YET, RETRY_SECONDS, SAVED, WAITS
+from silverball.app.keeping import NOT_YET, REMIND_SECONDS, RETRY_SECONDS, SAVED, WAITS
 from silverball.app.program import OVER_SECONDS
 from silverball.app.settings import Settings
 from silverball.game import database
@@ -78,7 +78,8 @@ def test_a_score_that_can_be_written_nowhere_is_called_not_yet_saved(evening, tm
         score = play(evening)
         assert NOT_YET in evening.said
         assert not any(words in evening.said for words in (WAITS, SAVED))
-        evening.go(OVER_SECONDS + 0.1)
+        evening.go(3 * REMIND_SECONDS + 1.0)
+        assert evening.said.count(NOT_YET) >= 3  # as long as it is so
     evening.go(RETRY_SECONDS + 0.1)
     assert evening.said[-1] == SAVED
     assert [points for points, _ in in_the_file(tmp_path)] == [score]
