@@ -159,7 +159,7 @@ class Library:
                 ScoreRow(
                     score.initials,
                     score.score,
-                    f"{score.when.astimezone():%d.%m.%y}",
+                    score.played("%d.%m.%y"),
                     str(score.id) if score.has_replay else "",
                 )
                 for score in self._store.scores(mode, digest, limit=PLACES)

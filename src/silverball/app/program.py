@@ -101,6 +101,7 @@ class Program:
         self._looked = 0.0  # when the table files were looked at
         self._played: Table | None = None  # of what the board of the game was made
         self._key: Key | None = None  # under which its score is listed
+        self._is_blind = store.is_blind  # the settings are not known yet
         self._see(library.recipe(settings.table), seed)
 
     # --- what there is to see -----------------------------------------------------------------------
@@ -171,6 +172,7 @@ class Program:
             seconds: By a clock that never goes back [s].
         """
         self._now = seconds
+        self._try_to_save(seconds)
         carry_out(self.menus.tick(seconds), self)
         self._look_at_files()
         stage = self.stage
@@ -181,6 +183,18 @@ class Program:
         # A replay is played a little ahead, so that a jump is quick.
         if isinstance(stage, Watching) and self._goes_on(lambda: stage.player.prepare(480)):
             self.menus.show_replay(self._replay_face(stage))
+
+    def _try_to_save(self, seconds: float) -> None:
+        """Save what waits for another program that held the file of the scores."""
+        words = self.keeper.pass_time(seconds)
+        if self._is_blind and not self.store.is_held:
+            self._is_blind = False
+            here = {"table": self.settings.table, "mode": self.settings.mode}
+            self._take(Settings.of(self.store.settings()).changed(**here))
+            self.menus.use(self.settings)
+            self.menus.know(has_last_game=self.store.last_game() is not None)
+        if words:
+            self.say(words)
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move what goes on on the board by a number of ticks."""
@@ -555,12 +569,18 @@ class Program:
     def use(self, settings: Settings) -> None:
         """Use other settings and keep them."""
         changed = settings.table != self.settings.table
+        values, before = settings.model_dump(mode="json"), self.settings.model_dump(mode="json")
+        if self._is_blind:  # the others must stay what they are
+            values = {name: value for name, value in values.items() if value != before[name]}
+        self._take(settings)
+        self.store.keep_settings(values)
+        if changed and not self.has_game:
+            self.end_watching()
+
+    def _take(self, settings: Settings) -> None:
         self.settings = settings
         self._controls = Controls(settings)
         self._library.choose(settings.table)
-        self.store.keep_settings(settings.model_dump(mode="json"))
-        if changed and not self.has_game:
-            self.end_watching()
 
     def _refuse(self, error: SilverballError) -> None:
         self.say(str(error))

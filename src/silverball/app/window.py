@@ -40,6 +40,7 @@ from silverball.errors import SilverballError, TableError
 from silverball.game.folder import data_folder
 from silverball.game.news import Mode
 from silverball.game.store import Store
+from silverball.plain import plain
 from silverball.table import Table
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ class Window:
     ) -> None:
         self._folder = folder or data_folder()
         self.messages = Messages()
-        self.store = Store(self._folder)
+        self.store = Store(self._folder, at_once=True)
         try:
             self.program = self._new_program(table, seed, mode)
             self._screen = Screen("Silverball", without_display=without_display)
@@ -215,8 +216,12 @@ class Window:
             self.rehearsal.close()
         self.sounds.close()
         self.listener.close()
-        self.store.close()
         self._screen.close()
+        if not self.store.is_safe:
+            print(f"waiting for another program that holds {self.store.path} …", file=sys.stderr)
+        self.store.close()
+        if self.store.farewell:
+            print(plain(self.store.farewell), file=sys.stderr)
 
     @property
     def is_over(self) -> bool:

@@ -89,7 +89,7 @@ class Replay:
         from silverball import __version__
 
         return cls(
-            __version__, mode, _without_meshes(world.table), world.seed, world.tick_rate,
+            __version__, mode, without_meshes(world.table), world.seed, world.tick_rate,
             lines, tail, world.tick, score, ended, digest,
         )  # fmt: skip
 
@@ -139,7 +139,7 @@ class Replay:
         return cls.from_text(_file_text(name), name)
 
 
-def _without_meshes(table: Table) -> Table:
+def without_meshes(table: Table) -> Table:
     """The table with the footprints of its meshes, so that it needs no other file."""
     if not has_mesh(table):
         return table
