@@ -16,6 +16,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 STDIN = "-"  # what other programs call standard input
+NOTHING = "(nothing)"  # what an empty path is called in messages
 _KINDS = (
     (stat.S_ISDIR, "is a folder: give the path of {what}"),
     (
@@ -87,6 +88,17 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
         os.replace(temporary, target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def is_missing(path: Path) -> bool:
+    """Whether there is nothing at a path, so that a file can begin there; a circle of links is something."""
+    try:
+        os.stat(path)
+    except FileNotFoundError:
+        return True
+    except OSError:
+        pass
+    return False
 
 
 def is_special(path: Path) -> bool:

@@ -15,6 +15,7 @@ from silverball.app.menus import ScoreRow, TableEntry
 from silverball.errors import SilverballError
 from silverball.game.folder import keep
 from silverball.game.news import Mode
+from silverball.game.when import local
 from silverball.table import Table, generate_table, load_table, table_digest, table_names
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ class Library:
                 ScoreRow(
                     score.initials,
                     score.score,
-                    f"{score.when.astimezone():%d.%m.%y}",
+                    local(score.when, "%d.%m.%y"),
                     str(score.id) if score.has_replay else "",
                 )
                 for score in self._store.scores(mode, digest, limit=PLACES)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from silverball.game.news import Mode
+from silverball.game.when import local
 
 if TYPE_CHECKING:
     from silverball.game.store import Score, ScoreList, Store
@@ -189,7 +190,7 @@ def print_list(one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several:
         kept = "kept" if score.has_replay else "not kept"
         if score.verified is not None:
             kept = "true" if score.verified else "does not reach it"
-        when = f"{score.when.astimezone():%Y-%m-%d %H:%M}"
+        when = local(score.when, "%Y-%m-%d %H:%M")
         cells = (str(place), f"{score.score:,}", score.initials, str(score.seed), when, kept, str(score.id))
         grid.add_row(*map(Text, cells), style="red" if score.verified is False else None)
     Console().print(grid)

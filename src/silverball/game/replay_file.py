@@ -37,7 +37,7 @@ from silverball.game.replay_reader import (
 from silverball.game.rules import RULES_VERSION
 from silverball.physics import PHYSICS_VERSION
 from silverball.table import Table, dump_table, table_digest
-from silverball.wholefile import Unreadable, read_text
+from silverball.wholefile import NOTHING, Unreadable, read_text
 
 if TYPE_CHECKING:
     from silverball.world import World
@@ -135,7 +135,7 @@ class Replay:
         Raises:
             StateError: There is no such file, it cannot be read, or it is no replay that can be played.
         """
-        name = os.fspath(path)
+        name = os.fspath(path) or NOTHING
         return cls.from_text(_file_text(name), name)
 
 

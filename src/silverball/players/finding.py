@@ -211,11 +211,9 @@ def _is_possible(soaked: Soaked) -> bool:
     state, board = soaked.batch.state[0], soaked.batch.boards.board[0]
     parts = board["collider_end"] - board["collider_first"]
     balls = state["ball"]
-    numbers = [number for ball in balls.tolist() for number in ball] + [
-        number for paddle in state["paddle"].tolist() for number in paddle
-    ]
+    numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
     return bool(
-        not any(math.isnan(number) for number in numbers)  # a time may be infinite: never
+        not any(map(math.isnan, numbers))  # a time may be infinite: never
         and ((balls["meets"] >= NOTHING) & (balls["meets"] < parts)).all()
         and np.isin(balls["motion"], list(Motion)).all()
         and state["tick"] >= 0

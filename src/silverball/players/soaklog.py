@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable
-from dataclasses import asdict, field
+from dataclasses import asdict, field, fields
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -23,7 +23,7 @@ from silverball.players.finding import found_at
 from silverball.players.jsonfile import STRICT, Count, file_text, made_from
 from silverball.players.soak import Options, Totals, play_round
 from silverball.table.quantity import shown
-from silverball.wholefile import STDIN, write_whole
+from silverball.wholefile import STDIN, is_missing, write_whole
 
 FORMAT = 1
 ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them tell nothing new
@@ -74,10 +74,14 @@ class SoakLog:
 
     @classmethod
     def _of(cls, values: dict[str, Any]) -> Self:
-        totals = values.pop("totals", None)
-        if not isinstance(totals, dict) or not isinstance(values.get("options"), dict):
-            raise ValueError("it has no options or no totals")
-        return cls(**values, totals=Totals(**totals))
+        totals = values.get("totals")
+        if not isinstance(totals, dict):
+            raise ValueError("it has no totals")
+        for kind, given in ((cls, values), (Totals, totals)):
+            for part in fields(kind):  # a log that was begun has them all
+                if part.name not in given:
+                    raise ValueError(f"it has no {part.name}")
+        return cls(**values | {"totals": Totals(**totals)})
 
 
 def code_digest() -> str:
@@ -105,7 +109,7 @@ def begun(options: Options, path: Path) -> SoakLog:
     Raises:
         StateError: The file is of another soak, or no log at all.
     """
-    if not path.exists() and str(path) != STDIN:
+    if is_missing(path) and str(path) != STDIN:
         return SoakLog(options.described(), code_digest())
     log = SoakLog.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
     for key, value in options.described().items():

@@ -28,7 +28,7 @@ from silverball.plain import plain
 from silverball.table.check import Layout, check_layout
 from silverball.table.explain import PART_KINDS, explain
 from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table, TriangularPrism
-from silverball.wholefile import STDIN, Unreadable, read_text, write_whole
+from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
 
@@ -56,7 +56,7 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
         TableError: The file cannot be read or has problems; all of them are in `problems`.
         MissingExtra: The file names a mesh and the extra for meshes is not installed.
     """
-    text = os.fspath(name_or_path)
+    text = os.fspath(name_or_path) or NOTHING
     if isinstance(name_or_path, str) and not _looks_like_path(text):
         if text not in table_names():
             raise UnknownTable(text, _no_such_name(text))
