@@ -340,14 +340,14 @@ def test_every_damaged_progress_file_is_refused_in_one_sentence_and_kept(refused
     good = json.loads((soaked / "soak.json").read_text(encoding="utf-8"))
     bad = damages(good)
     for name, text in damages(good["totals"] | {"format": 1}).items():
-        if name.split()[0] in good["totals"] or name.startswith("without"):
+        if name.split()[0] in good["totals"] or name.removeprefix("without ") in good["totals"]:
             values = json.loads(text)
             values.pop("format", None)
             bad[f"totals: {name}"] = json.dumps(good | {"totals": values})
     for part in ("options", "totals"):
         for key in good[part]:
             for one in (None, -1, "x", [], 1e400, float("nan"), 2**70):
-                if (key, one) != ("deepest", 1e400) and good[part][key] != one:
+                if not is_as_good(key, good[part][key], one):
                     bad[f"{part}.{key} {one}"] = json.dumps(good | {part: good[part] | {key: one}})
     for name in ("", ".", "..", "/etc/passwd", "../x.json", "a/b.json", "x", "x\0.json", 1, None):
         bad[f"file {name!r}"] = json.dumps(good | {"findings": [name]})
