@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from silverball.plain import plain
+
 LEAST_SECONDS = 2.2
 MOST_SECONDS_IN_PLAY = 2.5  # while a ball needs the player's eyes
 SECONDS_PER_LETTER = 0.045  # an unhurried reader; chosen by reading them aloud
@@ -17,7 +19,7 @@ class Messages:
 
     def say(self, text: str) -> None:
         """Show a message; its first letter is made a capital, a full stop is added."""
-        text = text[:1].upper() + text[1:]
+        text = plain(text[:1].upper() + text[1:], keep="\n")
         text = text if text.endswith((".", "!", "?", "…")) else f"{text}."
         if text == self.text and self._left > 0.0:
             return
