@@ -13,7 +13,8 @@
     └── OutputError       a file cannot be written (unknown ending, no such folder, no permission)
 
 A message says where, what was expected, what was given and what to do. The command line prints the
-message alone and ends with exit code 2; nothing half-written stays behind.
+message alone and ends with exit code 2; nothing half-written stays behind. Whatever a message repeats of a
+file, a name or an argument is shown in it and never obeyed: every line goes through `plain`.
 """
 
 from __future__ import annotations
@@ -21,9 +22,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from silverball.plain import plain
+
 
 class SilverballError(Exception):
-    """The root of every error that Silverball raises on purpose."""
+    """The root of every error that Silverball raises on purpose.
+
+    Args:
+        lines: Of the message, usually one.
+    """
+
+    def __init__(self, *lines: str) -> None:
+        super().__init__("\n".join(map(plain, lines)))
 
 
 class Problem(NamedTuple):
@@ -46,11 +56,11 @@ class TableError(SilverballError):
     """A table cannot be used; every problem is reported, not only the first."""
 
     def __init__(self, source: str, problems: Sequence[Problem]) -> None:
-        self.source = source
-        self.problems = tuple(problems)
+        self.source = plain(source)
+        self.problems = tuple(Problem(*map(plain, problem)) for problem in problems)
         count = len(self.problems)
         head = f"{source}: {count} problem{'' if count == 1 else 's'}"
-        super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems)]))
+        super().__init__(head, *(f"  {problem}" for problem in self.problems))
 
 
 class UnknownTable(TableError):

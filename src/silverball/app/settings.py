@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError
 
 
 class Settings(BaseModel):
@@ -28,7 +28,7 @@ class Settings(BaseModel):
     """Pictures a second; "screen": as many as it shows."""
     full_screen: bool = False
     """Whether the game starts in full screen."""
-    table: str = "random"
+    table: InstanceOf[str] = "random"  # a path may have bytes that are no text, which `str` refuses
     """The table that was chosen last: a built-in name or a path."""
     mode: Literal["arcade", "free"] = "arcade"
     """The game that was chosen last."""

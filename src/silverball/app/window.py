@@ -400,5 +400,5 @@ class Window:
         stage = self._stage
         if stage is not None and stage.is_played:
             path = self.program.keep_file("crash")
-            where = f"A replay for a report is at {path}." if path else "Its replay is lost."
+            where = f"A replay for a report is at {plain(str(path))}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)

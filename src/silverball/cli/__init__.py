@@ -11,6 +11,9 @@ import sys
 
 def main() -> None:
     """The entry point of `silverball` and `python -m silverball`."""
+    from silverball.cli.streams import prepare
+
+    prepare()
     from silverball.cli.app import run
 
     sys.exit(run(sys.argv[1:]))

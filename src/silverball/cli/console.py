@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 from rich.console import Console
 
-errors = Console(stderr=True)
+errors = Console(stderr=True, markup=False, highlight=False, emoji=False)
 
 
 @contextmanager

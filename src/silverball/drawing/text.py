@@ -10,6 +10,7 @@ from functools import lru_cache
 import pygame
 
 from silverball.drawing.palette import Color
+from silverball.plain import plain
 
 SMALL = 30  # [pixel] sizes below it are drawn larger and shrunk
 ENLARGED = 4
@@ -28,6 +29,7 @@ def font(size: int, bold: bool = False) -> pygame.font.Font:
 @lru_cache(maxsize=1024)
 def line(text: str, size: int, color: Color) -> pygame.Surface:
     """One line of text. The surface is shared: blit it, do not change it."""
+    text = plain(text)  # some characters turn the direction round, and a font refuses others
     if size >= SMALL:
         return font(size).render(text, True, color)
     # The font's hints push small letters unevenly onto whole pixels; drawn large and shrunk they stand well.
@@ -53,7 +55,7 @@ def wrapped(text: str, size: int, width: int) -> list[str]:
     Words are kept whole, but for those that are wider than a line, as a path may be.
     """
     lines: list[str] = []
-    for paragraph in text.split("\n"):
+    for paragraph in plain(text, keep="\n").split("\n"):
         current = ""
         for word in paragraph.split():
             for piece in _pieces(word, size, width):
