@@ -1,4 +1,4 @@
-"""Can this table be played? Every reason why not, each with its path in the file.
+"""Can these parts be played on? Every reason why not, each with its path in the file.
 
 In this order: each part by itself (degenerate, outside the board, a paddle as fast as the cap), parts
 against each other (overlaps, gaps that a ball only just fits), the paddles' turns, the way to the
@@ -6,7 +6,7 @@ gutter, the places where a ball would lie for ever, and the rules of a recipe. A
 repeat an earlier one in other words is left out.
 
 What a mesh or a value by itself must be is said in `parts.py` and `mesh.py`; here the parts exist and the
-question is whether they make a table.
+question is whether they make a table. Whether a recipe makes boards is tried out in `placing.py`.
 """
 
 from __future__ import annotations
@@ -89,13 +89,8 @@ class Measured(NamedTuple):
     shapes: Shapes
 
 
-def check_table(table: Table) -> list[Problem]:
-    """Every problem of a table, with its path; an empty list for a table that can be played."""
-    return check_layout(Layout.of(table))
-
-
 def check_layout(layout: Layout) -> list[Problem]:
-    """The same for a layout, which may be a part of a table only."""
+    """Every problem of a layout, with its path; an empty list for one that can be played."""
     board_problems = _board_problems(layout.board)
     paddle_problems = _paddle_problems(layout)
     problems = board_problems + _hop_problems(layout.board) + paddle_problems
