@@ -80,13 +80,14 @@ def with_values(*changes):
 
 
 def outcome(text):
-    """A table, or its problems; anything else is raised, and fails the test."""
+    """A table, or its problems, each one sentence; anything else is raised, and fails the test."""
     try:
         return parse_table(text)
     except TableError as error:
-        assert error.problems
-        assert all(problem.message and "\n" not in problem.message for problem in error.problems)
-        return error.problems
+        problems = error.problems
+    assert problems
+    assert all(problem.message and "\n" not in problem.message for problem in problems)
+    return problems
 
 
 def test_the_table_without_a_bad_value_is_good():
