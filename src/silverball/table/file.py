@@ -55,7 +55,6 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
     Raises:
         UnknownTable: No built-in table has this name.
         TableError: The file cannot be read or has problems; all of them are in `problems`.
-        MissingExtra: The file names a mesh and the extra for meshes is not installed.
     """
     text = os.fspath(name_or_path)
     if isinstance(name_or_path, str) and not _looks_like_path(text):
