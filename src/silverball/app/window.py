@@ -129,7 +129,9 @@ class Window:
         if table is not None:
             name = table if isinstance(table, str) else table.name
             given = {} if isinstance(table, str) else {name: table}
-            settings = settings.changed(table=name)
+            # Without a mode, the player chooses one in the menu, and it is to be on this table.
+            modes = (Mode.ARCADE, Mode.FREE) if mode is None else (mode,)
+            settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
             settings = settings.changed(mode=mode)
         library = Library(self.store, self._folder, given)
@@ -139,7 +141,7 @@ class Window:
             if table is not None:
                 raise
             self.messages.say(str(error))
-            settings = settings.changed(table=Settings.model_fields["table"].default)
+            settings = settings.changed(table=Settings(mode=settings.mode).table)
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
 
     # --- the loop ---------------------------------------------------------------------------------

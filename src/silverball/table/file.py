@@ -28,6 +28,7 @@ from silverball.plain import plain
 from silverball.table.check import Layout, check_layout
 from silverball.table.explain import PART_KINDS, explain
 from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table, TriangularPrism
+from silverball.table.trial import try_recipe
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
@@ -54,7 +55,6 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
     Raises:
         UnknownTable: No built-in table has this name.
         TableError: The file cannot be read or has problems; all of them are in `problems`.
-        MissingExtra: The file names a mesh and the extra for meshes is not installed.
     """
     text = os.fspath(name_or_path) or NOTHING
     if isinstance(name_or_path, str) and not _looks_like_path(text):
@@ -97,6 +97,9 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
                 "cylinder": tuple(part for _, part in layout.cylinders),
             }
         )
+    problems = try_recipe(table)
+    if problems:
+        raise TableError(source, problems)
     return table
 
 
@@ -201,9 +204,10 @@ def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None
     broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
     if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
         return None
-    given = data.get("board", {})
     bad_keys = {place[1] for place in broken if place[0] == "board"}
-    board = Board.model_validate({key: value for key, value in given.items() if key not in bad_keys})
+    # Each key that is left is good, but perhaps not beside the default of one that is not (`rolling` needs
+    # `friction`): the board is put together without being validated again.
+    board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
     left: dict[str, list[tuple[str, Any]]] = {}
     for kind, model in PART_KINDS.items():
         usable = (kind,) not in broken

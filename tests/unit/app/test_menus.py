@@ -265,7 +265,7 @@ def test_after_a_game_one_plays_again_watches_or_saves():
     assert choose(menus, "SAVE REPLAY") == SaveReplay()
     menus.say("saved as game.txt")
     assert reads(menus.draw(0.7), "SAVED AS GAME.TXT")
-    assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "random", None)
+    assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "classic", None)
 
 
 def test_initials_start_with_those_of_last_time():
