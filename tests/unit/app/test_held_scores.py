@@ -6,8 +6,8 @@ import sqlite3
 from contextlib import closing
 
 import pytest
-from test_program import LEAKY, Evening
 
+from evenings import LEAKY, Evening
 from holder import ALONE, WRITES, held
 from silverball.app.controls import Action
 from silverball.app.keeping import NOT_YET, REMIND_SECONDS, RETRY_SECONDS, SAVED, WAITS
