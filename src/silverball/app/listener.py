@@ -68,6 +68,7 @@ class Listener:
 
     def answer(self, event: pygame.Event) -> None:
         """Answer an event."""
+        self._screen.answer(event)
         if event.type == pygame.KEYDOWN:
             self._key_down(event)
         elif event.type == pygame.KEYUP:
