@@ -131,6 +131,49 @@ def test_p_stops_the_time_and_starts_it_again(player):
     assert player.world.digest() != digest
 
 
+def test_no_input_method_has_the_letters_whatever_is_done_to_the_window(player):
+    from silverball.app import sdl
+
+    def is_typing() -> bool:
+        return bool(sdl._function("SDL_IsTextInputActive")())
+
+    assert not is_typing()
+    screen = player.window._screen
+    for do in (
+        screen.toggle_full,
+        screen.toggle_full,
+        lambda: screen.resize((300, 500)),
+        lambda: pygame.event.post(pygame.Event(pygame.WINDOWFOCUSGAINED)),
+        lambda: pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED, x=300, y=500)),
+        lambda: pygame.event.post(pygame.Event(pygame.WINDOWSHOWN)),
+    ):
+        pygame.key.start_text_input()  # as SDL does by itself
+        do()
+        player.frames(1)
+        assert not is_typing()
+
+
+def test_a_key_that_comes_up_as_another_letter_lets_go_of_what_it_held(player):
+    pygame.event.post(
+        pygame.Event(pygame.KEYDOWN, key=pygame.K_a, mod=0, unicode="", scancode=pygame.KSCAN_A)
+    )
+    player.frames(1)
+    assert player.window.listener.buttons.held == (True, False)
+    pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_q, mod=0, unicode="", scancode=pygame.KSCAN_A))
+    player.frames(1)
+    assert player.window.listener.buttons.held == (False, False)
+
+
+def test_a_key_that_loses_its_use_while_it_is_held_lets_go(player):
+    player.press(pygame.K_a)
+    player.frames(1)
+    player.program.set(keys={"left": ("left",)})
+    player.frames(1)
+    player.release(pygame.K_a)
+    player.frames(1)
+    assert player.window.listener.buttons.held == (False, False)
+
+
 def test_the_help_stops_the_time_while_it_is_shown(player):
     player.tap(pygame.K_F1)
     tick = player.world.tick
@@ -233,11 +276,12 @@ def test_a_key_that_does_nothing_says_so(player, key, words):
     assert words in player.says
 
 
-def test_a_key_without_a_latin_letter_and_without_a_use_says_so(player):
-    key = pygame.Event(pygame.KEYDOWN, key=ord("п"), mod=0, unicode="п", scancode=pygame.KSCAN_G)
+@pytest.mark.parametrize(("letter", "named"), [("п", "П"), ("ö", "Ö"), ("\U00012000", "This key")])
+def test_a_key_of_another_writing_without_a_use_says_so(player, letter, named):
+    key = pygame.Event(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter, scancode=pygame.KSCAN_G)
     pygame.event.post(key)
     player.frames(1)
-    assert player.says.startswith("This key does nothing here")
+    assert player.says.startswith(f"{named} does nothing here")
 
 
 def test_m_turns_the_sounds_off_and_on_and_it_is_kept(player):

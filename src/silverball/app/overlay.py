@@ -12,7 +12,7 @@ import pygame
 
 from silverball.app.controls import Action, Controls
 from silverball.app.layout import column, in_columns, key_cap, panel, plate, row
-from silverball.app.menus import ACTIONS
+from silverball.app.menus import ACTIONS, capital
 from silverball.app.scoring import Rule
 from silverball.drawing import palette
 from silverball.drawing.text import line, wrapped
@@ -53,7 +53,7 @@ def draw_help(
         return
     keys = []
     for one in ACTIONS:
-        names = controls.keys(Action(one.action))
+        names = controls.shown_keys(Action(one.action))
         names = ("escape", *names) if one.action == "back" else names
         if names:
             keys.append((one.label.lower(), tuple(map(_cap, names))))
@@ -61,7 +61,7 @@ def draw_help(
 
 
 def _first(controls: Controls, action: Action) -> str:
-    names = controls.keys(action)
+    names = controls.shown_keys(action)
     return _cap(names[0]) if names else "Esc"
 
 
@@ -78,7 +78,7 @@ def small_text_size(scale: float) -> int:
 def _cap(name: str) -> str:
     """What stands on a key; "<" and ">" are the arrow keys."""
     short = {"left": "<", "right": ">", "escape": "Esc"}
-    return short.get(name, name.upper() if len(name) < 3 or name[1:].isdigit() else name.capitalize())
+    return short.get(name, capital(name) if len(name) < 3 or name[1:].isdigit() else name.capitalize())
 
 
 @lru_cache(maxsize=16)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Controls, Held
+from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Held
 from silverball.app.display import Display
 from silverball.app.keeping import Ended, Keeper
 from silverball.app.library import file_in_words, trouble_of, trouble_words
@@ -89,7 +89,6 @@ class Program:
         self.keeper = Keeper(store, library)
         self.cast = Cast()
         self._library = library
-        self._controls = Controls(settings)
         self._now = 0.0
         self._speed = AS_PLAYED
         self._wish: Callable[[], None] | None = None  # waits for the physics
@@ -264,15 +263,21 @@ class Program:
         """A button of the menus went down."""
         carry_out(self.menus.press(button), self)
 
-    def capture(self, name: str) -> None:
-        """The key or gamepad button that the menus have asked for."""
-        carry_out(self.menus.capture(name), self)
+    def capture(self, name: str, kind: str | None = None) -> None:
+        """The key or button that the menus have asked for, and whose name that is."""
+        carry_out(self.menus.capture(name, kind), self)
 
     def lose_focus(self) -> None:
         """The window no longer hears the keys: a game with a ball on the board waits."""
         self.menus.release_all()
         if self.is_playing:
             self.menus.open_pause()
+
+    def lose_gamepad(self, title: str) -> None:
+        """The gamepad or joystick that somebody plays with is gone: the game waits."""
+        if self.is_playing:
+            self.menus.open_pause()
+            self.say(f"{title} is gone: the game waits")
 
     def set(self, **values: Any) -> None:
         """Change settings otherwise than in the menus, by a key for example."""
@@ -420,8 +425,7 @@ class Program:
 
     def _key_of(self, action: Action) -> str:
         """The first key of an action, as the display writes it."""
-        keys = self._controls.keys(action)
-        return keys[0].upper() if keys else "?"
+        return self.menus.key(action)
 
     def _new_board(self, again: bool) -> None:
         stage, before = self.stage, self.recipe
@@ -579,7 +583,6 @@ class Program:
 
     def _take(self, settings: Settings) -> None:
         self.settings = settings
-        self._controls = Controls(settings)
         self._library.choose(settings.table)
 
     def _refuse(self, error: SilverballError) -> None:

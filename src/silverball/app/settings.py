@@ -38,9 +38,11 @@ class Settings(BaseModel):
     initials: Annotated[str, Field(pattern=r"^[A-Z0-9 .\-]{3}$")] = "AAA"
     """Entered last, offered again."""
     keys: dict[str, tuple[str, ...]] = {}
-    """Keys by action where they differ from the defaults, as pygame names them."""
+    """Keys by action where they differ from the defaults, as `app/keyboard.py` names them."""
     pad: dict[str, tuple[str, ...]] = {}
     """Gamepad buttons by action where they differ from the defaults."""
+    joysticks: dict[str, dict[str, tuple[str, ...]]] = {}
+    """The same for joysticks that SDL has no common names for, by their GUID."""
 
     @model_validator(mode="before")
     @classmethod

@@ -23,8 +23,9 @@ from silverball.app.framerate import FrameTimes
 from silverball.app.latency import LatencyMeter
 from silverball.app.library import Library
 from silverball.app.listener import Listener
+from silverball.app.menus import capital
 from silverball.app.messages import Messages
-from silverball.app.picture import Picture
+from silverball.app.picture import Picture, fitted
 from silverball.app.program import Program
 from silverball.app.rehearsal import Rehearsal
 from silverball.app.scoring import how_to_score
@@ -99,7 +100,8 @@ class Window:
         self._on_ready = on_ready
         self._startup: Startup | None = Startup(self.program.table, on_compile)
         self.rehearsal: Rehearsal | None = None  # of the players that can be watched
-        self._screen.open(best_size(self.program.table.board, height or self._screen.first_height))
+        board = self.program.table.board
+        self._screen.open(best_size(board, height) if height else fitted(board, self._screen.first_room).size)
         if settings.full_screen:
             self._screen.toggle_full()
         self._picture = Picture(self._screen.surface.get_size())
@@ -200,6 +202,7 @@ class Window:
         self._frame_times.add(self._seconds)
         is_watched = self.program.is_playing and bool(self._stage and self._stage.game.world.balls)
         self.messages.pass_time(elapsed, in_play=is_watched)
+        self._screen.pass_time(elapsed, waits=self.program.is_paused)
         self._sound(elapsed)
         self._draw()
         self.latency.drawn()
@@ -388,8 +391,8 @@ class Window:
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
         if self.listener.shows_help:
-            shoves = self.listener.controls.keys(Action.JITTER)
-            rules = how_to_score(program.table, program.mode, shoves[0].upper() if shoves else "")
+            shoves = self.listener.controls.shown_keys(Action.JITTER)
+            rules = how_to_score(program.table, program.mode, capital(shoves[0]) if shoves else "")
             overlay.draw_help(
                 target, scale, program.seed, self.listener.controls, self.listener.help_page, rules
             )

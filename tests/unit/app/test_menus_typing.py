@@ -18,7 +18,11 @@ OTHERS = {"return": START, "left": LEFT, "right": RIGHT, "left shift": LEFT}
 
 
 def initials_page(initials="OLD") -> Menus:
-    menus = Menus(Settings(initials=initials, table="random"), (TableEntry("random", "Random", "", True),), lambda *_: ())
+    menus = Menus(
+        Settings(initials=initials, table="random"),
+        (TableEntry("random", "Random", "", True),),
+        lambda *_: (),
+    )
     menus.open_over(1234, 1)
     menus.tick(1.0)
     return menus

@@ -227,5 +227,5 @@ def _typed(written: str, key: str, letters: str) -> str:
 def _turning_keys(desk: Desk) -> str:
     """Which buttons turn, those that bear letters named."""
     sides = [line for line in desk.actions if line.action in ("left", "right")]
-    letters = [key.upper() for line in sides for key in keys_of(desk.settings, line) if len(key) == 1]
+    letters = [desk.shown(key) for line in sides for key in keys_of(desk.settings, line) if len(key) == 1]
     return " ".join([*letters[:2], "◄ ►: TURN"])

@@ -10,13 +10,13 @@ No clock, no window and no keyboard in here: the same presses at the same times 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 
 from silverball.app.menus import layout
-from silverball.app.menus.actions import ACTIONS, ActionLine
+from silverball.app.menus.actions import ACTIONS, ActionLine, Kind
 from silverball.app.menus.attract import AttractPage
 from silverball.app.menus.commands import Attract, Button, Command, EndReplay, Initials
-from silverball.app.menus.desk import Desk, ScoreRow, TableEntry
+from silverball.app.menus.desk import Desk, JoystickEntry, ScoreRow, TableEntry
 from silverball.app.menus.front import main_page
 from silverball.app.menus.gamepages import over_page, pause_page
 from silverball.app.menus.letters import InitialsPage, LettersPage
@@ -89,7 +89,7 @@ class Menus:
 
     @property
     def wants_pad(self) -> bool:
-        """Whether the next gamepad button belongs to `capture`."""
+        """Whether the next button of a gamepad or joystick belongs to `capture`."""
         return self._wants("pad")
 
     @property
@@ -124,12 +124,17 @@ class Menus:
         self._down.clear()
         self._is_spent = False
 
-    def capture(self, name: str) -> Command | None:
-        """The key or gamepad button that was asked for, as pygame or SDL names it."""
+    def capture(self, name: str, kind: Kind | None = None) -> Command | None:
+        """The key or button that was asked for.
+
+        Args:
+            name: Its name.
+            kind: Whose name that is; None: of what was asked for.
+        """
         desk = self._desk
         self._touched = desk.now
         page = desk.pages[-1] if desk.pages else None
-        return page.capture(desk, name) if isinstance(page, CapturePage) else None
+        return page.capture(desk, name, kind or page.kind) if isinstance(page, CapturePage) else None
 
     def type(self, written: str, key: str, *, is_button: bool) -> bool:
         """A key was pressed while a text is entered; whether it was meant for that.
@@ -264,6 +269,8 @@ class Menus:
         last_seed: int | None = None,
         has_last_game: bool | None = None,
         performer: Performer | None = None,
+        joysticks: Sequence[JoystickEntry] | None = None,
+        labels: Mapping[str, str] | None = None,
     ) -> None:
         """Learn what has changed; what is None stays.
 
@@ -272,6 +279,8 @@ class Menus:
             last_seed: Of the board that is being played.
             has_last_game: Whether there is a last game to watch.
             performer: Who plays while the program plays by itself.
+            joysticks: Those that are plugged in.
+            labels: What stands on keys on the layout in use, by their names, where it is something else.
         """
         if tables is not None:
             self._desk.tables = tables
@@ -281,6 +290,14 @@ class Menus:
             self._desk.has_last_game = has_last_game
         if performer is not None:
             self._desk.performer = performer
+        if joysticks is not None:
+            self._desk.joysticks = joysticks
+        if labels is not None:
+            self._desk.labels = labels
+
+    def key(self, action: str) -> str:
+        """The first key of an action as the display writes it."""
+        return self._desk.key(action)
 
     def _wants(self, kind: str) -> bool:
         page = self._desk.pages[-1] if self._desk.pages else None
