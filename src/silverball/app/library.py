@@ -152,7 +152,7 @@ class Library:
     def _best(self, digest: str, mode: Mode) -> list[ScoreRow]:
         if self._lists is None:
             self._lists = {(one.table_digest, one.mode) for one in self._store.lists()}
-        if (digest, str(mode)) not in self._lists:
+        if (digest, str(mode)) not in self._lists and not self._store.is_held:  # else one may be waiting
             return []
         if (digest, mode) not in self._rows:
             self._rows[digest, mode] = [
