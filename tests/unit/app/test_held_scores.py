@@ -40,14 +40,14 @@ def play(evening) -> int:
     return evening.program.stage.game.score
 
 
-@pytest.mark.parametrize("seconds", [1, 6, 60])
-def test_a_score_waits_and_is_saved_when_the_file_is_free(evening, tmp_path, seconds):
+@pytest.mark.parametrize(("seconds", "page"), [(1, ""), (6, "initials"), (60, "attract")])
+def test_a_score_waits_and_is_saved_when_the_file_is_free(evening, tmp_path, seconds, page):
     with held(tmp_path / FILE):
         score = play(evening)
         assert WAITS in evening.said
         assert [row.score for row in evening.program._library.scores("Leaky", Mode.ARCADE)] == [score]
         evening.go(seconds)
-        assert evening.program.menus.page == ("initials" if seconds > OVER_SECONDS else "")
+        assert evening.program.menus.page == page
         assert in_the_file(tmp_path) == []
         assert SAVED not in evening.said
     evening.go(RETRY_SECONDS + 0.1)
