@@ -43,6 +43,7 @@ DRAWING = ("physics", "drawing/kernels")
 AGENTS = (*PLAY, "envs")
 KERNEL_PACKAGES = (*AGENTS, "drawing")  # a kernel elsewhere must be added here; a test sees to it
 KEEP_SECONDS = 30 * 24 * 3600.0
+_kernels: list[Any] = []  # all of this process
 _swept: set[Path] = set()  # folders of compiled code in which no file is damaged, or was when we looked
 
 
@@ -152,6 +153,16 @@ def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> b
     return bool(found)
 
 
+def compiled_share(packages: tuple[str, ...] = PLAY) -> float:
+    """Which share of the kernels that this process has loaded the source of are compiled, 0 to 1.
+
+    It grows evenly while a first start compiles: the larger kernels are called by, and so come after, the
+    smaller ones.
+    """
+    kernels = [one for one in _kernels if _packages_of(one.py_func.__module__) == packages]
+    return sum(bool(one.overloads) for one in kernels) / max(len(kernels), 1)
+
+
 def _machine() -> tuple[Any, ...]:
     """What machine code depends on besides the sources."""
     import llvmlite.binding
@@ -183,6 +194,8 @@ def _compile(function: F, **more: bool | str) -> F:
     compiled: Any = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled
+        if more.get("inline") != "always":  # those are never compiled by themselves
+            _kernels.append(compiled)
         folder = cache_folder(_packages_of(function.__module__))
         if folder is not None:
             vars(compiled)["_cache"] = CodeCache(function, folder)
