@@ -127,7 +127,7 @@ class Window:
             given = {} if isinstance(table, str) else {name: table}
             settings = settings.changed(table=name)
         if mode is not None:
-            settings = settings.changed(mode=mode)
+            settings = settings.changed(mode=mode.value)  # Pydantic 2.7 takes no member of an enum for its text
         library = Library(self.store, self._folder, given)
         try:
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
