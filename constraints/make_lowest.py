@@ -1,7 +1,7 @@
 """Write `constraints/lowest.txt`: the lowest version of every package that pyproject.toml says is enough.
 
-`.ci/run` installs exactly these and runs tests with them; `tests/test_lowest_versions.py` fails if the two files
-differ.
+`.ci/run` installs exactly these and runs tests with them; `tests/test_lowest_versions.py` fails if the two
+files differ.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-EXTRAS = ("mesh", "video", "rl", "test")
+EXTRAS = ("video", "rl", "test")
 HEAD = "# Written by constraints/make_lowest.py: what pyproject.toml names as the lowest versions.\n"
 
 
@@ -20,7 +20,8 @@ def lowest(project: str) -> str:
     named = tomllib.loads(project)["project"]
     wanted = [*named["dependencies"]]
     for extra in EXTRAS:
-        wanted += [one for one in named["optional-dependencies"][extra] if not one.startswith(f"{named['name']}[")]
+        more = named["optional-dependencies"][extra]
+        wanted += [one for one in more if not one.startswith(f"{named['name']}[")]
     pairs = [re.fullmatch(r"([\w.-]+)>=([\d.]+)", one) for one in wanted]
     if None in pairs:
         raise ValueError(f"expected NAME>=VERSION everywhere, got {wanted[pairs.index(None)]!r}")

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from silverball.cli.feel import report_of, text_of
+from silverball.cli.feel import lines_of, report_of
 from silverball.players.feel import Feel, measure
 from silverball.players.feelgames import CELLS, TICK_RATE
 from silverball.players.feelshots import Aim, Shots
@@ -97,7 +97,8 @@ def draw(feel: Feel, path: Path) -> None:
 if __name__ == "__main__":
     for name in sys.argv[1:] or ("classic", "random", "rolling"):
         measured = measure(load_table(name), GAMES, SEED)
-        print(text_of({"table": name, "seed": SEED, "games": GAMES, **report_of(measured)}), flush=True)
+        lines = lines_of({"table": name, "seed": SEED, "games": GAMES, **report_of(measured)})
+        print(*lines, sep="\n", flush=True)
         file = FOLDER / f"feel_{Path(name).stem}.png"
         draw(measured, file)
         print(f"wrote {file}\n")

@@ -9,10 +9,12 @@
     ├── FaultError        a world has stopped at an impossible state; `fault` names it
     ├── NoDisplay         there is no screen to open a window on
     ├── MissingExtra      an optional package is needed; the message says which extra to install
+    │   └── OutdatedExtra an optional package is there, but too old
     └── OutputError       a file cannot be written (unknown ending, no such folder, no permission)
 
 A message says where, what was expected, what was given and what to do. The command line prints the
-message alone and ends with exit code 2; nothing half-written stays behind.
+message alone and ends with exit code 2; nothing half-written stays behind. Whatever a message repeats of a
+file, a name or an argument is shown in it and never obeyed: every line goes through `plain`.
 """
 
 from __future__ import annotations
@@ -20,9 +22,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from silverball.plain import plain
+
 
 class SilverballError(Exception):
-    """The root of every error that Silverball raises on purpose."""
+    """The root of every error that Silverball raises on purpose.
+
+    Args:
+        lines: Of the message, usually one.
+    """
+
+    def __init__(self, *lines: str) -> None:
+        super().__init__("\n".join(map(plain, lines)))
 
 
 class Problem(NamedTuple):
@@ -45,11 +56,11 @@ class TableError(SilverballError):
     """A table cannot be used; every problem is reported, not only the first."""
 
     def __init__(self, source: str, problems: Sequence[Problem]) -> None:
-        self.source = source
-        self.problems = tuple(problems)
+        self.source = plain(source)
+        self.problems = tuple(Problem(*map(plain, problem)) for problem in problems)
         count = len(self.problems)
         head = f"{source}: {count} problem{'' if count == 1 else 's'}"
-        super().__init__("\n".join([head, *(f"  {problem}" for problem in self.problems)]))
+        super().__init__(head, *(f"  {problem}" for problem in self.problems))
 
 
 class UnknownTable(TableError):
@@ -95,6 +106,17 @@ class MissingExtra(SilverballError):
     def __init__(self, what: str, extra: str) -> None:
         super().__init__(
             f"{what} needs an optional package: install it with  pip install 'silverball[{extra}]'"
+        )
+
+
+class OutdatedExtra(MissingExtra):
+    """An optional package is installed, but too old."""
+
+    def __init__(self, what: str, package: str, found: str, needed: str, extra: str) -> None:
+        SilverballError.__init__(
+            self,
+            f"{what} needs {package} {needed} or later, and {found} is installed: "
+            f"bring it up to date with  pip install --upgrade 'silverball[{extra}]'",
         )
 
 

@@ -120,7 +120,7 @@ def test_a_missing_file_ends_with_2(silverball, tmp_path: Path):
     result = silverball("replay", "nothing.replay", "--verify", cwd=tmp_path)
     assert (result.returncode, result.stderr) == (
         2,
-        "nothing.replay: there is no such file; check the path\n",
+        "nothing.replay: there is no such file: check the path\n",
     )
 
 

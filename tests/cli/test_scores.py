@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import sqlite3
 from contextlib import closing
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 
+from holder import ALONE, held
 from silverball.game.store import FILE, Store
 from silverball.table import load_table, table_digest
 
@@ -103,6 +106,27 @@ def test_json_tells_all_of_a_score(silverball, scores):
     }
 
 
+def test_what_a_terminal_would_obey_is_shown_as_its_escape_and_can_be_asked_for(silverball, folder):
+    nasty = "\x1b[31m\x9b\u202ered\n\x7f"
+    with Store(folder) as store:
+        number = store.add_score(nasty, 5, "arcade", nasty, nasty, 7, nasty)
+    escaped = r"\x1b[31m\x9b\u202ered\n\x7f"
+    outputs = [
+        silverball("scores"),
+        silverball("scores", "--verify"),
+        silverball("scores", "--json"),
+        silverball("scores", "--table", nasty),
+        silverball("scores", "--table", escaped),
+        silverball("scores", "--table", f"{nasty}?"),
+        silverball("scores", "--remove", str(number)),
+    ]
+    assert [one.returncode for one in outputs] == [0, 1, 0, 0, 0, 2, 0]
+    for one in outputs:
+        output = one.stdout + one.stderr
+        assert all(character.isprintable() or character == "\n" for character in output)
+    assert all(escaped in one.stdout + one.stderr for one in outputs[:2] + outputs[3:])
+
+
 def test_more_scores_than_are_shown_are_counted(silverball, scores):
     assert "and 1 more; --limit shows them" in silverball("scores", "--limit", "1", "--mode", "arcade").stdout
 
@@ -138,6 +162,11 @@ def test_a_mistake_ends_in_one_sentence(silverball, scores, tmp_path):
     assert_refused(silverball("scores", "--mode", "hard"), "arcade", "free", "hard")
     assert_refused(silverball("scores", "--remove", "99"), "there is no score 99")
     assert_refused(silverball("scores", "--remove", "first"), "first")
+    for number in (2**63, -(2**63) - 1, 10**40):
+        assert_refused(silverball("scores", "--remove", str(number)), f"there is no score {number}")
+        assert_refused(
+            silverball("scores", "--replay", str(number), "--export", out), f"there is no score {number}"
+        )
     assert_refused(silverball("scores", "--replay", "99", "--export", out), "there is no score 99")
     assert_refused(silverball("scores", "--replay", "1"), "--replay ID --export FILE")
     assert_refused(silverball("scores", "--export", out), "--replay ID --export FILE")
@@ -162,6 +191,38 @@ def test_scores_of_a_newer_program_are_neither_shown_nor_touched(silverball, sco
     assert "nothing was changed" in refused.stderr
 
 
+def test_what_cannot_be_read_is_not_called_verified(silverball, scores, folder):
+    with closing(sqlite3.connect(folder / FILE)) as connection, connection:
+        connection.execute("PRAGMA user_version = 9")
+    refused = silverball("scores", "--verify")
+    assert refused.returncode == 2
+    assert "nothing was verified" in refused.stderr
+
+
+@pytest.mark.parametrize("zone", ["Pacific/Kiritimati", "Pacific/Midway", "UTC"])
+def test_scores_at_both_ends_of_the_calendar_are_shown(silverball, folder, zone):
+    with Store(folder) as store:
+        for when in (datetime(1970, 1, 1, tzinfo=UTC), datetime(9999, 12, 31, 23, 59, 59, tzinfo=UTC)):
+            store.add_score("ABC", 5, "arcade", "Random", "d", 7, "", when)
+    for arguments in ((), ("--verify",), ("--json",)):
+        result = silverball("scores", *arguments, env=os.environ | {"TZ": zone})
+        assert result.returncode == ("--verify" in arguments)
+        assert "9999" in result.stdout
+        assert result.stderr == ""
+
+
+def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(silverball, scores, folder):
+    with held(folder / FILE, ALONE):
+        assert_refused(silverball("scores"), "another program holds it")
+    with held(folder / FILE):
+        assert len(json.loads(silverball("scores", "--json").stdout)) == len(scores)
+        result = silverball("scores", "--remove", "1")
+        assert result.returncode == 2
+        assert "another program holds it" in result.stderr
+        assert "Traceback" not in result.stderr
+    assert len(json.loads(silverball("scores", "--json").stdout)) == len(scores)
+
+
 def test_a_damaged_file_is_set_aside_with_a_sentence(silverball, folder):
     folder.mkdir()
     (folder / FILE).write_bytes(b"hello " * 1000)
@@ -172,10 +233,10 @@ def test_a_damaged_file_is_set_aside_with_a_sentence(silverball, folder):
     assert silverball("scores").stderr == ""
 
 
-# ── is it true? ─────────────────────────────────────────────────────────────────────────────────────────
+# ── is it proven? ───────────────────────────────────────────────────────────────────────────────────────
 
 
-def test_verify_marks_what_is_not_true_and_ends_with_1(silverball, folder):
+def test_verify_marks_what_is_not_proven_and_ends_with_1(silverball, folder):
     games = pytest.importorskip("silverball.game.game")
     table = load_table("classic")
     with Store(folder) as store:
@@ -198,8 +259,9 @@ def test_verify_marks_what_is_not_true_and_ends_with_1(silverball, folder):
         store.rename(2, "BAD")
     right = silverball("scores", "--verify", "--limit", "1")
     assert right.returncode == 1
-    assert f"score 2, {game.score + 1:,} by BAD: its replay reaches {game.score:,}" in right.stdout
-    assert "of 2 scores 1 are true, 1 are not" in right.stdout
+    assert f"score 2, {game.score + 1:,} by BAD: not proven: its replay reaches" in right.stdout
+    assert "of 2 scores 1 are proven and 1 are not" in right.stdout
+    assert "was proven" in silverball("scores").stdout  # a note; only trying again proves it
     assert {row["id"]: row["verified"] for row in json.loads(silverball("scores", "--json").stdout)} == {
         1: True,
         2: False,

@@ -95,9 +95,9 @@ def test_ctrl_c_costs_at_most_a_round(silverball, tmp_path):
         ("--hostile", ("--hostile", "--soak")),
         ("--again there.json", ("--again", "--soak")),
         ("--soak --hostile --table classic", ("--table", "--hostile")),
-        ("--soak --again nowhere.json", ("nowhere.json", "No such file")),
-        ("--soak --again broken.json", ("broken.json", "no finding")),
-        ("--soak --frames 1 --progress broken.json", ("broken.json", "no progress file")),
+        ("--soak --again nowhere.json", ("nowhere.json", "no such file")),
+        ("--soak --again broken.json", ("broken.json", "not a finding")),
+        ("--soak --frames 1 --progress broken.json", ("broken.json", "not a progress file")),
         ("--soak --table nowhere.toml", ("nowhere.toml",)),
     ],
 )

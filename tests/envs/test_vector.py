@@ -405,7 +405,7 @@ def test_what_only_a_vector_can_have_is_refused_in_words():
     with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: say boards=5"):
         PinballVectorEnv(5, own_boards=True, boards=3)
     for name in ("own_boards", "zero_copy", "autoreset_mode", "threads"):
-        with pytest.raises(TypeError, match=f"{name} is for many environments: gymnasium.make_vec takes it"):
+        with pytest.raises(TypeError, match=f"'{name}': it is for many environments, gymnasium.make_vec"):
             PinballEnv(table="classic", **{name: 1})
 
 

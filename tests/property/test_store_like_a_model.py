@@ -16,7 +16,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule
 
-from silverball.game.store import FILE, PLACES, REPLAYS, Store
+from silverball.game.store import FILE, PLACES, Store
 
 MEMORY = "/dev/shm"  # a disk that need not be waited for, where there is one
 MODES, TABLES = ("arcade", "free"), ("digest a", "digest b")
@@ -40,13 +40,11 @@ class Model:
 
     def ranked(self, mode: str, digest: str) -> list[int]:
         mine = [id for id, score in self.scores.items() if score["list"] == (mode, digest)]
-        return sorted(mine, key=lambda id: (-self.scores[id]["score"], id))
+        scores = self.scores
+        return sorted(mine, key=lambda id: (scores[id]["verified"] is False, -scores[id]["score"], id))
 
     def add(self, id: int, **score: Any) -> None:
         self.scores[id] = score
-        with_replay = [one for one in self.ranked(*score["list"]) if self.scores[one]["replay"] is not None]
-        for one in with_replay[REPLAYS:]:
-            self.scores[one]["replay"] = None
 
 
 def assert_equal(store: Store, model: Model) -> None:
@@ -58,7 +56,8 @@ def assert_equal(store: Store, model: Model) -> None:
             assert [score.id for score in store.scores(mode, digest, limit=-1)] == ranked
             assert [score.id for score in store.scores(mode, digest)] == ranked[:PLACES]
             for points in (0, 1, 5, 12, 2**62):
-                better = sum(model.scores[id]["score"] >= points for id in ranked)
+                in_the_way = (model.scores[id] for id in ranked if model.scores[id]["verified"] is not False)
+                better = sum(score["score"] >= points for score in in_the_way)
                 place = better + 1 if points > 0 and better < PLACES else None
                 assert store.is_high(points, mode, digest) == place
     lists = {(one.mode, one.table_digest): (one.table_name, one.length) for one in store.lists()}
@@ -70,8 +69,8 @@ def assert_equal(store: Store, model: Model) -> None:
         assert got.table_name == model.names[score["list"]]
         for name in ("initials", "score", "seed", "when", "verified", "why"):
             assert getattr(got, name) == score[name]
-        assert got.has_replay == (score["replay"] is not None)
-        assert not got.has_replay or store.replay(id) == score["replay"]
+        assert got.has_replay
+        assert store.replay(id) == score["replay"]
     assert store.settings() == model.settings
     assert store.last_game() == model.last_game
 
@@ -190,7 +189,7 @@ class Stores(RuleBasedStateMachine):
     def mark(self, data: st.DataObject, verified: bool | None, why: str, cut: float) -> None:
         id = data.draw(st.sampled_from(sorted(self.model.scores)))
         self.do(
-            lambda store: store.mark(id, verified, why),
+            lambda store: store.mark({id: (verified, why)}),
             lambda model, _: model.scores[id].update(verified=verified, why=why),
             cut,
         )

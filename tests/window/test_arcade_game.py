@@ -218,3 +218,92 @@ def test_two_windows_on_one_score_database_lose_nothing(open_window, tmp_path):
     second.frames(1)
     with Store(tmp_path / "data") as store:
         assert len(store.scores()) == 2
+
+
+def key(player, key: int, unicode: str) -> None:
+    """A key with what it writes, pressed and released."""
+    scancode = pygame.KSCAN_A + key - pygame.K_a if pygame.K_a <= key <= pygame.K_z else 0
+    for kind in (pygame.KEYDOWN, pygame.KEYUP):
+        pygame.event.post(pygame.Event(kind, key=key, mod=0, unicode=unicode, scancode=scancode))
+    player.frames(1)
+
+
+@pytest.mark.parametrize("writes", [True, False])
+@pytest.mark.parametrize("done", [pygame.K_RETURN, pygame.K_SPACE])
+def test_initials_are_typed_and_letters_that_are_keys_of_the_game_do_nothing_else(
+    open_window, tmp_path, writes, done
+):
+    player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
+    player.until(lambda: player.menus.page == "initials")
+    before = player.program.settings
+    for letter in "mpr":  # mute, pause, new board
+        key(player, ord(letter), letter if writes else "")
+    assert player.menus.page == "initials"
+    key(player, pygame.K_BACKSPACE, "\b" if writes else "")
+    for letter in "da":
+        key(player, ord(letter), letter if writes else "")
+    key(player, done, "")
+    assert player.menus.page == "over"
+    assert player.program.settings == before.changed(initials="MPD")
+    with Store(tmp_path / "data") as other:
+        assert [row.initials for row in other.scores()] == ["MPD"]
+
+
+def test_initials_that_nobody_enters_are_taken_as_offered_and_the_show_begins(open_window, tmp_path):
+    player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
+    player.until(lambda: player.menus.page == "initials")
+    player.tap(pygame.K_F1)  # help that was left open is closed too
+    player.seconds(32.0)
+    assert player.menus.page == "attract"
+    assert not player.window.listener.shows_help
+    tick = player.world.tick
+    player.seconds(1.0)
+    assert player.world.tick > tick
+    with Store(tmp_path / "data") as other:
+        assert [row.initials for row in other.scores()] == ["AAA"]
+
+
+def test_the_last_ball_leaves_the_picture_when_the_game_is_over(open_window):
+    player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
+    effects = player.window._picture.renderer.effects
+    asked = []
+    real = effects.dives
+    effects.dives = lambda time: asked.append(list(real(time))) or iter(asked[-1])
+    player.seconds(0.1)
+    assert asked[0]  # it is on its way
+    player.seconds(0.5)
+    assert asked[-1] == []
+    assert not player.world.balls
+
+
+def test_going_back_in_a_replay_leaves_no_ball_behind_that_is_not_lost_yet(open_window):
+    player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
+    play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
+    replay = player.game.replay
+    again = open_window(replay=replay, table=None, mode=None)
+    again.until(lambda: again.program.stage.has_ended)
+    effects = again.window._picture.renderer.effects
+    assert effects._dives
+    again.program.jump(-0.5 * replay.ticks / replay.tick_rate)
+    again.frames(2)
+    assert not effects._dives
+
+
+@pytest.mark.parametrize("press", [
+    lambda player: player.tap(pygame.K_SPACE), lambda player: player.tap_pad(pygame.CONTROLLER_BUTTON_A)
+])  # fmt: skip
+def test_a_second_ball_is_spent_by_a_second_press_only(open_window, press):
+    player = open_window("classic", seed=3, mode=Mode.ARCADE)
+    press(player)
+    for _ in range(10):
+        press(player)
+    assert player.world.created == 1
+    player.seconds(1.1)
+    press(player)
+    assert player.world.created == 1
+    player.seconds(0.5)
+    press(player)
+    assert player.world.created == 2

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from silverball.app.clock import TickClock
-from silverball.app.controls import Action, Buttons, Controls, key_name
+from silverball.app.controls import Action, Buttons, Controls
 from silverball.app.gamepad import BUTTON_NAMES, TRIGGER_DOWN, TRIGGER_UP, Gamepads
 from silverball.app.menus import ACTIONS
 from silverball.app.settings import Settings
@@ -30,10 +30,16 @@ def test_every_default_key_and_button_is_one_that_pygame_names():
             assert pygame.key.name(pygame.key.key_code(name)) == name
         for name in line.pad:
             assert name in {*BUTTON_NAMES.values(), "lefttrigger", "righttrigger"}
+        for name in line.joystick:
+            thing, number, *way = name.split()
+            assert int(number) >= 1
+            assert (
+                way in {"button": [[]], "hat": [["left"], ["right"], ["up"]], "axis": [["-"], ["+"]]}[thing]
+            )
 
 
 def test_no_key_and_no_button_asks_for_two_things():
-    for kind in ("keys", "pad"):
+    for kind in ("keys", "pad", "joystick"):
         names = [name for line in ACTIONS for name in getattr(line, kind)]
         assert len(set(names)) == len(names)
 
@@ -53,11 +59,6 @@ def test_a_shortcut_of_the_desktop_moves_no_more_than_paddles():
     controls = Controls(Settings())
     assert controls.of_key("r", pygame.KMOD_LCTRL) is None
     assert controls.of_key("a", pygame.KMOD_LCTRL) is Action.LEFT
-
-
-def test_without_latin_letters_keys_go_by_their_place_and_else_by_their_label():
-    assert key_name(ord("ф"), pygame.KSCAN_A) == "a"
-    assert key_name(ord("q"), pygame.KSCAN_A) == "q"
 
 
 def test_a_paddle_is_held_while_one_of_two_sources_holds_it():

@@ -131,6 +131,49 @@ def test_p_stops_the_time_and_starts_it_again(player):
     assert player.world.digest() != digest
 
 
+def test_no_input_method_has_the_letters_whatever_is_done_to_the_window(player):
+    from silverball.app import sdl
+
+    def is_typing() -> bool:
+        return bool(sdl._function("SDL_IsTextInputActive")())
+
+    assert not is_typing()
+    screen = player.window._screen
+    for do in (
+        screen.toggle_full,
+        screen.toggle_full,
+        lambda: screen.resize((300, 500)),
+        lambda: pygame.event.post(pygame.Event(pygame.WINDOWFOCUSGAINED)),
+        lambda: pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED, x=300, y=500)),
+        lambda: pygame.event.post(pygame.Event(pygame.WINDOWSHOWN)),
+    ):
+        pygame.key.start_text_input()  # as SDL does by itself
+        do()
+        player.frames(1)
+        assert not is_typing()
+
+
+def test_a_key_that_comes_up_as_another_letter_lets_go_of_what_it_held(player):
+    pygame.event.post(
+        pygame.Event(pygame.KEYDOWN, key=pygame.K_a, mod=0, unicode="", scancode=pygame.KSCAN_A)
+    )
+    player.frames(1)
+    assert player.window.listener.buttons.held == (True, False)
+    pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_q, mod=0, unicode="", scancode=pygame.KSCAN_A))
+    player.frames(1)
+    assert player.window.listener.buttons.held == (False, False)
+
+
+def test_a_key_that_loses_its_use_while_it_is_held_lets_go(player):
+    player.press(pygame.K_a)
+    player.frames(1)
+    player.program.set(keys={"left": ("left",)})
+    player.frames(1)
+    player.release(pygame.K_a)
+    player.frames(1)
+    assert player.window.listener.buttons.held == (False, False)
+
+
 def test_the_help_stops_the_time_while_it_is_shown(player):
     player.tap(pygame.K_F1)
     tick = player.world.tick
@@ -142,6 +185,53 @@ def test_the_help_stops_the_time_while_it_is_shown(player):
     player.seconds(0.2)
     assert player.world.tick > tick
     assert not player.world.balls
+
+
+@pytest.mark.parametrize("name", ["space", "a", "left", "right shift", "up", "down", "return"])
+def test_the_help_has_two_pages_that_paddles_space_and_arrows_turn(open_window, name):
+    player = open_window(mode=None)
+    page = player.menus.signature
+    player.tap(pygame.K_F1)
+    for expected in (1, 0, 1):
+        player.tap(pygame.key.key_code(name))
+        assert player.window.listener.help_page == expected
+    assert player.menus.signature == page  # nothing was chosen behind it
+    player.tap(pygame.K_F1)
+    player.tap(pygame.K_F1)
+    assert player.window.listener.help_page == 0
+
+
+def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window, monkeypatch):
+    from silverball.app import overlay
+
+    written = []
+    real = overlay.line
+    monkeypatch.setattr(overlay, "line", lambda text, *rest: written.append(text) or real(text, *rest))
+    player = open_window("classic", mode=Mode.ARCADE)
+    overlay._rules.cache_clear()
+    player.tap(pygame.K_F1)
+    player.tap(pygame.K_d)
+    text = " ".join(written)
+    arcade = player.program.table.arcade
+    for word in ("HOW TO SCORE", f"×{arcade.double}", f"{arcade.ball_save:g} s", "paddles are dead"):
+        assert word in text
+
+
+@pytest.mark.parametrize(
+    "size", [(1280, 720), (300, 900), (900, 300), (400, 400), (170, 340), (60, 90), (20, 30)]
+)
+@pytest.mark.parametrize("page", [0, 1])
+def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
+    from silverball.app import overlay
+    from silverball.app.scoring import how_to_score
+
+    placed = []
+    monkeypatch.setattr(overlay, "_place", lambda target, image, *rest: placed.append(image.get_size()))
+    rules = how_to_score(player.program.table, Mode.ARCADE)
+    overlay.draw_help(pygame.Surface(size), size[0] / 11.0, 7, player.window.listener.controls, page, rules)
+    ((width, height),) = placed
+    assert width <= size[0]
+    assert height <= size[1]
 
 
 def test_r_makes_a_new_board_and_shift_r_the_same_again(open_window):
@@ -186,11 +276,12 @@ def test_a_key_that_does_nothing_says_so(player, key, words):
     assert words in player.says
 
 
-def test_a_key_without_a_latin_letter_and_without_a_use_says_so(player):
-    key = pygame.Event(pygame.KEYDOWN, key=ord("п"), mod=0, unicode="п", scancode=pygame.KSCAN_G)
+@pytest.mark.parametrize(("letter", "named"), [("п", "П"), ("ö", "Ö"), ("\U00012000", "This key")])
+def test_a_key_of_another_writing_without_a_use_says_so(player, letter, named):
+    key = pygame.Event(pygame.KEYDOWN, key=ord(letter), mod=0, unicode=letter, scancode=pygame.KSCAN_G)
     pygame.event.post(key)
     player.frames(1)
-    assert player.says.startswith("This key does nothing here")
+    assert player.says.startswith(f"{named} does nothing here")
 
 
 def test_m_turns_the_sounds_off_and_on_and_it_is_kept(player):

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 from machines import leaky
+from xserver import x_server
 
 from silverball.app.program import OVER_SECONDS
 from silverball.game.news import Mode
@@ -89,15 +90,8 @@ def until(is_reached: Callable[[], bool]) -> None:
 
 @pytest.fixture
 def display() -> Iterator[str]:
-    read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x800x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(command, pass_fds=(write,), stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as number:
-        name = f":{number.readline().strip()}"
-    yield name
-    server.terminate()
-    server.wait()
+    with x_server(1024, 800) as name:
+        yield name
 
 
 @pytest.fixture

@@ -244,4 +244,20 @@ def test_a_table_chosen_long_ago_that_is_gone_gives_way_to_the_default(tmp_path,
     with Store(tmp_path / "data") as store:
         store.keep_settings({"table": str(tmp_path / "gone.toml")})
     player = open_window(None, None, mode=None)
-    assert player.program.recipe.name == "Random"
+    assert player.program.recipe.name == "Classic"
+
+
+@pytest.mark.parametrize(("mode", "name"), [(Mode.FREE, "Original"), (Mode.ARCADE, "Classic")])
+def test_each_game_begins_on_its_own_table(open_window, mode, name):
+    player = open_window(None, None, mode=mode)
+    assert player.program.recipe.name == name
+    assert player.program.is_playing
+
+
+def test_a_table_that_is_named_is_that_of_every_game_the_player_may_choose(open_window):
+    player = open_window("rolling", None, mode=None)
+    settings = player.program.settings
+    assert {settings.changed(mode=mode).table for mode in Mode} == {"rolling"}
+    named_with_a_game = open_window("rolling", None, mode=Mode.FREE).program.settings
+    assert named_with_a_game.table == "rolling"
+    assert named_with_a_game.changed(mode=Mode.ARCADE).table == "classic"

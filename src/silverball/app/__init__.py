@@ -2,6 +2,7 @@
 
 settings.py  what a player can choose
 controls.py  which key and which gamepad button (gamepad.py) asks for what, and what is held
+keyboard.py  which key that is on the layout in use
 program.py   what is going on, and what a button means: games begin, pause, end
              stages.py   play, a replay, or the program playing by itself
              orders.py   what the commands of the menus bring about
@@ -12,7 +13,7 @@ sound/       from recipes to what is heard
 clock.py     real time into ticks; latency.py, framerate.py what is measured of it
 startup.py   loading the physics while the table is already on screen
 listener.py  what an event of the window asks for
-screen.py    the window of the operating system; picture.py the table in it
+screen.py    the window of the operating system (pointer.py, sdl.py); picture.py the table in it
 overlay.py   what is written on top (layout.py, messages.py); debug.py what the physics sees
 window.py    all of it together, in beats and frames
 """

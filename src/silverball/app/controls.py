@@ -1,21 +1,19 @@
 """Which key or gamepad button asks for what, and which paddles are held?
 
 The table of all actions, with the keys they have at first, is `menus/actions.py`; the settings hold what a
-player has changed. Keys go by what is printed on them, not by their place on the keyboard; only where that is
-no Latin character, as on a Greek or Cyrillic keyboard, their place counts. Keys have the names that
-`pygame.key.name` gives them.
+player has changed. Which key a name means on the layout in use is told by `keyboard.py`.
 """
 
 from __future__ import annotations
 
 import sys
-import unicodedata
+from collections.abc import Mapping
 from enum import StrEnum
 from typing import NamedTuple
 
 import pygame
 
-from silverball.app.menus import ACTIONS, ActionLine, Button, action_by_key, action_by_pad, keys_of
+from silverball.app.menus import ACTIONS, ActionLine, Button, action_by_key, action_by_name, keys_of
 from silverball.app.settings import Settings
 
 
@@ -50,7 +48,6 @@ MENU_BUTTONS = {
 MENU_KEYS = {"up": Button.LEFT, "down": Button.RIGHT, "return": Button.START, "enter": Button.START}
 """What else works a menu, for hands that are used to it, where the key has nothing else to do."""
 
-_LAST_ASCII = 127
 _COMMANDS = pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META
 
 
@@ -60,11 +57,21 @@ class Controls:
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
         self._of_key = action_by_key(settings) | {"escape": "back"}
-        self._of_pad = action_by_pad(settings)
+        self._of_button: dict[str, dict[str, str]] = {}  # by the kind of device
+        self.labels: Mapping[str, str] = {}  # of keys on the layout in use
+
+    def shown_keys(self, action: Action) -> tuple[str, ...]:
+        """What stands on the keys that ask for something, on the layout in use."""
+        return tuple(self.labels.get(name, name) for name in self.keys(action))
 
     def keys(self, action: Action) -> tuple[str, ...]:
         """The names of the keys that ask for something."""
         return keys_of(self._settings, _LINES[action])
+
+    @property
+    def key_names(self) -> frozenset[str]:
+        """The names of all keys that ask for something."""
+        return frozenset(self._of_key)
 
     def of_key(self, name: str, modifiers: int = 0) -> Action | None:
         """What a key asks for; None if nothing, or if it is a shortcut of the desktop (Ctrl, Alt, Meta)."""
@@ -73,37 +80,17 @@ class Controls:
             return None
         return Action(action)
 
-    def of_pad(self, name: str) -> Action | None:
-        """What a gamepad button asks for."""
-        action = self._of_pad.get(name)
+    def of_pad(self, name: str, kind: str = "pad") -> Action | None:
+        """What a button asks for; the kind is "pad" or the GUID of a joystick."""
+        if kind not in self._of_button:
+            self._of_button[kind] = action_by_name(self._settings, kind)
+        action = self._of_button[kind].get(name)
         return None if action is None else Action(action)
 
 
 def is_command(modifiers: int) -> bool:
     """Whether a key is a shortcut of the desktop."""
     return bool(modifiers & _COMMANDS)
-
-
-def key_name(key: int, scancode: int) -> str:
-    """The name of the key to go by: what it bears, or the letter at its place if that is not Latin."""
-    return pygame.key.name(meant(key, scancode))
-
-
-def meant(key: int, scancode: int) -> int:
-    """The key to go by: itself, or the letter at its place on a Latin keyboard if it bears none itself.
-
-    Args:
-        key: What is printed on it, as pygame's number.
-        scancode: Where it lies, as SDL's number; its letters run from A to Z without a gap.
-    """
-    if is_latin(key) or not pygame.KSCAN_A <= scancode <= pygame.KSCAN_Z:
-        return key
-    return pygame.K_a + scancode - pygame.KSCAN_A
-
-
-def is_latin(key: int) -> bool:
-    """Whether a key bears a character that Latin keyboards have, or none at all as Shift and F1."""
-    return key <= _LAST_ASCII or key > sys.maxunicode or unicodedata.name(chr(key), "").startswith("LATIN")
 
 
 def says_something(key: int) -> bool:

@@ -93,8 +93,15 @@ class Display:
                 if show is not None:
                     self._enqueue(show)
 
-    def say(self, text: str) -> None:
-        """Show a short message below the score, in capitals; a long one scrolls."""
+    def say(self, text: str, *, at_once: bool = False) -> None:
+        """Show a short message below the score, in capitals; a long one scrolls.
+
+        Args:
+            text: The message.
+            at_once: Whether it takes the place of all that wait; else it comes after them.
+        """
+        if at_once:
+            self._messages = _Messages()
         self._messages.add(text.upper())
 
     def frame(self, face: Face, seconds: float, high_score: int = 0) -> Dots:

@@ -1,20 +1,28 @@
-"""Which gamepad buttons go down and come up? One name a button, whatever the maker printed on it.
+"""Which buttons of gamepads and joysticks go down and come up?
 
-SDL knows the layout of hundreds of gamepads and gives their buttons common names. A trigger is an axis; it
-counts as a button that is down while it is pulled more than a third. Pads may come and go at any time.
+SDL knows the layout of hundreds of gamepads and gives their buttons common names, whatever the maker printed
+on them. A trigger is an axis; it counts as a button that is down while it is pulled more than a third. What
+SDL does not know (arcade encoders, boards of pinball cabinets, old pads) is a joystick: its buttons have
+numbers from 1, as "button 5", and each direction of a hat or an axis is a button too, as "hat 1 left" and
+"axis 2 +". Both kinds may come and go at any time.
 """
 
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import pygame
 from pygame._sdl2 import controller
 
+from silverball.app.menus import JoystickEntry
+from silverball.plain import plain
+
 TRIGGER_DOWN = 11_000  # of 32,767
 TRIGGER_UP = 8_000  # lower, so that a trembling finger does not chatter
+AXIS_DOWN = 0.6  # of the way from where it rests to its end
+AXIS_UP = 0.4
 
 BUTTON_NAMES = {
     pygame.CONTROLLER_BUTTON_A: "a",
@@ -37,20 +45,23 @@ TRIGGER_NAMES = {
     pygame.CONTROLLER_AXIS_TRIGGERLEFT: "lefttrigger",
     pygame.CONTROLLER_AXIS_TRIGGERRIGHT: "righttrigger",
 }
+REMOVED = (pygame.CONTROLLERDEVICEREMOVED, pygame.JOYDEVICEREMOVED)
 
 
 class PadButton(NamedTuple):
-    """A gamepad button that went down or came up.
+    """A button of a gamepad or joystick that went down or came up.
 
     Attributes:
-        pad: Which gamepad.
-        name: Which button, for example "leftshoulder".
+        pad: Which gamepad or joystick.
+        name: Which button, for example "leftshoulder" or "button 5".
         down: Whether it went down.
+        kind: Whose names these are: "pad", or the GUID of a joystick, as in the settings.
     """
 
     pad: int
     name: str
     down: bool
+    kind: str = "pad"
 
     @property
     def source(self) -> str:
@@ -58,17 +69,60 @@ class PadButton(NamedTuple):
         return f"pad {self.pad} {self.name}"
 
 
+class _Joystick:
+    """A joystick that is plugged in, and where its axes rest."""
+
+    def __init__(self, device: Any) -> None:
+        self.device = device
+        self.entry = JoystickEntry(
+            device.get_guid(), plain(device.get_name()).strip() or "JOYSTICK", device.get_numbuttons()
+        )
+        self._rests: dict[int, int] = {}
+
+    def directions(self, axis: int, value: float) -> Iterator[tuple[str, bool | None]]:
+        """The buttons that an axis is, and whether they are down; None: as they were."""
+        if axis not in self._rests:  # SDL tells first where an axis rests, also where a pedal does
+            self._rests[axis] = round(value)
+        for sign, way in (("-", -1), ("+", 1)):
+            if self._rests[axis] == way:
+                continue
+            share = way * (value - self._rests[axis]) / (1 + abs(self._rests[axis]))
+            yield (
+                f"axis {axis + 1} {sign}",
+                True if share >= AXIS_DOWN else False if share <= AXIS_UP else None,
+            )
+
+
 class Gamepads:
-    """All gamepads that are plugged in."""
+    """All gamepads and joysticks that are plugged in."""
 
     def __init__(self) -> None:
         self._pads: dict[int, Any] = {}
-        self._pulled: set[tuple[int, str]] = set()
+        self._joysticks: dict[int, _Joystick] = {}
+        self._down: dict[tuple[int, str], PadButton] = {}
         with contextlib.suppress(pygame.error):  # a game without gamepads is a game too
             controller.init()
+            pygame.joystick.init()
+
+    @property
+    def joysticks(self) -> tuple[JoystickEntry, ...]:
+        """The joysticks that are plugged in, those of one make once."""
+        return tuple({stick.entry.guid: stick.entry for stick in self._joysticks.values()}.values())
 
     def read(self, event: pygame.Event) -> Iterator[PadButton]:
         """The buttons that an event of SDL is about; most are about none."""
+        for button in self._read(event):
+            place = (button.pad, button.name)
+            if button.down:
+                self._down[place] = button
+            else:
+                self._down.pop(place, None)
+            yield button
+        if event.type in REMOVED:
+            self._pads.pop(event.instance_id, None)
+            self._joysticks.pop(event.instance_id, None)
+
+    def _read(self, event: pygame.Event) -> Iterator[PadButton]:
         if event.type in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
             name = BUTTON_NAMES.get(event.button)
             if name is not None:
@@ -77,11 +131,13 @@ class Gamepads:
             yield from self._read_trigger(event)
         elif event.type == pygame.CONTROLLERDEVICEADDED:
             self._plug_in(event.device_index)
-        elif event.type == pygame.CONTROLLERDEVICEREMOVED:
-            self._pads.pop(event.instance_id, None)
-            for pad, name in [pulled for pulled in self._pulled if pulled[0] == event.instance_id]:
-                self._pulled.discard((pad, name))
-                yield PadButton(pad, name, False)
+        elif event.type == pygame.JOYDEVICEADDED:
+            self._plug_in_joystick(event.device_index)
+        elif event.type in REMOVED:
+            held = [button for button in self._down.values() if button.pad == event.instance_id]
+            yield from (button._replace(down=False) for button in held)
+        elif getattr(event, "instance_id", None) in self._joysticks:
+            yield from self._read_joystick(event, self._joysticks[event.instance_id])
 
     def rumble(self, strength: float, seconds: float) -> None:
         """Let all gamepads rumble, 0 to 1; those that cannot do not."""
@@ -90,24 +146,45 @@ class Gamepads:
                 pad.rumble(strength, strength, round(1000 * seconds))
 
     def close(self) -> None:
-        """Forget all gamepads."""
+        """Forget all gamepads and joysticks."""
         self._pads.clear()
+        self._joysticks.clear()
         with contextlib.suppress(pygame.error):
             controller.quit()
+            pygame.joystick.quit()
 
     def _read_trigger(self, event: pygame.Event) -> Iterator[PadButton]:
         name = TRIGGER_NAMES.get(event.axis)
         if name is None:
             return
-        trigger = (event.instance_id, name)
-        if event.value >= TRIGGER_DOWN and trigger not in self._pulled:
-            self._pulled.add(trigger)
-            yield PadButton(*trigger, True)
-        elif event.value <= TRIGGER_UP and trigger in self._pulled:
-            self._pulled.discard(trigger)
-            yield PadButton(*trigger, False)
+        is_down = (event.instance_id, name) in self._down
+        if event.value >= TRIGGER_DOWN and not is_down:
+            yield PadButton(event.instance_id, name, True)
+        elif event.value <= TRIGGER_UP and is_down:
+            yield PadButton(event.instance_id, name, False)
+
+    def _read_joystick(self, event: pygame.Event, joystick: _Joystick) -> Iterator[PadButton]:
+        pad, kind = event.instance_id, joystick.entry.guid
+        states: Iterable[tuple[str, bool | None]] = ()
+        if event.type in (pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP):
+            states = ((f"button {event.button + 1}", event.type == pygame.JOYBUTTONDOWN),)
+        elif event.type == pygame.JOYHATMOTION:
+            x, y = event.value
+            ways = {"left": x < 0, "right": x > 0, "up": y > 0, "down": y < 0}
+            states = ((f"hat {event.hat + 1} {way}", down) for way, down in ways.items())
+        elif event.type == pygame.JOYAXISMOTION:
+            states = joystick.directions(event.axis, event.value)
+        for name, down in states:
+            if down is not None and down is not ((pad, name) in self._down):
+                yield PadButton(pad, name, down, kind)
 
     def _plug_in(self, index: int) -> None:
         with contextlib.suppress(pygame.error):
             pad = controller.Controller(index)
             self._pads[pad.as_joystick().get_instance_id()] = pad
+
+    def _plug_in_joystick(self, index: int) -> None:
+        with contextlib.suppress(pygame.error):
+            if not controller.is_controller(index):
+                device = pygame.joystick.Joystick(index)
+                self._joysticks[device.get_instance_id()] = _Joystick(device)

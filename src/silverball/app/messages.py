@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from silverball.plain import plain
+
 LEAST_SECONDS = 2.2
 MOST_SECONDS_IN_PLAY = 2.5  # while a ball needs the player's eyes
 SECONDS_PER_LETTER = 0.045  # an unhurried reader; chosen by reading them aloud
@@ -16,8 +18,10 @@ class Messages:
         self._left = 0.0
 
     def say(self, text: str) -> None:
-        """Show a message; its first letter is made a capital, a full stop is added."""
-        text = text[:1].upper() + text[1:]
+        """Show a message, with a capital in front (but not of a file's name) and a full stop behind."""
+        text = plain(text, keep="\n")
+        if "." not in text.split(" ", 1)[0]:
+            text = text[:1].upper() + text[1:]
         text = text if text.endswith((".", "!", "?", "…")) else f"{text}."
         if text == self.text and self._left > 0.0:
             return

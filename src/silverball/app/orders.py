@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import TYPE_CHECKING
 
+from silverball.app.library import trouble_words
 from silverball.app.menus import commands
 from silverball.app.stages import Playing
 
@@ -41,13 +42,23 @@ def _(command: commands.WatchMachine, program: Program) -> None:
 
 @carry_out.register(commands.Attract)
 def _(command: commands.Attract, program: Program) -> None:
-    if command.on and program.is_ready and not isinstance(program.stage, Playing):
+    if command.on and program.is_ready and not program.has_game:
         program.show_off(nobody_there=True)
 
 
 @carry_out.register(commands.Change)
 def _(command: commands.Change, program: Program) -> None:
     program.use(command.settings)
+
+
+@carry_out.register(commands.SeeBoard)
+def _(command: commands.SeeBoard, program: Program) -> None:
+    program.see_board(command.seed)
+
+
+@carry_out.register(commands.TellTrouble)
+def _(command: commands.TellTrouble, program: Program) -> None:
+    program.say(trouble_words(command.table, command.problem))
 
 
 @carry_out.register(commands.Quit)
@@ -68,7 +79,7 @@ def _(command: commands.Restart, program: Program) -> None:
 
 @carry_out.register(commands.EndGame)
 def _(command: commands.EndGame, program: Program) -> None:
-    if isinstance(program.stage, Playing):
+    if isinstance(program.stage, Playing) and not program.stage.has_ended:
         program.give_up(program.stage)
     program.stage = None
 

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from silverball.world import Event
 
 SETTLED = 0.25  # [s] for which a size has stood
+GREATEST_DRAWN = 2880  # [pixel] of height; what is higher is stretched, for it would take a gigabyte
+GREATEST_HEIGHT = 4320  # [pixel] to which a table grows
 
 
 class _Shown(NamedTuple):
@@ -74,7 +76,7 @@ class Picture:
     @property
     def is_sharp(self) -> bool:
         """Whether the table is drawn in full quality at its present size."""
-        return self.renderer.is_sharp and self.renderer.camera.size == self.area.size
+        return self.renderer.is_sharp and self.renderer.camera.size == self._drawn_size
 
     def show(self, table: Table, board_seed: int | None, settings: Settings) -> None:
         """Draw this table from now on."""
@@ -122,8 +124,15 @@ class Picture:
             self.area = fitted(self.renderer.table.board, window_size)
         elif self._resized is not None and now - self._resized >= SETTLED:
             self._resized = None
-            if self.area.size != self.renderer.camera.size:
+            if self._drawn_size != self.renderer.camera.size:
                 self._renew()
+
+    @property
+    def _drawn_size(self) -> tuple[int, int]:
+        """The size at which the table is drawn in the end."""
+        if self.area.height <= GREATEST_DRAWN or self._shown is None:
+            return self.area.size
+        return best_size(self._shown.table.board, GREATEST_DRAWN)
 
     def _renew(self) -> None:
         assert self._shown is not None
@@ -131,7 +140,7 @@ class Picture:
         before, self._renderer = (
             self._renderer,
             Renderer(
-                table, self.area.size, theme=theme, effects=effects, board_seed=board_seed, background=True
+                table, self._drawn_size, theme=theme, effects=effects, board_seed=board_seed, background=True
             ),
         )
         if before is not None:
@@ -154,8 +163,9 @@ class Picture:
 def fitted(board: Board, window_size: tuple[int, int]) -> pygame.Rect:
     """The largest area in the middle of a window that the whole table fits into."""
     width, height = window_size
-    wide, high = best_size(board, max(height, 2))
+    wide, high = best_size(board, min(max(height, 2), GREATEST_HEIGHT))
     if wide > width:
-        high = max(2, height * width // wide)
-        wide = min(best_size(board, high)[0], width)
+        high = max(2, high * width // wide)
+        wide = best_size(board, high)[0]
+    wide, high = min(wide, width), min(high, height)  # where even two pixels are too many
     return pygame.Rect((width - wide) // 2, (height - high) // 2, wide, high)

@@ -12,21 +12,23 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Controls, Held
+from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Held
 from silverball.app.display import Display
 from silverball.app.keeping import Ended, Keeper
+from silverball.app.library import file_in_words, trouble_of, trouble_words
 from silverball.app.menus import Button, Menus, ReplayFace
 from silverball.app.orders import carry_out
 from silverball.app.performers import BEST, Cast
 from silverball.app.settings import Settings
-from silverball.app.stages import Playing, Showing, Stage, Watching
+from silverball.app.stages import Playing, Showing, Stage, Watching, why_no_tick
 from silverball.app.waiting import Progress, draw_line, draw_page
 from silverball.errors import BoardFull, NoRoom, SilverballError
 from silverball.game.news import Mode
+from silverball.plain import plain
 from silverball.table import Table
 
 if TYPE_CHECKING:
-    from silverball.app.library import Library
+    from silverball.app.library import Key, Library
     from silverball.drawing.dots import Dots
     from silverball.game.replay import Replay
     from silverball.game.store import Store
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 SEEDS = 1_000_000  # a new board's seed is below it: short enough to tell a friend
 WAIT = "one moment, please: the physics is being made ready"
 OVER_SECONDS = 2.5  # for which the end of a game is shown before a page of the menus comes
+LOOK_EVERY = 0.5  # [s] between two looks whether a table file has changed
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 AS_PLAYED = SPEEDS.index(1.0)
 
@@ -81,6 +84,7 @@ class Program:
         self.is_ready = self.is_over = False
         self.progress: Progress | None = None
         self.is_held = False
+        library.choose(settings.table)
         self.menus = Menus(settings, library.entries(), library.scores, themes=themes)
         self.menus.know(has_last_game=store.last_game() is not None)
         self.display = Display()
@@ -88,7 +92,6 @@ class Program:
         self.keeper = Keeper(store, library)
         self.cast = Cast()
         self._library = library
-        self._controls = Controls(settings)
         self._now = 0.0
         self._speed = AS_PLAYED
         self._wish: Callable[[], None] | None = None  # waits for the physics
@@ -97,7 +100,11 @@ class Program:
         self.ended = Ended()
         self._is_shown_off = False  # the program plays because nobody is there
         self._is_fresh = True  # nobody has played on this board yet
-        self._look_at(settings.table, seed)
+        self._looked = 0.0  # when the table files were looked at
+        self._played: Table | None = None  # of what the board of the game was made
+        self._key: Key | None = None  # under which its score is listed
+        self._is_blind = store.is_blind  # the settings are not known yet
+        self._see(library.recipe(settings.table), seed)
 
     # --- what there is to see -----------------------------------------------------------------------
 
@@ -126,6 +133,16 @@ class Program:
         return isinstance(self.stage, Playing) and self.menus.is_open and not self.stage.has_ended
 
     @property
+    def has_game(self) -> bool:
+        """Whether a game is played, paused or not, and not over."""
+        return isinstance(self.stage, Playing) and not self.stage.has_ended
+
+    @property
+    def mode(self) -> Mode:
+        """The game that is played, or the one that is chosen."""
+        return self.stage.game.mode if isinstance(self.stage, Playing) else Mode(self.settings.mode)
+
+    @property
     def is_heard(self) -> bool:
         """Whether the board makes sounds: not while it only shows off."""
         return not self._is_shown_off
@@ -139,8 +156,9 @@ class Program:
         """What the score display shows."""
         below = None
         if self.stage is not None:
-            best = self._library.best(self.settings.table, self.stage.game.mode)
-            below = self.display.frame(self.stage.game.face, seconds, best if self.stage.is_played else 0)
+            is_played, mode = self.stage.is_played, self.stage.game.mode
+            best = self._library.best(self._key, mode) if is_played and self._key is not None else 0
+            below = self.display.frame(self.stage.game.face, seconds, best)
         if not self.menus.is_open and below is None:
             return draw_page(seconds, self.progress)
         dots = self.menus.draw(seconds, below)
@@ -157,7 +175,9 @@ class Program:
             seconds: By a clock that never goes back [s].
         """
         self._now = seconds
+        self._try_to_save(seconds)
         carry_out(self.menus.tick(seconds), self)
+        self._look_at_files()
         stage = self.stage
         if isinstance(stage, Playing) and stage.has_ended:
             self._after_the_end(stage)
@@ -166,6 +186,18 @@ class Program:
         # A replay is played a little ahead, so that a jump is quick.
         if isinstance(stage, Watching) and self._goes_on(lambda: stage.player.prepare(480)):
             self.menus.show_replay(self._replay_face(stage))
+
+    def _try_to_save(self, seconds: float) -> None:
+        """Save what waits for another program that held the file of the scores."""
+        words = self.keeper.pass_time(seconds)
+        if self._is_blind and not self.store.is_held:
+            self._is_blind = False
+            here = {"table": self.settings.table, "mode": self.settings.mode}
+            self._take(Settings.of(self.store.settings()).changed(**here))
+            self.menus.use(self.settings)
+            self.menus.know(has_last_game=self.store.last_game() is not None)
+        if words:
+            self.say(words)
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move what goes on on the board by a number of ticks."""
@@ -177,7 +209,7 @@ class Program:
         """Move on by one tick while the game waits."""
         stage = self.stage
         if stage is None or self.is_moving or stage.has_ended:
-            self.say("one tick at a time is for a game that is paused")
+            self.say(why_no_tick(stage))
             return
         self._no_longer_counts()
         self._goes_on(lambda: stage.advance(held, 1))
@@ -235,15 +267,21 @@ class Program:
         """A button of the menus went down."""
         carry_out(self.menus.press(button), self)
 
-    def capture(self, name: str) -> None:
-        """The key or gamepad button that the menus have asked for."""
-        carry_out(self.menus.capture(name), self)
+    def capture(self, name: str, kind: str | None = None) -> None:
+        """The key or button that the menus have asked for, and whose name that is."""
+        carry_out(self.menus.capture(name, kind), self)
 
     def lose_focus(self) -> None:
         """The window no longer hears the keys: a game with a ball on the board waits."""
         self.menus.release_all()
         if self.is_playing:
             self.menus.open_pause()
+
+    def lose_gamepad(self, title: str) -> None:
+        """The gamepad or joystick that somebody plays with is gone: the game waits."""
+        if self.is_playing:
+            self.menus.open_pause()
+            self.say(f"{title} is gone: the game waits")
 
     def set(self, **values: Any) -> None:
         """Change settings otherwise than in the menus, by a key for example."""
@@ -263,7 +301,7 @@ class Program:
             if self._ended_at is not None:  # its score is kept
                 self._ended_at = self._now - OVER_SECONDS  # seen enough
         elif action is Action.CREATE:
-            self._try(stage.game.create_ball)
+            self._try(lambda: self._bring_ball(stage))
         elif action is Action.JITTER:
             self._try(stage.game.jitter)
         elif action is Action.PAUSE or action is Action.BACK:
@@ -272,6 +310,11 @@ class Program:
             self._new_board(again)
         elif action in PADDLES and all(paddle.side != str(action) for paddle in self.table.paddle):
             self.say(f"this table has no {action} paddle")
+
+    def _bring_ball(self, stage: Playing) -> None:
+        question = stage.bring_ball(self._key_of(Action.CREATE))
+        if question:
+            self.display.say(question, at_once=True)
 
     def _try(self, do: Callable[[], object]) -> None:
         try:
@@ -322,6 +365,8 @@ class Program:
             seed = self.seed  # the board that is seen is the one that is played
         if self._look_at(table, seed):
             self._when_ready(lambda: self.begin(mode))
+        else:
+            self.menus.open_main()
 
     def watch(self, replay: Replay) -> None:
         """Show a replay as soon as the physics is ready."""
@@ -355,24 +400,23 @@ class Program:
             self.say(WAIT)
 
     def _look_at(self, table: str, seed: int | None) -> bool:
-        """Show another board; False, and the old one, if it cannot be used."""
+        """Show another board; False, told why, and the old one, if it cannot be used."""
         try:
-            recipe = self._library.recipe(table)
-            seed = secrets.randbelow(SEEDS) if seed is None else seed
-            finished = self._library.finished(recipe, seed)
+            self._see(self._library.recipe(table), seed)
         except SilverballError as error:
-            if not hasattr(self, "table"):
-                raise
-            self.say(str(error))
-            self.menus.open_main()
+            self.say(trouble_of(table, error))
             return False
+        return True
+
+    def _see(self, recipe: Table, seed: int | None) -> None:
+        """Show the board that a seed makes of a table, None drawing one."""
+        seed = secrets.randbelow(SEEDS) if seed is None else seed
+        self.table: Table = self._library.finished(recipe, seed)
         self.recipe: Table = recipe
-        self.table: Table = finished
         self.seed = seed
         self._is_fresh = True
         if recipe.random is not None:
             self.menus.know(last_seed=seed)
-        return True
 
     def begin(self, mode: Mode) -> None:
         """Begin a game on the board that is seen; the physics is ready."""
@@ -381,6 +425,8 @@ class Program:
         self.keep_last_game()
         self.menus.close()
         self._is_fresh = False
+        self._played = self.recipe  # its file may say something else before the game is over
+        self._key = self._library.key(self.recipe)
         self._start(Playing(Game(self.table, self.seed, mode)))
 
     def _start(self, stage: Stage) -> None:
@@ -391,28 +437,77 @@ class Program:
 
     def _key_of(self, action: Action) -> str:
         """The first key of an action, as the display writes it."""
-        keys = self._controls.keys(action)
-        return keys[0].upper() if keys else "?"
+        return self.menus.key(action)
 
     def _new_board(self, again: bool) -> None:
-        stage = self.stage
+        stage, before = self.stage, self.recipe
         mode = stage.game.mode if stage is not None else Mode(self.settings.mode)
+        seed = self.seed if again else None
+        words = ""
+        try:
+            self._see(self._library.recipe(self.settings.table), seed)
+        except SilverballError as error:
+            words = f"{trouble_of(self.settings.table, error)}. This is the table as it was"
+            if not self._look_at_kept(before, seed):
+                return
         self.menus.close()
-        if not self._look_at(self.settings.table, self.seed if again else None):
-            return
         self._when_ready(lambda: self.begin(mode))
-        if self.recipe.random is None:
-            self.say(f"{self.table.name} is always the same table; the balls come at other places")
-        elif again:
-            self.say(f"board {self.seed} from the start")
+        self.say(words or self._board_words(before, again))
+
+    def _look_at_kept(self, recipe: Table, seed: int | None) -> bool:
+        """Show another board of a table that is at hand; False if no board comes of this seed."""
+        try:
+            self._see(recipe, seed)
+        except SilverballError as error:
+            self.say(str(error))
+            return False
+        return True
+
+    def _board_words(self, before: Table, again: bool) -> str:
+        """What there is to say of the board that has just been made."""
+        news = f"{file_in_words(self.settings.table)} was read again" if self.recipe != before else ""
+        if self.recipe.random is not None:
+            key = self._key_of(Action.NEW_BOARD)
+            words = (
+                f"board {self.seed} from the start"
+                if again
+                else f"board {self.seed}. Shift+{key} plays it again"
+            )
+            return f"{news}: {words}" if news else words
+        return news or f"{plain(self.table.name)} is always the same table; the balls come at other places"
+
+    def _look_at_files(self) -> None:
+        """Learn of table files that have come, gone or changed; tell if it is the one that is played."""
+        if self._now - self._looked < LOOK_EVERY:
+            return
+        self._looked = self._now
+        is_choosing = self.menus.is_open and not self.is_paused
+        if self._library.look(whole=is_choosing) and is_choosing:
+            self.menus.know(tables=self._library.entries())
+        if isinstance(self.stage, Watching | Showing):
+            return  # when that is over, the file is read in any case
+        reading = self._library.news()
+        if reading is None or reading.table == self.recipe:
+            return
+        if self.stage is None:
+            self._look_at(self.settings.table, self.seed)
+            return
+        file, key = (
+            file_in_words(self.settings.table),
+            self._key_of(Action.NEW_BOARD).replace("?", "a new game"),
+        )
+        if reading.table is not None:
+            self.say(f"{file} has changed: {key} plays the new one")
         else:
-            self.say(f"board {self.seed}. Shift+R plays it again")
+            self.say(
+                f"{trouble_words(self.settings.table, reading.problem)}. {key} plays the table as it was"
+            )
 
     def _after_the_end(self, stage: Playing) -> None:
         """Keep a game that is over at once, and show what comes after it when it has been seen."""
         if self._ended_at is None:
             self.ended = self.keeper.ended(
-                stage.game, self.recipe, self.settings.initials, counts=self._counts
+                stage.game, self._played or self.recipe, self.settings.initials, counts=self._counts
             )
             self.menus.know(has_last_game=True)
             if self.ended.words:
@@ -436,8 +531,10 @@ class Program:
         self._when_ready(lambda: self._show_off(player, nobody_there))
 
     def _show_off(self, player: str, nobody_there: bool) -> None:
-        if self.recipe.random is not None or self.stage is not None:
-            self._look_at(self.settings.table, None)
+        wants_board = self.recipe.random is not None or self.stage is not None
+        if wants_board and not self._look_at(self.settings.table, None) and not nobody_there:
+            self.menus.reopen()
+            return
         self._start(Showing(self.table, self.seed, self.cast.begin(player)))
         self._is_shown_off = nobody_there
         self._announce()
@@ -449,6 +546,8 @@ class Program:
         self.menus.know(performer=self.cast.playing)
 
     def _stop_watching(self) -> None:
+        if isinstance(self.stage, Watching):
+            self.end_watching()
         self.stage = None
         self.menus.reopen()
 
@@ -475,16 +574,28 @@ class Program:
     def end_watching(self) -> None:
         """Nobody watches any longer: the chosen table is seen again."""
         self.stage = None
-        self._look_at(self.settings.table, None)
+        self._look_at(self.settings.table, self.menus.seed)
+
+    def see_board(self, seed: int | None) -> None:
+        """Show the board that a seed makes, unless a game is played."""
+        if not self.has_game:
+            self.stage = None
+            self._look_at(self.settings.table, seed)
 
     def use(self, settings: Settings) -> None:
         """Use other settings and keep them."""
         changed = settings.table != self.settings.table
-        self.settings = settings
-        self._controls = Controls(settings)
-        self.store.keep_settings(settings.model_dump(mode="json"))
-        if changed and not isinstance(self.stage, Playing):
+        values, before = settings.model_dump(mode="json"), self.settings.model_dump(mode="json")
+        if self._is_blind:  # the others must stay what they are
+            values = {name: value for name, value in values.items() if value != before[name]}
+        self._take(settings)
+        self.store.keep_settings(values)
+        if changed and not self.has_game:
             self.end_watching()
+
+    def _take(self, settings: Settings) -> None:
+        self.settings = settings
+        self._library.choose(settings.table)
 
     def _refuse(self, error: SilverballError) -> None:
         self.say(str(error))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError, model_validator
 
 
 class Settings(BaseModel):
@@ -28,20 +28,36 @@ class Settings(BaseModel):
     """Pictures a second; "screen": as many as it shows."""
     full_screen: bool = False
     """Whether the game starts in full screen."""
-    table: str = "random"
-    """The table that was chosen last: a built-in name or a path."""
+    # A path may have bytes that are no text, which `str` refuses.
+    arcade_table: InstanceOf[str] = "classic"
+    """The table that was chosen last for arcade games: a built-in name or a path."""
+    free_table: InstanceOf[str] = "original"
+    """The same for free play, which begins with the original."""
     mode: Literal["arcade", "free"] = "arcade"
     """The game that was chosen last."""
     initials: Annotated[str, Field(pattern=r"^[A-Z0-9 .\-]{3}$")] = "AAA"
     """Entered last, offered again."""
     keys: dict[str, tuple[str, ...]] = {}
-    """Keys by action where they differ from the defaults, as pygame names them."""
+    """Keys by action where they differ from the defaults, as `app/keyboard.py` names them."""
     pad: dict[str, tuple[str, ...]] = {}
     """Gamepad buttons by action where they differ from the defaults."""
+    joysticks: dict[str, dict[str, tuple[str, ...]]] = {}
+    """The same for joysticks that SDL has no common names for, by their GUID."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_table_for_the_mode(cls, values: dict[str, Any]) -> dict[str, Any]:
+        return _with_table_of_mode(values)
+
+    @property
+    def table(self) -> str:
+        """The table of the game that is chosen."""
+        return self.arcade_table if self.mode == "arcade" else self.free_table
 
     @classmethod
     def of(cls, values: dict[str, Any]) -> Self:
         """The settings in `values`, with the default for every value that is missing or makes no sense."""
+        values = _with_table_of_mode(values)
         good = {}
         for name in cls.model_fields:
             if name in values:
@@ -52,5 +68,13 @@ class Settings(BaseModel):
         return cls(**good)
 
     def changed(self, **values: Any) -> Self:
-        """These settings with some values changed, checked like all others."""
+        """These settings with some values changed, checked like all others; `table` is that of the mode."""
         return type(self).model_validate(self.model_dump() | values)
+
+
+def _with_table_of_mode(values: dict[str, Any]) -> dict[str, Any]:
+    """`table` as that of the mode; settings that were kept before each mode had its own have only this."""
+    if "table" not in values:
+        return values
+    mode = values.get("mode", Settings.model_fields["mode"].default)
+    return values | {f"{mode}_table": values["table"]}

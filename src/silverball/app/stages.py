@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from silverball.app.controls import Held
 from silverball.errors import BoardFull, NoRoom
-from silverball.game.news import Mode, News
+from silverball.game.news import Face, Mode, News, Phase
 
 if TYPE_CHECKING:
     from silverball.game.game import Game
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from silverball.world import Event
 
 SHOW_SECOND_BALL_AFTER = 4.0  # [s] of a ball alone, until the program brings another
+SURE_AFTER = 1.0  # [s] after a ball has come in arcade, in which no other one can be asked for
+SURE_WITHIN = 3.0  # [s] in which the second press must follow that spends another ball
 SHOW_PAUSE = 1.0  # [s] between two balls that the program brings
 
 
@@ -55,11 +57,40 @@ class Playing:
 
     def __init__(self, game: Game) -> None:
         self.game = game
+        self._launched = 0  # the tick at which a ball was brought last
+        self._asked: int | None = None  # the tick of a press that would spend one more ball
 
     @property
     def has_ended(self) -> bool:
         """Whether the game is over."""
         return self.game.is_over
+
+    def bring_ball(self, key: str) -> str:
+        """Bring a ball; in arcade one more beside a ball in play only if it is asked for twice.
+
+        Such a ball is one of the few of the game, and a press too many must not spend it: the first press is
+        answered by a question, and just after a ball has come nothing is asked. All of that is the window's;
+        the game knows only of balls that were brought.
+
+        Args:
+            key: What brings a ball, as the display writes it.
+
+        Returns:
+            What the score display must say; empty if a ball has come.
+
+        Raises:
+            SilverballError: There cannot be one more; the message says why.
+        """
+        face, tick = self.game.face, self.game.tick
+        if face.phase is Phase.PLAY and _could_come(face):
+            if tick - self._launched < SURE_AFTER * self.game.tick_rate:
+                return f"BALL {face.ball} IS IN PLAY"
+            if self._asked is None or tick - self._asked > SURE_WITHIN * self.game.tick_rate:
+                self._asked = tick
+                return f"{key} AGAIN: BALL {face.ball + 1} OF {face.balls}"
+        self.game.create_ball()
+        self._launched, self._asked = tick, None
+        return ""
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move on with the paddle buttons held; a tap holds a paddle for one tick."""
@@ -151,3 +182,17 @@ class Watching:
     def take_news(self) -> list[News]:
         """What happened in the game since this was last asked."""
         return list(self.game.take_news())
+
+
+def _could_come(face: Face) -> bool:
+    """Whether one of the balls left in a game of so many could come now."""
+    return 0 < face.ball < face.balls and face.on_board < face.most_balls and not face.tilted
+
+
+def why_no_tick(stage: Stage | None) -> str:
+    """Why nothing can be moved on by a single tick now."""
+    if stage is not None and stage.has_ended:
+        return "the game is over" if isinstance(stage, Playing) else "the replay has ended"
+    if isinstance(stage, Watching):
+        return "one tick at a time is for a replay that is held"
+    return "one tick at a time is for a game that is paused"

@@ -17,15 +17,18 @@ import pygame
 
 from silverball.app import overlay
 from silverball.app.clock import TickClock
+from silverball.app.controls import Action
 from silverball.app.debug import DebugView
 from silverball.app.framerate import FrameTimes
 from silverball.app.latency import LatencyMeter
 from silverball.app.library import Library
 from silverball.app.listener import Listener
+from silverball.app.menus import capital
 from silverball.app.messages import Messages
-from silverball.app.picture import Picture
+from silverball.app.picture import Picture, fitted
 from silverball.app.program import Program
 from silverball.app.rehearsal import Rehearsal
+from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
@@ -38,6 +41,7 @@ from silverball.errors import SilverballError, TableError
 from silverball.game.folder import data_folder
 from silverball.game.news import Mode
 from silverball.game.store import Store
+from silverball.plain import plain
 from silverball.table import Table
 
 if TYPE_CHECKING:
@@ -85,7 +89,7 @@ class Window:
     ) -> None:
         self._folder = folder or data_folder()
         self.messages = Messages()
-        self.store = Store(self._folder)
+        self.store = Store(self._folder, at_once=True)
         try:
             self.program = self._new_program(table, seed, mode)
             self._screen = Screen("Silverball", without_display=without_display)
@@ -96,7 +100,8 @@ class Window:
         self._on_ready = on_ready
         self._startup: Startup | None = Startup(self.program.table, on_compile)
         self.rehearsal: Rehearsal | None = None  # of the players that can be watched
-        self._screen.open(best_size(self.program.table.board, height or self._screen.first_height))
+        board = self.program.table.board
+        self._screen.open(best_size(board, height) if height else fitted(board, self._screen.first_room).size)
         if settings.full_screen:
             self._screen.toggle_full()
         self._picture = Picture(self._screen.surface.get_size())
@@ -111,6 +116,7 @@ class Window:
         self._stage: Stage | None = None
         self._before: Moment | None = None  # one tick before the present one
         self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
+        self._moved_at = 0.0  # at the last picture of a stage that had not ended
         for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
             self.messages.say(trouble)
         if replay is not None:
@@ -125,9 +131,11 @@ class Window:
         if table is not None:
             name = table if isinstance(table, str) else table.name
             given = {} if isinstance(table, str) else {name: table}
-            settings = settings.changed(table=name)
+            # Without a mode, the player chooses one in the menu, and it is to be on this table.
+            modes = (Mode.ARCADE, Mode.FREE) if mode is None else (mode,)
+            settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
-            settings = settings.changed(mode=mode.value)  # Pydantic 2.7 takes no member of an enum for its text
+            settings = settings.changed(mode=mode.value)  # Pydantic 2.7 takes no enum's member for its text
         library = Library(self.store, self._folder, given)
         try:
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
@@ -135,7 +143,7 @@ class Window:
             if table is not None:
                 raise
             self.messages.say(str(error))
-            settings = settings.changed(table=Settings.model_fields["table"].default)
+            settings = settings.changed(table=Settings(mode=settings.mode).table)
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
 
     # --- the loop ---------------------------------------------------------------------------------
@@ -189,10 +197,12 @@ class Window:
         self.program.pass_time(self._seconds)
         if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
             self.sounds.menu(PAGE_SOUNDS[self.program.menus.page])
+            self.listener.shows_help = False  # whoever asked for it has gone, or wants to sign a score
         self._follow_settings()
         self._frame_times.add(self._seconds)
         is_watched = self.program.is_playing and bool(self._stage and self._stage.game.world.balls)
         self.messages.pass_time(elapsed, in_play=is_watched)
+        self._screen.pass_time(elapsed, waits=self.program.is_paused)
         self._sound(elapsed)
         self._draw()
         self.latency.drawn()
@@ -211,8 +221,12 @@ class Window:
             self.rehearsal.close()
         self.sounds.close()
         self.listener.close()
-        self.store.close()
         self._screen.close()
+        if not self.store.is_safe:
+            print(f"waiting for another program that holds {self.store.path} …", file=sys.stderr)
+        self.store.close()
+        if self.store.farewell:
+            print(plain(self.store.farewell), file=sys.stderr)
 
     @property
     def is_over(self) -> bool:
@@ -362,6 +376,11 @@ class Window:
         moment = Moment.before(program.table)
         if stage is not None:
             moment = Moment.of(stage.game.world)
+            if stage.has_ended:
+                # Nothing moves any more, but what was on its way is gone soon: a lost ball, sparks, lights.
+                moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
+            else:
+                self._moved_at = self._seconds
             if self._before is not None and program.is_moving:
                 moment = Moment.between(self._before, moment, self._clock.share)
         self._picture.show(program.table, program.board_seed, program.settings)
@@ -375,7 +394,11 @@ class Window:
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
         if self.listener.shows_help:
-            overlay.draw_help(target, scale, program.seed, self.listener.controls)
+            shoves = self.listener.controls.shown_keys(Action.JITTER)
+            rules = how_to_score(program.table, program.mode, capital(shoves[0]) if shoves else "")
+            overlay.draw_help(
+                target, scale, program.seed, self.listener.controls, self.listener.help_page, rules
+            )
         if self.messages.strength > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
 
@@ -385,5 +408,5 @@ class Window:
         stage = self._stage
         if stage is not None and stage.is_played:
             path = self.program.keep_file("crash")
-            where = f"A replay for a report is at {path}." if path else "Its replay is lost."
+            where = f"A replay for a report is at {plain(str(path))}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)

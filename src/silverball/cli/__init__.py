@@ -17,6 +17,9 @@ def main() -> None:
 
 
 def _run() -> int:
+    from silverball.cli.streams import prepare
+
+    prepare()
     from silverball.cli.app import run
 
     return run(sys.argv[1:])

@@ -20,8 +20,12 @@ from silverball.cli.scores import scores
 from silverball.cli.show import show
 from silverball.cli.signals import STOPPED, stopped
 from silverball.cli.simulate import simulate
+from silverball.cli.streams import give_up, is_broken_pipe
 from silverball.cli.tables import tables
 from silverball.errors import SilverballError
+from silverball.plain import plain
+
+LONGEST = 1000  # characters of a line of a message; what a person typed may be longer
 
 app = typer.Typer(
     add_completion=False,
@@ -57,7 +61,8 @@ def silverball(
 def run(arguments: list[str]) -> int:
     """Run the command line and return the exit code.
 
-    0: done. 2: a mistake of a person, or a file or stream that cannot be written; one message says which.
+    0: done, or nobody reads on. 2: a mistake of a person, a file or stream that cannot be read or written, or
+    too little memory; one message says which.
     130: stopped by Ctrl-C.
     """
     try:
@@ -71,9 +76,18 @@ def run(arguments: list[str]) -> int:
         if isinstance(end.__cause__, EOFError):  # nobody is asked anything here, so no Ctrl-D ends anything
             raise end.__cause__ from None
         code = STOPPED
+    except (BrokenPipeError, SystemExit) as error:
+        if not is_broken_pipe(error):
+            raise
+        give_up(sys.stdout)
+        give_up(sys.stderr)
+        return 0
     except OSError as error:
+        give_up(sys.stdout)
         where = f"{error.filename}: " if error.filename else ""
         return complain(f"silverball: {where}{error.strerror or error}")
+    except MemoryError:
+        return complain("silverball: there is too little memory for this; ask for fewer or smaller things")
     except Exception as error:
         if not hasattr(error, "format_message"):
             raise
@@ -84,9 +98,20 @@ def run(arguments: list[str]) -> int:
 
 
 def complain(message: str) -> int:
-    """Print the message of a mistake; its exit code."""
-    print(message, file=sys.stderr)
+    """Print the message of a mistake, whatever stands in it; its exit code."""
+    try:
+        print("\n".join(map(shortened, plain(message, keep="\n").split("\n"))), file=sys.stderr)
+        sys.stderr.flush()
+    except OSError:
+        give_up(sys.stderr)
     return 2
+
+
+def shortened(line: str) -> str:
+    """A line with its middle left out if it is very long."""
+    if len(line) <= LONGEST:
+        return line
+    return f"{line[: LONGEST // 2]} … {line[-LONGEST // 2 :]}"
 
 
 def usage_message(error: Any, arguments: list[str]) -> str:

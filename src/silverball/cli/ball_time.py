@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from typing import TYPE_CHECKING, Any
 
-import typer
+from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
     from silverball.players import PlayerKind
@@ -52,7 +51,7 @@ def report_of(times: BallTimes) -> dict[str, Any]:
 def print_ball_times(report: dict[str, Any], as_json: bool) -> None:
     """The report, for a machine or for people."""
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        say_json(report)
         return
     limit = f"beyond {report['seconds']:g}"
 
@@ -61,12 +60,12 @@ def print_ball_times(report: dict[str, Any], as_json: bool) -> None:
         value, low, high = (limit if number is None else f"{number:,.{digits}f}" for number in numbers)
         return f"{value} {unit} (95 %: {low} to {high})"
 
-    typer.echo(
+    say(
         f"{report['player']} on {report['table']}: {report['balls']:,} balls, watched for "
         f"{report['seconds']:g} s at most; {report['drained']:,} lost through the gutter, "
         f"{report['stalled']:,} scored nothing for 15 s, {report['alive']:,} alive at the end"
     )
-    typer.echo(f"median life       {shown('median', 's', 1)}")
-    typer.echo(f"mean life so far  {shown('mean', 's', 1)}")
-    typer.echo(f"score of a ball   {shown('score', 'points', 0)}")
-    typer.echo(f"score a minute    {shown('score_per_minute', 'points', 0)}")
+    say(f"median life       {shown('median', 's', 1)}")
+    say(f"mean life so far  {shown('mean', 's', 1)}")
+    say(f"score of a ball   {shown('score', 'points', 0)}")
+    say(f"score a minute    {shown('score_per_minute', 'points', 0)}")

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
+
+from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
     from silverball.benchmarks.marks import Figure
@@ -85,20 +86,18 @@ def bench(
     with errors.status("measuring …"):
         report: dict[str, Any] = measure(loaded, worlds, frames, rounds, threads)._asdict()
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        say_json(report)
         return
-    typer.echo(
+    say(
         f"{report['frames_per_second'] / 1e6:.2f} million frames/s on {report['threads']} thread(s), "
         f"the median of {report['rounds']} (slowest {report['slowest'] / 1e6:.2f}, "
         f"fastest {report['fastest'] / 1e6:.2f})"
     )
-    typer.echo(
+    say(
         f"a frame is 1/60 s of one world with {report['balls']:.2f} balls and random paddles; "
         f"{worlds} worlds, {frames} frames a call, {report['boards']} board(s)"
     )
-    typer.echo(
-        f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}"
-    )
+    say(f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}")
 
 
 def show_marks(rounds: int, as_json: bool) -> None:
@@ -130,11 +129,11 @@ def show_figures(measure: Callable[..., list[Figure]], rounds: int, as_json: boo
         task = bar.add_task("", total=None)
         figures = measure(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
-        typer.echo(json.dumps([figure._asdict() for figure in figures], indent=2))
+        say_json([figure._asdict() for figure in figures])
         return
     for figure in figures:
-        typer.echo(f"{figure.name:40} {figure.value:8.3g} {figure.unit}")
-    typer.echo(f"medians of {rounds} rounds; {machine()}")
+        say(f"{figure.name:40} {figure.value:8.3g} {figure.unit}")
+    say(f"medians of {rounds} rounds; {machine()}")
 
 
 def show_envs(rounds: int, out: list[str], as_json: bool) -> None:
@@ -150,12 +149,12 @@ def show_envs(rounds: int, out: list[str], as_json: bool) -> None:
         task = bar.add_task("compiling …", total=None)
         result = contest.run(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
-        typer.echo(report.as_json(result))
+        say(*report.as_json(result).splitlines())
     else:
         show_table(report.terminal_table(result), report.footing(result))
     for path in paths:
         write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
-        typer.echo(f"wrote {path}", err=True)
+        say(f"wrote {path}", err=True)
 
 
 def show_table(table: Any, lines: list[str]) -> None:
@@ -164,8 +163,7 @@ def show_table(table: Any, lines: list[str]) -> None:
 
     console = Console() if Console().is_terminal else Console(width=200)
     console.print(table)
-    for line in lines:
-        typer.echo(line)
+    say(*lines)
 
 
 def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:
@@ -184,7 +182,7 @@ def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], a
     engines = present_peers()
     for engine in PEERS:
         if engine not in engines:
-            errors.print(engine.missing, markup=False, highlight=False)
+            errors.print(engine.missing)
     with compiling():
         from silverball.benchmarks.peers import contest, plot, report
 
@@ -204,7 +202,7 @@ def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], a
 
         result = contest.run(loaded, plan, engines, advance)
     if as_json:
-        typer.echo(report.as_json(result))
+        say(*report.as_json(result).splitlines())
     else:
         show_table(report.terminal_table(result), [*report.conclusions(result), *report.footing(result)])
     write(paths, result)
@@ -235,4 +233,4 @@ def write(paths: list[Path], result: Any) -> None:
             write_whole(path, lambda place: plot.draw(result, place))
         else:
             write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
-        typer.echo(f"wrote {path}", err=True)
+        say(f"wrote {path}", err=True)

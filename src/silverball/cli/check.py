@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import typer
 
+from silverball.cli.say import say
+
 
 def check(
     table: str = typer.Argument(..., metavar="FILE", help="A table file, or the name of a built-in table."),
@@ -19,4 +21,4 @@ def check(
     from silverball.table import load_table
 
     loaded = load_table(table)
-    typer.echo(f"{table}: no problems in {loaded.name!r}")
+    say(f"{table}: no problems in {loaded.name!r}")

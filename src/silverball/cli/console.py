@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from rich.console import Console, RenderableType
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-errors = Console(stderr=True)
+errors = Console(stderr=True, markup=False, highlight=False, emoji=False)
 
 
 class CompilingBar(Progress):

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from typing import TYPE_CHECKING, Any
 
-import typer
+from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
     from silverball.players.feel import Feel
@@ -59,7 +58,10 @@ def run_feel(table: str, seed: int, games: int, as_json: bool) -> None:
 
         feel = measure(loaded, games, seed, progress=said)
     report = {"table": table, "seed": seed, "games": games, **report_of(feel)}
-    typer.echo(json.dumps(report, indent=2) if as_json else text_of(report))
+    if as_json:
+        say_json(report)
+    else:
+        say(*lines_of(report))
 
 
 def report_of(feel: Feel) -> dict[str, Any]:
@@ -87,7 +89,7 @@ def plain(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def text_of(report: dict[str, Any]) -> str:
+def lines_of(report: dict[str, Any]) -> list[str]:
     """The report as lines for people."""
     players = report["players"]
     lines = [
@@ -106,7 +108,7 @@ def text_of(report: dict[str, Any]) -> str:
         lines.append(f"  {part:34}" + "".join(f"{interval(cell, '{:.1%}'):>16}" for cell in cells))
     for shots in report["shots"]:
         lines += ["", *shot_lines(shots)]
-    return "\n".join(lines)
+    return lines
 
 
 def shot_lines(shots: dict[str, Any]) -> list[str]:

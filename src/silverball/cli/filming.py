@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import typer
+from silverball.cli.say import say
+from silverball.plain import plain
 
 if TYPE_CHECKING:
     from silverball.app.sound.mixdown import FilmSound
@@ -45,6 +46,7 @@ def shoot(out: Path, stage: Stage, renderer: Renderer, seconds: float, *, quiet:
 
     An MP4 has the sounds of the game.
     """
+    from rich.markup import escape
     from rich.progress import Progress
 
     from silverball.app.sound.mixdown import FilmSound
@@ -53,7 +55,7 @@ def shoot(out: Path, stage: Stage, renderer: Renderer, seconds: float, *, quiet:
 
     ending = out.suffix.lower()
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        task = bar.add_task(f"playing into {out.name}", total=seconds)
+        task = bar.add_task(f"playing into {escape(plain(out.name))}", total=seconds)
 
         def advance(done: float) -> None:
             bar.update(task, completed=done)
@@ -66,7 +68,7 @@ def shoot(out: Path, stage: Stage, renderer: Renderer, seconds: float, *, quiet:
         else:
             write_film(out, pictures, sound.track if sound is not None else None)
     if not quiet:
-        typer.echo(f"wrote {out}")
+        say(f"wrote {out}")
 
 
 def filmed(

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import typer
 
+from silverball.cli.say import say
+
 
 def generate(
     seed: int = typer.Option(0, min=0, max=2**63 - 1, help="The same seed always gives the same board."),
@@ -24,9 +26,9 @@ def generate(
 
     board = generate_table(seed, recipe)
     if out is None:
-        typer.echo(dump_table(board), nl=False)
+        say(*dump_table(board).removesuffix("\n").split("\n"))
         return
     if out.exists() and not force:
         raise OutputError(f"{out}: this file exists; choose another name, or overwrite it with --force")
     save_table(board, out)
-    typer.echo(f"wrote {out}")
+    say(f"wrote {out}")

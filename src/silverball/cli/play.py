@@ -17,7 +17,7 @@ DEMO_SECONDS = 20.0
 
 def play(
     table: str | None = typer.Option(
-        None, help="A built-in table or a table file; the one chosen last if not given."
+        None, help="A built-in table or a table file; that of the game if not given: the one chosen last."
     ),
     seed: int | None = typer.Option(
         None, min=0, max=2**63 - 1, help="Of the first board; drawn if not given."

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from silverball.cli.output import file_name
+from silverball.cli.say import say, say_json
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
@@ -48,16 +48,16 @@ def replay(
     if verify:
         verdict = verified(game)
         told["verify"] = verdict._asdict()
-        say(as_json, f"{file}: {verdict.message}")
+        tell(as_json, f"{file}: {verdict.message}")
     if against is not None and (verdict is None or verdict.ok):
         verdict = compared(game, load(against))
         told["against"] = {"file": against} | verdict._asdict()
-        say(as_json, f"{file} and {against}: {verdict.message}")
+        tell(as_json, f"{file} and {against}: {verdict.message}")
     if out is not None and (verdict is None or verdict.ok):
         make_film(out, game, start, seconds, size, theme=theme, force=force, quiet=as_json)
         told["out"] = str(out)
     if as_json:
-        typer.echo(json.dumps(told, ensure_ascii=False))
+        say_json(told, indent=None)
     elif out is None and verdict is None:
         watch(game)
     if verdict is not None and not verdict.ok:
@@ -107,10 +107,10 @@ def facts(file: str, game: Replay) -> dict[str, Any]:
     }
 
 
-def say(as_json: bool, sentence: str) -> None:
+def tell(as_json: bool, sentence: str) -> None:
     """Print a sentence, unless JSON is to be printed."""
     if not as_json:
-        typer.echo(sentence)
+        say(sentence)
 
 
 def verified(game: Replay) -> Verdict:

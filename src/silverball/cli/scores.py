@@ -1,4 +1,4 @@
-"""`silverball scores`: who played best, and is it true?"""
+"""`silverball scores`: who played best, and is it proven?"""
 
 from __future__ import annotations
 
@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from silverball.game.news import Mode
+from silverball.plain import plain
 
 if TYPE_CHECKING:
+    from silverball.game.proof import Proof
     from silverball.game.store import Score, ScoreList, Store
+
+NAME_LENGTH = 60  # characters of a name that are printed
 
 
 def scores(
@@ -18,17 +22,19 @@ def scores(
     table: str = typer.Option("", help="Of this table only: the name that stands above its scores."),
     mode: Mode | None = typer.Option(None, help="Of this kind of game only."),
     limit: int = typer.Option(10, min=1, max=1_000_000, help="The best so many of every table."),
-    verify: bool = typer.Option(False, "--verify", help="Play every replay back and mark what is not true."),
+    verify: bool = typer.Option(False, "--verify", help="Play all replays back; mark what is not proven."),
     replay: int | None = typer.Option(None, metavar="ID", help="With --export: the number of the score."),
     export: str = typer.Option("", metavar="FILE", help="Write the replay of a score to a file."),
     force: bool = typer.Option(False, "--force", help="With --export: overwrite a file that exists."),
     remove: int | None = typer.Option(None, metavar="ID", help="Remove a score and its replay for ever."),
     as_json: bool = typer.Option(False, "--json", help="Print a JSON array."),
 ) -> None:
-    """Show the best scores of every table, or see whether their replays reach them.
+    """Show the best scores of every table, or see whether their replays prove them.
 
-    Scores on random boards stand in one list, with the seed of each board. With --verify the exit code is 1
-    if a replay does not reach its score.
+    Scores on random boards stand in one list, with the seed of each board. A score is proven if its replay is
+    whole, is of the very table that stands above it, reaches it, and was not counted before; with --verify
+    all others stand below, with the reason, and the exit code is 1 if there are any. Without --verify the
+    list only says what came of it last.
 
     Example: `silverball scores --table random`, `silverball scores --verify`, or the replay of score 12 with
     `silverball scores --replay 12 --export best.replay`
@@ -39,21 +45,24 @@ def scores(
 
     refuse_what_does_not_fit(ctx)
     with Store() as store:
-        if store.trouble:
-            errors.print(store.trouble, soft_wrap=True, markup=False, highlight=False)
-        if (remove is not None or verify) and not store.keeps:
+        if store.trouble and not store.is_blind:
+            errors.print(plain(store.trouble, keep="\n"), soft_wrap=True, markup=False, highlight=False)
+        if remove is not None and not store.keeps:
             raise SilverballError(f"{store.path}: nothing was changed, for it cannot be written")
+        if verify and not store.has_read:
+            raise SilverballError(f"{store.path}: nothing was verified, for it cannot be read")
         if remove is not None:
             gone = store.score(remove)
             store.remove(remove)
-            typer.echo(f"removed score {remove}: {gone.score:,} by {gone.initials} on {gone.table_name}")
+            who, where = name(gone.initials), name(gone.table_name)
+            typer.echo(f"removed score {remove}: {gone.score:,} by {who} on {where}")
         elif replay is not None:
             write_replay(store, replay, export, force)
         else:
             lists = chosen(store, table, mode)
-            wrong = verify_all(store, lists, as_json) if verify else 0
-            show(store, lists, limit, as_json)
-            raise typer.Exit(1 if wrong else 0)
+            proofs = verify_all(store, lists, as_json) if verify else None
+            show(store, lists, limit, as_json, proofs)
+            raise typer.Exit(1 if any(not one.verified for one in (proofs or {}).values()) else 0)
 
 
 def refuse_what_does_not_fit(ctx: typer.Context) -> None:
@@ -61,9 +70,9 @@ def refuse_what_does_not_fit(ctx: typer.Context) -> None:
     from silverball.errors import SilverballError
 
     given = {
-        name
-        for name in ctx.params
-        if (source := ctx.get_parameter_source(name)) is not None and source.name == "COMMANDLINE"
+        parameter
+        for parameter in ctx.params
+        if (source := ctx.get_parameter_source(parameter)) is not None and source.name == "COMMANDLINE"
     }
     if ("replay" in given) != ("export" in given):
         raise SilverballError(
@@ -74,8 +83,8 @@ def refuse_what_does_not_fit(ctx: typer.Context) -> None:
     for first, alone in (("remove", {"remove"}), ("export", {"export", "replay", "force"})):
         others = sorted(given - alone)
         if first in given and others:
-            name = others[0].removeprefix("as_")
-            raise SilverballError(f"silverball scores: --{name} does not go with --{first}; leave one out")
+            other = others[0].removeprefix("as_")
+            raise SilverballError(f"silverball scores: --{other} does not go with --{first}; leave one out")
 
 
 def chosen(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
@@ -85,10 +94,13 @@ def chosen(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
     lists = [one for one in store.lists() if mode is None or one.mode == mode]
     if not table:
         return lists
-    found = [one for one in lists if one.table_name.casefold() == table.casefold()]
+    wanted = table.casefold()
+    found = [one for one in lists if wanted in (one.table_name.casefold(), name(one.table_name).casefold())]
     if not found:
-        names = ", ".join(sorted({one.table_name for one in lists})) or "no table yet"
-        raise SilverballError(f"--table: there are no such scores on {table!r}; there are some on {names}")
+        names = ", ".join(sorted({name(one.table_name) for one in lists})) or "no table yet"
+        raise SilverballError(
+            f"--table: there are no such scores on '{name(table)}'; there are some on {names}"
+        )
     return found
 
 
@@ -98,100 +110,144 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     from silverball.errors import OutputError
     from silverball.wholefile import write_whole
 
-    path = file_name(out)
+    path, shown = file_name(out), plain(out)
     text = store.replay(id)
     if path.is_dir():
-        raise OutputError(f"{out}: this is a folder; give the name of a file in it")
+        raise OutputError(f"{shown}: this is a folder; give the name of a file in it")
+    if path.exists() and not path.is_file():
+        raise OutputError(f"{shown}: this is no ordinary file; choose another name")
     if path.exists() and not force:
-        raise OutputError(f"{out}: this file exists; choose another name, or overwrite it with --force")
+        raise OutputError(f"{shown}: this file exists; choose another name, or overwrite it with --force")
     if not path.absolute().parent.is_dir():
-        raise OutputError(f"{out}: there is no folder {path.parent}: make it first")
+        raise OutputError(f"{shown}: there is no folder {plain(str(path.parent))}: make it first")
     try:
         write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
-    except OSError as error:
-        raise OutputError(f"{out}: {(error.strerror or str(error)).lower()}") from None
-    typer.echo(f"wrote {out}")
+    except (OSError, ValueError) as error:  # ValueError: a zero character in the path
+        reason = getattr(error, "strerror", None) or str(error)
+        raise OutputError(f"{shown}: {reason.lower()}") from None
+    typer.echo(f"wrote {shown}")
 
 
-def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> int:
-    """Play all replays back and mark their scores; how many do not reach them."""
+def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, Proof]:
+    """Try to prove all scores of some lists, the best first, and mark them; what came of it, by number.
+
+    A score of another list may be of the same game: those of the same seed are tried too.
+    """
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
 
     with compiling():
-        from silverball.game.proof import prove
-    every = [score for one in lists for score in of(store, one, -1)]
-    with_replay = [score for score in every if score.has_replay]
-    found = {True: 0, False: 0, None: 0}
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        for score in bar.track(with_replay, description="playing back"):
-            proof = prove(score, store.replay(score.id))
-            store.mark(score.id, *proof)
-            found[proof.verified] += 1
-            if proof.why and not quiet:
-                typer.echo(f"score {score.id}, {score.score:,} by {score.initials}: {proof.why}")
+        from silverball.game.proof import Counted, prove
+    every = [(score, one.id) for one in store.lists() for score in store.scores(list_id=one.id, limit=-1)]
+    numbers = {one.id for one in lists}
+    seeds = {(score.seed, score.mode) for score, number in every if number in numbers}
+    tried = sorted((one for one in every if (one[0].seed, one[0].mode) in seeds), key=better_first)
+    tables = {number: store.table_text(number) for number in {number for _, number in tried}}
+    counted = Counted()
+    proofs: dict[int, Proof] = {}
+    try:
+        with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+            for score, number in bar.track(tried, description="playing back"):
+                text = store.replay(score.id) if score.has_replay else None
+                proof = prove(score, text, tables[number], counted)
+                if number in numbers:
+                    proofs[score.id] = proof
+                    if not proof.verified and not quiet:
+                        who = f"score {score.id}, {score.score:,} by {name(score.initials)}"
+                        typer.echo(f"{who}: not proven: {proof.why}")
+    finally:
+        store.mark({id: (proof.verified, proof.why) for id, proof in proofs.items()})
     if not quiet:
-        typer.echo(
-            f"of {len(every)} scores {found[True]} are true, {found[False]} are not, {found[None]} are of "
-            f"another version, and {len(every) - len(with_replay)} have no replay any more"
-        )
-    return found[False]
+        proven = sum(proof.verified for proof in proofs.values())
+        typer.echo(f"of {len(proofs)} scores {proven} are proven and {len(proofs) - proven} are not")
+    return proofs
 
 
-def of(store: Store, one: ScoreList, limit: int) -> list[Score]:
-    """The best scores of a list."""
-    return store.scores(one.mode, one.table_digest, limit=limit)
+def better_first(one: tuple[Score, int]) -> tuple[int, int]:
+    """The higher score first, of equal ones the earlier: of one game in two scores the better one counts."""
+    return -one[0].score, one[0].id
 
 
-def show(store: Store, lists: list[ScoreList], limit: int, as_json: bool) -> None:
+def show(
+    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, Proof] | None
+) -> None:
     """Print the best scores of some lists."""
     if as_json:
-        rows = [as_object(place, score) for one in lists for place, score in ranked(store, one, limit)]
+        rows = [
+            as_object(place, score) for one in lists for place, score in ranked(store, one, limit, proofs)
+        ]
         typer.echo(json.dumps(rows, indent=2))
         return
     if not lists:
         typer.echo("there are no scores yet: play a game with `silverball`")
     for one in lists:
         versions = sum((other.mode, other.table_name) == (one.mode, one.table_name) for other in lists)
-        print_list(one, ranked(store, one, limit), versions > 1)
+        print_list(one, ranked(store, one, limit, proofs), versions > 1, proofs is not None)
 
 
-def ranked(store: Store, one: ScoreList, limit: int) -> list[tuple[int, Score]]:
-    """The best scores of a list with their places."""
-    return list(enumerate(of(store, one, limit), 1))
+def ranked(
+    store: Store, one: ScoreList, limit: int, proofs: dict[int, Proof] | None
+) -> list[tuple[int, Score]]:
+    """The best scores of a list with their places; what was proven just now counts, and not what is noted."""
+    if proofs is None:
+        return list(enumerate(store.scores(list_id=one.id, limit=limit), 1))
+    scores = [
+        score._replace(verified=proofs[score.id].verified, why=proofs[score.id].why)
+        for score in store.scores(list_id=one.id, limit=-1)
+        if score.id in proofs
+    ]
+    return list(enumerate(sorted(scores, key=lambda score: score.order)[:limit], 1))
 
 
 def as_object(place: int, score: Score) -> dict[str, Any]:
     """A score for JSON."""
-    return {"place": place} | score._asdict() | {"when": score.when.isoformat()}
+    values = score._asdict() | {"when": score.when.isoformat()}
+    del values["damage"]  # it stands in `why`
+    return {"place": place} | values
 
 
-def print_list(one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several: bool) -> None:
+def print_list(
+    one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several: bool, is_verified: bool
+) -> None:
     """A list as people like to read it; of several of one name the digests tell which is which."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    version = f" · version {one.table_digest[:8]}" if is_one_of_several else ""
-    grid = Table(
-        title=Text(f"{one.table_name} · {one.mode}{version}"), title_justify="left", box=box.SIMPLE_HEAD
-    )
-    for name in ("place", "score"):
-        grid.add_column(name, justify="right")
+    from silverball.game.proof import is_built_in
+
+    words = [name(one.table_name), name(one.mode)]
+    words += ["built-in"] * is_built_in(one.table_digest)
+    words += [f"version {name(one.table_digest[:8])}"] * is_one_of_several
+    grid = Table(title=Text(" · ".join(words)), title_justify="left", box=box.SIMPLE_HEAD)
+    for head in ("place", "score"):
+        grid.add_column(head, justify="right")
     grid.add_column("by")
     grid.add_column("seed", justify="right")
     grid.add_column("when")
-    grid.add_column("replay")
+    grid.add_column("proof")
     grid.add_column("ID", justify="right")
     for place, score in rows:
-        kept = "kept" if score.has_replay else "not kept"
-        if score.verified is not None:
-            kept = "true" if score.verified else "does not reach it"
-        when = f"{score.when.astimezone():%Y-%m-%d %H:%M}"
-        cells = (str(place), f"{score.score:,}", score.initials, str(score.seed), when, kept, str(score.id))
-        grid.add_row(*map(Text, cells), style="red" if score.verified is False else None)
+        cells = (
+            str(place), f"{score.score:,}", name(score.initials), str(score.seed),
+            score.played("%Y-%m-%d %H:%M"), proof_words(score, is_verified), str(score.id),
+        )  # fmt: skip
+        grid.add_row(*map(Text, cells), style="red" if score.is_doubtful else None)
     Console().print(grid)
     if len(rows) < one.length:
         typer.echo(f"  and {one.length - len(rows)} more; --limit shows them")
+
+
+def proof_words(score: Score, is_verified: bool) -> str:
+    """What is said of the proof of a score: a note of an earlier trial is in the past tense."""
+    if score.verified is None:
+        return "not tried" if score.has_replay else "no replay"
+    words = "proven" if score.verified else "not proven"
+    return words if is_verified or score.damage else f"was {words}"
+
+
+def name(text: str) -> str:
+    """Text out of the file or from the command line, fit to be printed on a line."""
+    return plain(text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}…")

@@ -7,6 +7,7 @@ from pathlib import Path
 import typer
 
 from silverball.cli.output import file_name
+from silverball.cli.say import say
 
 
 def show(
@@ -39,4 +40,4 @@ def show(
         picture = renderer.array(Moment.before(board))
     renderer.close()
     write_picture(out, picture)
-    typer.echo(f"wrote {out}")
+    say(f"wrote {out}")

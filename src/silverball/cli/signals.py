@@ -107,9 +107,10 @@ def _is_safe(frame: FrameType | None) -> bool:
 
 def _leave(code: int) -> None:
     """End the process."""
-    for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            stream.flush()
+    from silverball.cli.streams import give_up
+
+    give_up(sys.stdout)
+    give_up(sys.stderr)
     if not any(thread.daemon for thread in threading.enumerate()):
         sys.exit(code)
     # A thread may be in the compiler, for many seconds more; Python must not be taken down under it.

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
+
+from silverball.cli.given import given_by
+from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
     from rich.progress import Progress
@@ -65,7 +67,7 @@ def simulate(
 
     Example: `silverball simulate --feel --table classic --games 1000`
     """
-    given = {name for name in ctx.params if str(ctx.get_parameter_source(name)).endswith("COMMANDLINE")}
+    given = given_by(ctx)
     refuse_what_does_not_fit(given, soak, feel)
     if feel:
         from silverball.cli.feel import run_feel
@@ -131,7 +133,7 @@ def simulate(
         "digest": digest_of(batch),
     }
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        say_json(report)
     else:
         print_report(report)
 
@@ -173,9 +175,9 @@ def print_report(report: dict[str, Any]) -> None:
     """The report as lines for people."""
     for name, value in report.items():
         if isinstance(value, dict):
-            typer.echo(f"{name}:")
+            say(f"{name}:")
             for part, count in value.items():
-                typer.echo(f"  {part:24} {count:>12,}")
+                say(f"  {part:24} {count:>12,}")
         else:
             shown = (
                 f"{value:,.6g}"
@@ -184,4 +186,4 @@ def print_report(report: dict[str, Any]) -> None:
                 if isinstance(value, int)
                 else value
             )
-            typer.echo(f"{name.replace('_', ' '):30} {shown}")
+            say(f"{name.replace('_', ' '):30} {shown}")

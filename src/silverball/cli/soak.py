@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import time
 from pathlib import Path
 from typing import Any, NoReturn
 
 import typer
+
+from silverball.cli.say import say, say_json
+from silverball.errors import StateError
 
 SHOWN_FINDINGS = 10
 
@@ -37,7 +39,7 @@ def run_soak(
             task = bar.add_task(f"soaking {frames:,} frames", total=frames, completed=earlier.totals.frames)
             log = soak(options, frames, path, lambda done: bar.update(task, completed=done))
     except KeyboardInterrupt:
-        errors.print(f"what was done is kept in {path}: the same command goes on from there", soft_wrap=True)
+        say(f"what was done is kept in {path}: the same command goes on from there", err=True)
         raise
     seconds = time.perf_counter() - started
     return {
@@ -64,20 +66,20 @@ def print_soak(report: dict[str, Any], as_json: bool) -> NoReturn:
     """Print what came of a soak; it ends with exit code 1 if anything was found."""
     count = sum(report["findings"].values())
     if as_json:
-        typer.echo(json.dumps(report, indent=2))
+        say_json(report)
         raise typer.Exit(1 if count else 0)
-    typer.echo(
+    say(
         f"{report['frames']:,} frames of 1/{report['tick_rate']} s on {report['boards']:,} boards "
         f"({report['table']}, seed {report['seed']}), {report['frames_per_second'] / 1e6:.2f} million/s"
     )
-    typer.echo(
+    say(
         f"{report['balls_created']:,} balls, {report['hits']:,} hits, {report['jams']:,} jams; "
         f"deepest penetration {report['deepest_penetration']:.3g} u"
     )
-    typer.echo(", ".join(f"{kind} {number:,}" for kind, number in report["findings"].items()))
+    say(", ".join(f"{kind} {number:,}" for kind, number in report["findings"].items()))
     for name in report["files"][:SHOWN_FINDINGS]:
-        typer.echo(f"  silverball simulate --soak --again {name}")
-    typer.echo(f"kept in {report['progress']}")
+        say(f"  silverball simulate --soak --again {name}")
+    say(f"kept in {report['progress']}")
     raise typer.Exit(1 if count else 0)
 
 
@@ -89,16 +91,19 @@ def soak_again(path: Path, as_json: bool) -> NoReturn:
         from silverball.players.finding import Finding, again
         from silverball.players.watch import Found
 
-        finding = Finding.from_text(path.read_text(encoding="utf-8", errors="replace"), str(path))
-        found = again(finding)
+        finding = Finding.load(path)
+        try:
+            found = again(finding)
+        except StateError as error:
+            raise StateError(f"{path}: {error}") from None
     happens = found.name.lower() == finding.kind
     if as_json:
         report = {"kind": finding.kind, "found": found.name.lower(), "happens_again": happens}
-        typer.echo(json.dumps(report, indent=2))
+        say_json(report)
     elif happens:
-        typer.echo(f"{path}: the {finding.kind} of ball {finding.ball} happens again")
+        say(f"{path}: the {finding.kind} of ball {finding.ball} happens again")
     elif found != Found.NOTHING:
-        typer.echo(f"{path}: instead of the {finding.kind} there is now: {found.name.lower()}")
+        say(f"{path}: instead of the {finding.kind} there is now: {found.name.lower()}")
     else:
-        typer.echo(f"{path}: the {finding.kind} does not happen any more")
+        say(f"{path}: the {finding.kind} does not happen any more")
     raise typer.Exit(0 if found == Found.NOTHING else 1)

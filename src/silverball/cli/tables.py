@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import typer
+from silverball.cli.say import say
 
 
 def tables() -> None:
@@ -19,4 +19,4 @@ def tables() -> None:
             recipe = table.random
             counts = f"{recipe.triangular_prisms} triangular prisms, {recipe.cylinders} cylinders"
             obstacles = f"{counts}, placed anew for every seed"
-        typer.echo(f"{name:10} {obstacles}")
+        say(f"{name:10} {obstacles}")

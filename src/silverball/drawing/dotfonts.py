@@ -1,7 +1,8 @@
 """Which letters can the score display show? Its fonts, drawn here dot by dot.
 
 A sheet is a text in which every column of `#` and `.` is one glyph. Rows beyond the height of a font reach
-below its baseline. A character that a font lacks is shown as its capital if there is one, else as a box.
+below its baseline. A character that a font lacks is shown as its capital if there is one, else as
+other texts have it (`dotletters.py`), else as a box.
 """
 
 from __future__ import annotations
@@ -36,6 +37,10 @@ class Font(NamedTuple):
         found = self.glyphs.get(character)
         if found is None:
             found = self.glyphs.get(character.upper())
+        if found is None and not character.isascii():
+            from silverball.drawing.dotletters import read_off  # loads pygame, which is seldom needed here
+
+            found = read_off(character, self.height)
         return self.box if found is None else found
 
     def width(self, text: str) -> int:
@@ -46,7 +51,7 @@ class Font(NamedTuple):
         return sum(widths) + self.gap * (len(text) - 1)
 
     def has(self, character: str) -> bool:
-        """Whether a character is more than a box."""
+        """Whether a character is one of its own."""
         return character in self.glyphs or character.upper() in self.glyphs
 
 

@@ -20,6 +20,7 @@ FLASH_SECONDS = 0.45
 TRAIL_SECONDS = 0.13
 TRAIL_SPACING = 0.7  # between two spots of a trail, in radii of a ball
 DIVE_SECONDS = 0.2
+BACK = 0.25  # [s] further ahead than a tick lies only what was seen before time was turned back
 LEAST_DIVE_SPEED = 2.0  # [u/s]
 SPARK_SPEED = 6.0  # [u/s] of an impact that strikes sparks
 SPARK_SECONDS = 0.38
@@ -97,7 +98,7 @@ class Effects:
         """The parts that light up at a time, and how strongly, 1 to 0."""
         for part, hit in list(self._hits.items()):
             left = 1.0 - (time - hit) / FLASH_SECONDS
-            if left <= 0.0:
+            if left <= 0.0 or time - hit <= -BACK:
                 del self._hits[part]
             else:
                 strength = min(left, 1.0) ** 2
@@ -105,7 +106,7 @@ class Effects:
 
     def dives(self, time: float) -> Iterator[BallAt]:
         """Balls on their way under the apron; the world no longer knows them."""
-        self._dives = [dive for dive in self._dives if time - dive.time < DIVE_SECONDS]
+        self._dives = [dive for dive in self._dives if -BACK < time - dive.time < DIVE_SECONDS]
         for dive in self._dives:
             yield BallAt(0, dive.x - dive.speed * max(time - dive.time, 0.0), dive.z)
 

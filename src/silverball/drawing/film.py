@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from silverball.drawing.video import Soundtrack, require_ffmpeg, write_mp4
 from silverball.errors import OutputError
-from silverball.wholefile import write_whole
+from silverball.wholefile import is_special, write_whole
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -52,6 +52,8 @@ def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> 
         raise OutputError(f"{path}: there is no folder {str(path.parent)!r}; make it first")
     if path.is_dir():
         raise OutputError(f"{path}: this is a folder; give the name of a file")
+    if is_special(path):
+        raise OutputError(f"{path}: this is no ordinary file; give another name")
     if path.exists() and not force:
         raise OutputError(f"{path}: this file exists; choose another name, or overwrite it with --force")
     if not os.access(path.parent, os.W_OK):

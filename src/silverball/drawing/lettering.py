@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from silverball.drawing.build import Build
 from silverball.drawing.text import font
+from silverball.plain import plain
 
 ROWS = 48  # [pixel] of the image
 LETTERS = 40  # [pixel] size of the letters in it
@@ -27,7 +28,7 @@ def lettering(name: str, build: Build) -> NDArray[np.float32]:
     plate = np.zeros((ROWS, columns), np.float32)
     if not name.strip() or depth < 0.04 * width:
         return plate
-    letters = "  ".join(name.upper().split())
+    letters = "  ".join(plain(name.upper()).split())
     words = font(LETTERS, bold=True).render(letters, True, (255, 255, 255))
     image = pygame.Surface(words.get_size(), 0, 24)
     image.blit(words, (0, 0))

@@ -1,26 +1,39 @@
 """How are words and numbers drawn? In pygame's own font, each piece rendered once and kept.
 
+Letters that it lacks, such as those on a Hebrew keyboard, come from a font of the system if one has them.
+
 Rendering a line anew costs milliseconds; a score that counts up is put together from kept digits instead.
 """
 
 from __future__ import annotations
 
+import os
 from functools import lru_cache
 
 import pygame
 
 from silverball.drawing.palette import Color
+from silverball.plain import plain
 
 SMALL = 30  # [pixel] sizes below it are drawn larger and shrunk
 ENLARGED = 4
+_SYSTEM_FONTS = (
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",  # Debian and Ubuntu
+    "/usr/share/fonts/TTF/DejaVuSans.ttf",  # Arch
+    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",  # Fedora
+    "/System/Library/Fonts/Supplemental/Arial Unicode.ttf",
+    *(f"C:/Windows/Fonts/{name}.ttf" for name in ("arial", "segoeui", "sylfaen", "nirmala", "leelawui")),
+)
+"""Where systems have fonts with many letters; to ask a system for all its fonts may take seconds."""
+_NO_CHARACTER = "\ufffe"  # in no font, so it shows what a font draws for characters that it lacks
 
 
 @lru_cache(maxsize=64)
-def font(size: int, bold: bool = False) -> pygame.font.Font:
-    """The font that comes with pygame, at a size [pixel]."""
+def font(size: int, bold: bool = False, file: str | None = None) -> pygame.font.Font:
+    """A font at a size [pixel]: of a file, or the one that comes with pygame."""
     if not pygame.font.get_init():
         pygame.font.init()
-    face = pygame.font.Font(None, max(size, 6))
+    face = pygame.font.Font(file, max(size, 6))
     face.set_bold(bold)
     return face
 
@@ -28,11 +41,44 @@ def font(size: int, bold: bool = False) -> pygame.font.Font:
 @lru_cache(maxsize=1024)
 def line(text: str, size: int, color: Color) -> pygame.Surface:
     """One line of text. The surface is shared: blit it, do not change it."""
+    text = plain(text)  # some characters turn the direction round, and a font refuses others
     if size >= SMALL:
-        return font(size).render(text, True, color)
+        return font(size, file=_file_for(text)).render(text, True, color)
     # The font's hints push small letters unevenly onto whole pixels; drawn large and shrunk they stand well.
-    large = font(ENLARGED * size).render(text, True, color)
+    large = font(ENLARGED * size, file=_file_for(text)).render(text, True, color)
     return pygame.transform.smoothscale_by(large, 1.0 / ENLARGED)
+
+
+def font_of(character: str, size: int) -> pygame.font.Font | None:
+    """A font that has a character, at a size [pixel]; None if none has it."""
+    return next((font(size, file=file) for file in _files() if _has(file, character)), None)
+
+
+def can_show(text: str) -> bool:
+    """Whether there is a font that has all of a text."""
+    return any(all(_has(file, character) for character in text) for file in _files())
+
+
+def _file_for(text: str) -> str | None:
+    """The first font that has all of a text; pygame's own, None, if none has."""
+    if text.isascii():
+        return None
+    return next((file for file in _files() if all(_has(file, one) for one in text)), None)
+
+
+@lru_cache(maxsize=1)
+def _files() -> tuple[str | None, ...]:
+    """All fonts there are; pygame's own, which is None, comes first."""
+    return (None, *(file for file in _SYSTEM_FONTS if os.path.exists(file)))
+
+
+@lru_cache(maxsize=4096)
+def _has(file: str | None, character: str) -> bool:
+    if character.isascii() or not character.isprintable():
+        return character.isprintable()
+    face = font(SMALL, file=file)
+    missing, drawn = (face.render(one, True, (0, 0, 0)) for one in (_NO_CHARACTER, character))
+    return pygame.image.tobytes(drawn, "RGBA") != pygame.image.tobytes(missing, "RGBA")
 
 
 def number(value: int, size: int, color: Color) -> list[pygame.Surface]:
@@ -40,17 +86,38 @@ def number(value: int, size: int, color: Color) -> list[pygame.Surface]:
     return [line(glyph, size, color) for glyph in f"{value:,}"]
 
 
+def text_width(text: str, size: int) -> int:
+    """How wide `line` makes a text [pixel]."""
+    if size >= SMALL:
+        return font(size).size(text)[0]
+    return -(-font(ENLARGED * size).size(text)[0] // ENLARGED)
+
+
 def wrapped(text: str, size: int, width: int) -> list[str]:
-    """The lines into which a text breaks so that none is wider than `width` [pixel], words kept whole."""
+    """The lines into which a text breaks so that none is wider than `width` [pixel].
+
+    Words are kept whole, but for those that are wider than a line, as a path may be.
+    """
     lines: list[str] = []
-    for paragraph in text.split("\n"):
+    for paragraph in plain(text, keep="\n").split("\n"):
         current = ""
         for word in paragraph.split():
-            longer = f"{current} {word}" if current else word
-            if current and font(size).size(longer)[0] > width:
-                lines.append(current)
-                current = word
-            else:
-                current = longer
+            for piece in _pieces(word, size, width):
+                longer = f"{current} {piece}" if current else piece
+                if current and text_width(longer, size) > width:
+                    lines.append(current)
+                    current = piece
+                else:
+                    current = longer
         lines.append(current)
     return lines
+
+
+def _pieces(word: str, size: int, width: int) -> list[str]:
+    """A word in as few pieces as fit a line each; a letter is never cut."""
+    pieces = []
+    while len(word) > 1 and text_width(word, size) > width:
+        count = next((end for end in range(len(word) - 1, 1, -1) if text_width(word[:end], size) <= width), 1)
+        pieces.append(word[:count])
+        word = word[count:]
+    return [*pieces, word]

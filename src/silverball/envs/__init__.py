@@ -14,12 +14,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from silverball.errors import MissingExtra
+from silverball.errors import MissingExtra, OutdatedExtra
 
 try:
     import gymnasium
 except ModuleNotFoundError:
     raise MissingExtra("silverball.envs", "rl") from None
+else:
+    if tuple(int(number) for number in gymnasium.__version__.split(".")[:2]) < (1, 1):  # has AutoresetMode
+        raise OutdatedExtra("silverball.envs", "Gymnasium", gymnasium.__version__, "1.1", "rl")
 
 from silverball.envs.options import OPTIONS, Options
 from silverball.envs.single import PinballEnv
@@ -35,12 +38,21 @@ IDS: dict[str, dict[str, Any]] = {
 }
 """Every environment with the options in which it differs."""
 
+REWARD_THRESHOLDS = {
+    "silverball/Pinball-v0": 110.0,
+    "silverball/PinballClassic-v0": 220.0,
+    "silverball/PinballPixels-v0": 110.0,
+}
+"""The mean return from which an environment counts as solved, with the default options: what the trained
+player makes there, rounded down to tens. Source: `python benchmarks/thresholds.py`."""
+
 for _id in set(IDS) - set(gymnasium.registry):
     gymnasium.register(
         _id,
         entry_point="silverball.envs.single:PinballEnv",
         vector_entry_point="silverball.envs.vector:PinballVectorEnv",
         kwargs=IDS[_id],
+        reward_threshold=REWARD_THRESHOLDS[_id],
         # The wrappers of `gymnasium.make` would take longer than the step. None is needed: the environment
         # itself asks for a reset, keeps its time limit and refuses impossible actions, and the tests let
         # Gymnasium's checker look at every id.

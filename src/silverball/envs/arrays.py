@@ -44,7 +44,7 @@ copy_bytes: Any = _interpreted_copy if SETTINGS.DISABLE_JIT else _compiled_copy
 
 ARRAYS = (
     "worlds", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
-    "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks",
+    "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks", "wanted",
     *WRITTEN, "finals", "final_counts", "scenes", "final_scenes", "drawn", "backgrounds", "balls", "paddles",
 )  # fmt: skip
 LENGTHS = (
@@ -150,6 +150,12 @@ def actions(at: Any) -> Any:
 def masks(at: Any) -> Any:
     """Which environments a reset is for [envs]."""
     return array_at(at.masks_at, (at.envs,), BOOL)
+
+
+@pasted
+def wanted(at: Any) -> Any:
+    """The board of each one's next episode [envs]; −1: it is drawn."""
+    return array_at(at.wanted_at, (at.envs,), INT)
 
 
 @pasted

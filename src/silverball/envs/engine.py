@@ -67,6 +67,7 @@ class Engine:
         self._set_film()
         self.actions = np.zeros(count, np.int64)
         self.masks = np.ones(count, np.bool_)
+        self.wanted = np.full(count, -1, np.int64)
         columns = 0 if self.shows_pictures else self.pool.columns
         self.outputs = self._first_outputs(columns)
         kept = count if mode == Mode.SAME_STEP else 0
@@ -146,9 +147,10 @@ class Engine:
             board_seeds=pool.seeds, colliders=boards.collider, grid=boards.grid, places=boards.place,
             logs=self.batch.logs, tallies=self.batch.tallies, held=self._held, episodes=self.episodes,
             blanks=pool.blanks, layouts=pool.layouts, rules=self.rules, film=self.film, actions=self.actions,
-            masks=self.masks, finals=self.finals, final_counts=self.final_counts, scenes=self.scenes,
-            final_scenes=self.final_scenes, drawn=self.drawn, backgrounds=pictures.backgrounds,
-            balls=pictures.balls, paddles=pictures.paddles, **self.outputs.last.arrays,
+            masks=self.masks, wanted=self.wanted, finals=self.finals, final_counts=self.final_counts,
+            scenes=self.scenes, final_scenes=self.final_scenes, drawn=self.drawn,
+            backgrounds=pictures.backgrounds, balls=pictures.balls, paddles=pictures.paddles,
+            **self.outputs.last.arrays,
         )  # fmt: skip
         lengths = {
             "envs": self.count, "boards": len(boards.board),
@@ -182,9 +184,11 @@ class Engine:
         self._slide()
         self._do(Task.STEP)
 
-    def reset(self) -> None:
-        """Begin the next episode of the environments in `masks`."""
+    def reset(self, boards: NDArray[np.int64] | int = -1) -> None:
+        """Begin the next episode of the environments in `masks`, on these boards of the pool; −1: any."""
+        self.wanted[:] = boards
         self._do(Task.RESET)
+        self.wanted[:] = -1
 
     def observe(self) -> None:
         """Write the observations anew, after states were changed."""

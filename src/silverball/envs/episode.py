@@ -185,6 +185,8 @@ def begin(at: Any, rules: Any, index: int) -> None:
     high, low = threefry(key0, key1, episode.number & WORD, 0)
     choice, _ = threefry(key0, key1, episode.number & WORD, 1)
     which = (choice * rules.boards) >> 32 if rules.own_boards == 0 else index % rules.boards
+    if the.wanted(at)[index] >= 0:
+        which = the.wanted(at)[index]
     the.board_of(at)[index] = which
     copy_bytes(at.worlds_at + index * WORLD_SIZE, at.blanks_at + which * WORLD_SIZE, WORLD_SIZE)
     world, log = the.worlds(at)[index], the.logs(at)[index]

@@ -6,12 +6,15 @@ import dataclasses
 import difflib
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
 
 from silverball.table import Table
+
+Named = Table | str | os.PathLike[str] | Mapping[str, Any]
+"""A table, the name of a built-in one, a path, or the keys of a table file."""
 
 POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
 BUTTONS = ("left", "right", "jitter", "create")
@@ -26,6 +29,7 @@ MOST_BALLS = 1000
 LONGEST = 1e7  # [s]
 LARGEST_PICTURE = 1024  # [pixel] a side
 MOST_STACKED = 16
+NEVER = 2**62  # [step] a limit that no episode reaches
 
 
 def option(default: Any, text: str) -> Any:
@@ -41,9 +45,10 @@ class Options:
         ValueError: One of them cannot be.
     """
 
-    table: Table | str | os.PathLike[str] | Sequence[Table | str | os.PathLike[str]] = option(
+    table: Named | Sequence[Named] = option(
         "random",
-        "a built-in name, a path or a table; a recipe gives every episode a random board, a list of finished "
+        "a built-in name, a path, a table, or the keys of a table file as a dict; a recipe "
+        "gives every episode a random board, a list of finished "
         "tables with the same board and paddles one of them",
     )
     boards: int = option(
@@ -109,12 +114,15 @@ class Options:
         """
         names = [field.name for field in dataclasses.fields(cls)]
         for name in given:
+            if name in names:
+                continue
+            # Trainers try options of other environments and look for these words (TorchRL: frameskip).
+            unexpected = f"got an unexpected keyword argument {name!r}"
             if name in OF_VECTORS:
-                raise TypeError(f"{name} is for many environments: gymnasium.make_vec takes it")
-            if name not in names:
-                near = difflib.get_close_matches(name, names, 1)
-                hint = f"; did you mean {near[0]}?" if near else ""
-                raise TypeError(f"there is no option {name!r}, there are {', '.join(names)}{hint}")
+                raise TypeError(f"{unexpected}: it is for many environments, gymnasium.make_vec takes it")
+            near = difflib.get_close_matches(name, names, 1)
+            hint = f"did you mean {near[0]!r}? " if near else ""
+            raise TypeError(f"{unexpected}; {hint}The options are {', '.join(names)}")
         return cls(**given)
 
     @property
@@ -122,6 +130,19 @@ class Options:
         """The buttons there are, in the order of an action's bits."""
         present = (True, True, self.jitter, self.create == "button")
         return tuple(name for name, is_there in zip(BUTTONS, present, strict=True) if is_there)
+
+    @property
+    def meanings(self) -> list[str]:
+        """What each discrete action holds, in capitals: NOOP, LEFT, RIGHT, LEFT+RIGHT and so on."""
+        names = [name.upper() for name in self.buttons]
+        codes = range(1 << len(names))
+        held = [[name for bit, name in enumerate(names) if code >> bit & 1] for code in codes]
+        return ["+".join(those) or "NOOP" for those in held]
+
+    @property
+    def steps(self) -> int | None:
+        """The steps after which an episode is truncated; None: never."""
+        return None if self.time_limit is None else self.steps_in(self.time_limit)
 
     @property
     def step_seconds(self) -> float:
@@ -134,8 +155,8 @@ class Options:
         return max(1, round(1.0 / self.step_seconds))
 
     def steps_in(self, seconds: float | None) -> int:
-        """The least number of whole steps that last so long; 2⁶² for None."""
-        return 2**62 if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))
+        """The least number of whole steps that last so long; NEVER for None."""
+        return NEVER if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))
 
 
 OPTIONS = tuple((field.name, field.default, field.metadata["text"]) for field in dataclasses.fields(Options))

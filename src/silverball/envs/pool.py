@@ -8,16 +8,18 @@ means the same on each: they come from one recipe, or from a list of tables that
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
+import tomli_w
 from numpy.typing import NDArray
 
+from silverball.envs.options import Named
 from silverball.envs.slots import CylinderSlot, Field, PrismSlot, fields
 from silverball.physics.layout import LOG, WORLD, Kind, Part, records
-from silverball.table import Table, generate_table, load_table
+from silverball.table import Table, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
 from silverball.world.compile import Boards, compile_tables
 
@@ -41,14 +43,27 @@ class Pool(NamedTuple):
     layouts: NDArray[np.float32]
     fields: tuple[Field, ...]
 
+    def board_of_seed(self, seed: Any) -> int:
+        """Which board has a seed, or that number in a list of tables.
+
+        Raises:
+            ValueError: None has.
+        """
+        if self.seeds[0] < 0:
+            raise ValueError(f"board cannot be chosen: {self.tables[0].name} is the only table, got {seed!r}")
+        is_whole = isinstance(seed, (int, np.integer)) and not isinstance(seed, bool)
+        found = np.flatnonzero(self.seeds == seed) if is_whole else np.empty(0, np.int64)
+        if not len(found):
+            raise ValueError(
+                f"board must be a whole number from {self.seeds[0]} to {self.seeds[-1]}, got {seed!r}; the "
+                "options boards and board_seed make others"
+            )
+        return int(found[0])
+
     @property
     def columns(self) -> int:
         """Columns of a state observation."""
         return self.fields[-1].end
-
-
-Named = Table | str | os.PathLike[str]
-"""A table, the name of a built-in one, or a path."""
 
 
 def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool:
@@ -73,9 +88,16 @@ def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool
 def _loaded(table: Named) -> Table:
     if isinstance(table, (str, os.PathLike)):
         return load_table(table)
+    if isinstance(table, Mapping):
+        try:
+            text = tomli_w.dumps(table)
+        except TypeError as error:
+            raise TypeError(f"table must hold what a table file can: {error}") from None
+        return parse_table(text, "table")
     if not isinstance(table, Table):
         raise TypeError(
-            f"table must be a built-in name, a path, a Table or a list of them, got {type(table).__name__}"
+            "table must be a built-in name, a path, a Table, a dict or a list of them, "
+            f"got {type(table).__name__}"
         )
     return table
 

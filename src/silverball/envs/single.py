@@ -7,19 +7,22 @@ from typing import Any, NoReturn, SupportsFloat, cast
 
 import gymnasium
 import numpy as np
+from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
+from silverball.envs.actions import as_whole, keys_to_action
 from silverball.envs.engine import HEAD, Engine
 from silverball.envs.options import Options
 from silverball.envs.records import Mode
 from silverball.envs.seeds import GREATEST_SEED, key_of
 from silverball.envs.spaces import action_space, observation_space, shown_one
-from silverball.envs.viewer import Viewer
+from silverball.envs.spec import own_spec
+from silverball.envs.viewer import Screen, Viewer
 from silverball.errors import StateError
 
 REMADE = {
     "_engine", "_viewer", "_codes", "_weights", "_move", "_addresses", "_row", "_counts", "_copy_row",
-    "_info", "_memory", "_heads", "_size",
+    "_info", "_memory", "_heads", "_size", "_screen",
 }  # fmt: skip
 """Attributes that follow from the options or look at the engine's arrays; a copy makes its own."""
 
@@ -30,7 +33,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
     """A pinball table as an environment; docs/agents.md describes it slot by slot.
 
     Args:
-        render_mode: "rgb_array" or None.
+        render_mode: "human" (a window, at the speed of play), "rgb_array" or None.
         options: See `silverball.envs.options.OPTIONS`.
 
     Raises:
@@ -50,23 +53,45 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     def __init__(self, render_mode: str | None = None, **options: Any) -> None:
         self.options = Options.of(options)
-        self.render_mode = checked_render_mode(render_mode)
+        self.render_mode = checked_render_mode(render_mode, ("human", "rgb_array"))
         self._engine = engine = Engine(self.options, 1, Mode.DISABLED, threads=1, owns_output=True)
         self.observation_space = observation_space(self.options, engine.pool)
         self.action_space = action_space(self.options)
         self.metadata = {**self.metadata, "render_fps": self.options.frames_per_second}
         self._viewer: Viewer | None = None
+        self._screen: Screen | None = None
+        self._is_rng_set = False  # by hand, since the last reset
+        self._spec: EnvSpec | None = None
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
         # What the step needs, ready to hand.
         self._move, self._addresses = engine.move, engine.addresses
         self._row, self._counts = engine.outputs.last.observations[0], engine.outputs.last.counts[0]
-        self._copy_row = self._row.copy if self.options.observation == "state" else None
+        is_plain = self.options.observation == "state" and self.render_mode != "human"
+        self._copy_row = self._row.copy if is_plain else None
         self._info = info_of(self._counts.tolist())
         self._memory = memoryview(cast(Any, engine.memory))
         self._heads, self._size = engine.heads, len(engine.memory)
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 60}  # noqa: RUF012  (Gymnasium's own)
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array"], "render_fps": 60}  # noqa: RUF012  (Gymnasium's own)
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """How `gymnasium.make` made it, with the steps after which it truncates an episode by itself."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, spec: EnvSpec | None) -> None:
+        self._spec = own_spec(spec, self.options.steps)
+
+    @property
+    def np_random(self) -> np.random.Generator:
+        """Draws the seed of an environment that is reset without one; set another to use that."""
+        return gymnasium.Env.np_random.fget(self)  # type: ignore[attr-defined, no-any-return]
+
+    @np_random.setter
+    def np_random(self, generator: np.random.Generator) -> None:
+        self._np_random, self._np_random_seed, self._is_rng_set = generator, -1, True
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -75,22 +100,28 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
         Args:
             seed: Decides all boards, places and shoves of the episodes that follow.
-            options: None are known; taken for the sake of the interface.
+            options: ``{"board": 12}`` plays this board: of a recipe the one of that seed, of a list of tables
+                the one of that number. Without it one is drawn.
 
         Returns:
             The observation, and the counts of events, all zero but `created`.
 
         Raises:
-            ValueError: The seed is no whole number, or negative.
+            ValueError: The seed is no whole number, or negative; an unknown option, or no such board.
         """
+        board = checked_reset_options(options, ("board",)).get("board")
+        wanted = -1 if board is None else self._engine.pool.board_of_seed(board)
         key = None if seed is None else key_of(seed)
         super().reset(seed=None if seed is None else int(seed))
         if key is not None:
             self._engine.seed(key)
-        elif not self._engine.has_begun.all():
+        elif self._is_rng_set or not self._engine.has_begun.all():
             self._engine.seed(self.np_random.integers(GREATEST_SEED, dtype=np.uint64).astype(np.int64))
-        self._engine.reset()
+        self._is_rng_set = False
+        self._engine.reset(wanted)
         self._info = info_of(self._counts.tolist())
+        if self.render_mode == "human":
+            self.render()
         return self._shown(), self._info.copy()
 
     def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
@@ -120,6 +151,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         else:
             reward, ends = self._engine.step_one(number)
             observation = self._shown()
+            if self.render_mode == "human":
+                self.render()
         if ends == 0:
             return observation, reward, False, False, self._info.copy()
         if ends & 4:
@@ -129,12 +162,48 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         return observation, reward, ends & 1 == 1, ends & 2 == 2, self._info.copy()
 
     def render(self) -> NDArray[np.uint8] | None:
-        """The table as the window draws it, RGB [row, column, 3]; None without a render mode."""
-        if self.render_mode is None:
+        """The table as the game draws it, RGB [row, column, 3]; None without a render mode.
+
+        In the mode "human" it is shown in a window instead, with every reset and step, at the speed of play.
+        Whoever closes the window ends the showing; the environment goes on.
+
+        Raises:
+            NoDisplay: The mode is "human", and there is no screen.
+        """
+        if self.render_mode is None or (self._screen is not None and self._screen.is_closed):
             return None
         if self._viewer is None:
             self._viewer = Viewer(self._engine.batch)
-        return self._viewer.picture(0)
+        if self.render_mode == "rgb_array":
+            return self._viewer.picture(0)
+        if self._screen is None:
+            self._screen = Screen(self.metadata["render_fps"])
+        self._screen.show(self._viewer.picture(0))
+        return None
+
+    def close(self) -> None:
+        """Close the window, if one is open."""
+        if self._screen is not None:
+            self._screen.close()
+
+    # --- what wrappers for Atari and `gymnasium.utils.play` ask for
+
+    def get_action_meanings(self) -> list[str]:
+        """What each action of `Discrete` holds, in capitals; NOOP is the first."""
+        return self.options.meanings
+
+    def get_keys_to_action(self) -> dict[tuple[str, ...], Any]:
+        """The action of each set of pressed keys: A and D, Z for jitter, the space bar for create."""
+        return keys_to_action(self.options)
+
+    @property
+    def ale(self) -> PinballEnv:
+        """Itself: wrappers that end an episode with a life ask `env.unwrapped.ale.lives()`."""
+        return self
+
+    def lives(self) -> int:
+        """Balls of the episode that are not in the gutter yet."""
+        return self.options.balls - int(self._engine.batch.state["drained"][0])
 
     # --- saving
 
@@ -190,8 +259,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
     def _number_of(self, action: Any) -> int:
         """A multibinary action as a number."""
         is_bits = self.options.actions == "multibinary" and np.shape(action) == self._weights.shape
-        bits = np.asarray(action)
-        if not is_bits or bits.dtype.kind not in "iub" or (bits > 1).any() or (bits < 0).any():
+        bits = as_whole(np.asarray(action), floats=True) if is_bits else None
+        if bits is None or (bits > 1).any() or (bits < 0).any():
             self._refuse(action)
         return int(bits @ self._weights)
 
@@ -223,11 +292,26 @@ def _refuse_to_go_on() -> NoReturn:
     raise gymnasium.error.ResetNeeded("the episode is over or has not begun: call reset before step")
 
 
-def checked_render_mode(render_mode: str | None) -> str | None:
+def checked_render_mode(render_mode: str | None, modes: tuple[str, ...]) -> str | None:
     """The render mode, if there is such a one."""
-    if render_mode not in (None, "rgb_array"):
-        raise ValueError(f'render_mode must be "rgb_array" or None, got {render_mode!r}')
+    if render_mode is not None and render_mode not in modes:
+        raise ValueError(f"render_mode must be {' or '.join(map(repr, modes))} or None, got {render_mode!r}")
     return render_mode
+
+
+def checked_reset_options(options: dict[str, Any] | None, known: tuple[str, ...]) -> dict[str, Any]:
+    """The options of a reset, if there are such.
+
+    Raises:
+        TypeError: They are no dict.
+        ValueError: One is unknown.
+    """
+    if options is not None and not isinstance(options, dict):
+        raise TypeError(f"options must be a dict or None, got {options!r}")
+    for name in options or {}:
+        if name not in known:
+            raise ValueError(f"unknown reset option {name!r}: {' and '.join(map(repr, known))} can be given")
+    return options or {}
 
 
 def info_of(counts: list[int]) -> dict[str, Any]:

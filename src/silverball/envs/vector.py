@@ -10,17 +10,20 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from gymnasium.envs.registration import EnvSpec
 from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
+from silverball.envs.actions import as_whole
 from silverball.envs.engine import Engine
-from silverball.envs.options import Options
+from silverball.envs.options import NEVER, Options
 from silverball.envs.records import Mode
 from silverball.envs.seeds import GREATEST_SEED, key_of
-from silverball.envs.single import checked_render_mode
+from silverball.envs.single import checked_render_mode, checked_reset_options
 from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
+from silverball.envs.spec import own_spec
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
 from silverball.world import WorldBatch
@@ -89,7 +92,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             "render_modes": ["rgb_array"], "render_fps": self.options.frames_per_second,
             "autoreset_mode": self.autoreset_mode,
         }  # fmt: skip
-        self.render_mode = checked_render_mode(render_mode)
+        self.render_mode = checked_render_mode(render_mode, ("rgb_array",))
         threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
         mode = MODES[self.autoreset_mode]
         self._engine = engine = Engine(self.options, self.num_envs, mode, threads, bool(zero_copy))
@@ -111,7 +114,29 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._weights = 1 << np.arange(len(self.options.buttons))
         self._all = np.ones(self.num_envs, np.bool_)
         self._has_begun = False  # all of them
+        self._draws_seed = np.zeros(self.num_envs, np.bool_)  # since np_random was set by hand
+        self._spec: EnvSpec | None = None
         self._viewer: Viewer | None = None
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """How `gymnasium.make_vec` made it, with the steps after which it truncates an episode by itself."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, spec: EnvSpec | None) -> None:
+        limit = int(self._engine.rules["limit"][0])
+        self._spec = own_spec(spec, limit if limit < NEVER else None)
+
+    @property
+    def np_random(self) -> np.random.Generator:
+        """Draws the seeds of environments that are reset without any; set another to use that."""
+        return VectorEnv.np_random.fget(self)  # type: ignore[attr-defined, no-any-return]
+
+    @np_random.setter
+    def np_random(self, generator: np.random.Generator) -> None:
+        self._np_random, self._np_random_seed = generator, -1
+        self._draws_seed[:] = True
 
     @property
     def batch(self) -> WorldBatch:
@@ -128,24 +153,25 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
         Args:
             seed: Environment i gets seed + i; or one seed each, None to go on with its own; None: all go on.
-            options: ``{"reset_mask": mask}``, bool [env], begins episodes in these environments alone.
+            options: ``{"reset_mask": mask}``, bool [env], begins episodes in these environments alone;
+                ``{"board": 12}``, or one for each [env], plays these boards (see `PinballEnv.reset`).
 
         Returns:
             The observations, and the counts of events.
 
         Raises:
-            ValueError: The mask or the list of seeds has another length, the mask names none, or a seed is no
-                whole number from 0.
+            ValueError: The mask or the list of seeds has another length, the mask names none, a seed is no
+                whole number from 0, there is no such board, or an option is unknown.
             TypeError: The mask is no array of bool.
         """
-        if options is not None and not isinstance(options, dict):
-            raise TypeError(f'options must be a dict such as {{"reset_mask": mask}}, got {options!r}')
-        mask = self._checked_mask((options or {}).get("reset_mask"))
+        given = checked_reset_options(options, ("reset_mask", "board"))
+        mask = self._checked_mask(given.get("reset_mask"))
+        boards = self._boards(given.get("board"))
         keys = self._keys(seed)
         super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
         self._seed(keys, mask)
         self._engine.masks[:] = mask
-        self._engine.reset()
+        self._engine.reset(boards)
         self._has_begun = bool(self._engine.has_begun.all())
         output = self._engine.outputs.last
         return self._shown(), output.told() if mask.all() else _infos(output.counts, mask)
@@ -280,8 +306,10 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             given = np.asarray(actions)
         except ValueError:  # rows of different lengths
             given = np.asarray(actions, object)
-        if given.dtype.kind not in "iub":
+        whole = as_whole(given, floats=self.options.actions == "multibinary")
+        if whole is None:
             raise ValueError(f"actions must be whole numbers, got {given.dtype} of the shape {given.shape}")
+        given = whole
         buttons = len(self._weights)
         if self.options.actions == "multibinary" and given.shape == (self.num_envs, buttons):
             if ((given >> 1) != 0).any():
@@ -317,12 +345,22 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def _seed(self, keys: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
         """Give the masked environments their seeds; those that never had any get random ones."""
-        strangers = mask & (keys < 0) & ~self._engine.has_begun
+        strangers = mask & (keys < 0) & (self._draws_seed | ~self._engine.has_begun)
+        self._draws_seed &= ~mask
         if strangers.any():
             drawn = self.np_random.integers(GREATEST_SEED, size=self.num_envs, dtype=np.uint64)
             keys[strangers] = drawn.astype(np.int64)[strangers]
         where = mask & (keys >= 0)
         self._engine.seed(keys[where], where)
+
+    def _boards(self, wanted: Any) -> NDArray[np.int64]:
+        """The board of each environment's next episode, int64 [env]; −1: it is drawn."""
+        if wanted is None:
+            return np.full(self.num_envs, -1, np.int64)
+        each = [wanted] * self.num_envs if np.ndim(wanted) == 0 else list(wanted)
+        if len(each) != self.num_envs:
+            raise ValueError(f"board must be one number or {self.num_envs} of them, got {len(each)}")
+        return np.array([self._engine.pool.board_of_seed(one) for one in each], np.int64)
 
     def _checked_mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
         if mask is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,11 +13,57 @@ from silverball.world import WorldBatch
 from silverball.world.events import read_balls, read_events, read_paddles
 
 if TYPE_CHECKING:
+    import pygame
+
     from silverball.drawing import Moment, Renderer
     from silverball.drawing.effects import Effects
 
 SIZE = (330, 680)  # width and height [pixel]
 MOST_RENDERERS = 8  # kept at once; a board takes some megabytes
+
+
+class Screen:
+    """A window that shows pictures at the speed of play.
+
+    Args:
+        rate: Pictures a second; `show` waits until the next one is due.
+
+    Raises:
+        NoDisplay: There is no screen, and SDL was not told to do without.
+    """
+
+    def __init__(self, rate: int) -> None:
+        import pygame
+
+        from silverball.video import NOT_A_SCREEN, open_video
+
+        remedy = 'render_mode="rgb_array" needs none'
+        open_video(remedy, without_display=os.environ.get("SDL_VIDEODRIVER") in NOT_A_SCREEN)
+        self._window: pygame.Window | None = pygame.Window("Silverball", SIZE)
+        self._clock, self._rate = pygame.Clock(), rate
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether somebody has closed it."""
+        return self._window is None
+
+    def show(self, picture: NDArray[np.uint8]) -> None:
+        """Show a picture, RGB [row, column, 3], once it is due."""
+        import pygame
+
+        if self._window is None:
+            return
+        pygame.surfarray.blit_array(self._window.get_surface(), picture.swapaxes(0, 1))
+        self._window.flip()
+        self._clock.tick(self._rate)
+        if any(event.type in (pygame.QUIT, pygame.WINDOWCLOSE) for event in pygame.event.get()):
+            self.close()
+
+    def close(self) -> None:
+        """Close it."""
+        if self._window is not None:
+            self._window.destroy()
+            self._window = None
 
 
 class Viewer:

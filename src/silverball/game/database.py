@@ -5,7 +5,8 @@ failure; several programs may use the file at once. Whatever is wrong with it, t
 
 * a damaged file, or one of another program, is set aside under another name and a new one begun;
 * where the file cannot be written, or is newer than the program, a database in memory stands in for it, with
-  a copy of what can be read.
+  a copy of what can be read;
+* while another program holds it, `Held` is raised after some patience, and nothing was done: ask again later.
 
 `trouble` says what happened, `keeps` whether anything will last. Which records there are is said by a
 `Schema`; there is nothing here about scores or settings.
@@ -22,6 +23,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 BUSY_SECONDS = 5.0  # how long another program may hold the file; a write takes some milliseconds
+BEGIN_SECONDS = 1.0  # the same where nobody is to wait, while the file is opened for the first time
 LOG_LIMIT = 1_000_000  # [bytes] of the log beside the file, once it was longer
 
 _REASONS = {
@@ -30,8 +32,8 @@ _REASONS = {
     sqlite3.SQLITE_CANTOPEN: "it cannot be opened or made",
     sqlite3.SQLITE_PERM: "access is not allowed",
     sqlite3.SQLITE_IOERR: "reading or writing fails",
-    sqlite3.SQLITE_BUSY: f"another program has held it for {BUSY_SECONDS:.0f} s",
 }
+_HELD = (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED, sqlite3.SQLITE_PROTOCOL)
 _DAMAGE = (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB)
 _OURS = (sqlite3.IntegrityError, sqlite3.ProgrammingError, sqlite3.DataError, sqlite3.NotSupportedError)
 _Result = TypeVar("_Result")
@@ -64,30 +66,53 @@ class Database:
     Args:
         path: The file; it is made if there is none, with its folder.
         schema: What is in it.
+        at_once: Never wait for another program that holds the file, but for `BEGIN_SECONDS` at the beginning.
 
     Attributes:
         trouble: What the user should know, one line for each thing that went wrong; empty if nothing did.
         keeps: Whether what is written now will be there after this run.
+        has_read: Whether what was kept before could be read.
     """
 
-    def __init__(self, path: Path, schema: Schema) -> None:
+    def __init__(self, path: Path, schema: Schema, *, at_once: bool = False) -> None:
         self.path = path
         self.trouble = ""
-        self.keeps = True
+        self.keeps = self.has_read = True
         self._schema = schema
-        self._connection = self._begin()
-        self._file = self._which_file()
+        self._patience = BEGIN_SECONDS if at_once else BUSY_SECONDS
+        self._connection: sqlite3.Connection | None = None  # None: another program has held it so far
+        self._begin_again()
+        self._lose_patience(at_once or self._connection is None)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the file could be opened; if not, another program has held it since the beginning."""
+        return self._connection is not None
 
     def close(self) -> None:
         """Close the file; nothing is written by this that was not safe before."""
-        self._connection.close()
+        if self._connection is not None:
+            self._connection.close()
 
     def read(self, query: str, values: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
-        """All rows that a query gives."""
-        return self._do(lambda connection: connection.execute(query, values).fetchall())
+        """All rows that a query gives.
+
+        Raises:
+            Held: Another program holds the file so that it cannot even be read.
+        """
+        try:
+            return self._do(lambda connection: connection.execute(query, values).fetchall())
+        except Held:
+            if self._connection is not None:
+                raise
+            return self._look(query, values)
 
     def write(self, work: Callable[[sqlite3.Connection], _Result]) -> _Result:
-        """Do something all or not at all; when this returns it is safe on the disk."""
+        """Do something all or not at all; when this returns it is safe on the disk.
+
+        Raises:
+            Held: Another program holds the file; nothing was done.
+        """
 
         def whole(connection: sqlite3.Connection) -> _Result:
             with _transaction(connection):
@@ -102,11 +127,16 @@ class Database:
         self._see_that_the_file_is_there()
         begun_anew = False
         while True:
+            if self._connection is None:
+                raise Held(self.path)
             try:
                 return work(self._connection)
             except sqlite3.DatabaseError as error:
                 if not self.keeps or isinstance(error, _OURS):
                     raise
+                if _is_held(error):
+                    self._lose_patience(True)
+                    raise Held(self.path) from None
                 if _is_damage(error) and not begun_anew:
                     begun_anew = True
                     self._begin_again()
@@ -116,13 +146,36 @@ class Database:
                     broken.close()
 
     def _begin_again(self) -> None:
-        self._connection.close()
-        self._connection = self._begin()
+        if self._connection is not None:
+            self._connection.close()
+            self._connection = None
+        with suppress(Held):
+            self._connection = self._begin()
         self._file = self._which_file()
+
+    def _lose_patience(self, has_lost_it: bool) -> None:
+        """Whoever has waited once for another program does not wait again, but asks."""
+        if has_lost_it and self._patience:
+            self._patience = 0.0
+            if self._connection is not None:
+                self._connection.execute("PRAGMA busy_timeout = 0").fetchall()
+
+    def _look(self, query: str, values: tuple[Any, ...]) -> list[tuple[Any, ...]]:
+        """All rows that a query gives in a file that another program does not let us write."""
+        reader = _open_to_read(self.path, self._schema)
+        if reader is None:
+            raise Held(self.path)
+        with closing(reader):
+            try:
+                return reader.execute(query, values).fetchall()
+            except sqlite3.DatabaseError:
+                raise Held(self.path) from None
 
     def _see_that_the_file_is_there(self) -> None:
         """What is written into a file that somebody removed or replaced would be lost without a word."""
-        if self.keeps and self._which_file() != self._file:
+        if self._connection is None:
+            self._begin_again()
+        elif self.keeps and self._which_file() != self._file:
             self._tell(f"{self.path} was removed or replaced while the program ran; the new one is used now")
             self._begin_again()
 
@@ -139,12 +192,14 @@ class Database:
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             try:
-                return _open(self.path, self._schema)
+                return _open(self.path, self._schema, self._patience)
             except _Unfit as unfit:
                 return self._begin_new(str(unfit))
         except _Newer as newer:
             return self._in_memory(str(newer), None)
         except (sqlite3.DatabaseError, OSError, _Unfit) as error:
+            if isinstance(error, sqlite3.DatabaseError) and _is_held(error):
+                raise Held(self.path) from None
             reason = _reason(error)
         readable = _open_to_read(self.path)
         try:
@@ -155,21 +210,21 @@ class Database:
 
     def _begin_new(self, what: str) -> sqlite3.Connection:
         """Set a file aside that cannot be used, under another name, and begin a new one."""
-        with closing(sqlite3.connect(self.path.with_suffix(".mending"), BUSY_SECONDS)) as lock:
+        with closing(sqlite3.connect(self.path.with_suffix(".mending"), self._patience)) as lock:
             lock.execute("BEGIN EXCLUSIVE")  # two programs may find the damage at the same time
             with suppress(_Unfit):
-                return _open(self.path, self._schema)
+                return _open(self.path, self._schema, self._patience)
             stem = f"{self.path.stem}-set-aside-{datetime.now(UTC):%Y-%m-%d-%H%M%S-%f}"
             for ending in ("-wal", "-shm", ""):  # the file last: if this is cut short it begins anew
                 with suppress(FileNotFoundError):
                     old = self.path.with_name(self.path.name + ending)
                     old.rename(self.path.with_name(stem + self.path.suffix + ending))
             self._tell(f"{self.path} {what}; it is now called {stem}{self.path.suffix}, and a new one begins")
-            return _open(self.path, self._schema)
+            return _open(self.path, self._schema, self._patience)
 
     def _in_memory(self, reason: str, readable: sqlite3.Connection | None) -> sqlite3.Connection:
         """A stand-in for this run, with what can be read."""
-        self.keeps = False
+        self.keeps, self.has_read = False, readable is not None
         self._tell(
             f"{self.path}: {reason}, so nothing of this run is kept; "
             "see to that, or name another folder in SILVERBALL_DATA"
@@ -177,15 +232,28 @@ class Database:
         memory = sqlite3.connect(":memory:", isolation_level=None)
         _prepare(memory, self._schema)
         if readable is not None:
-            with suppress(sqlite3.DatabaseError):
-                for table, columns in self._schema.tables.items():
-                    rows = readable.execute(f"SELECT {', '.join(columns)} FROM {table}")
-                    names, marks = ", ".join(columns), ", ".join("?" * len(columns))
+            for table, columns in self._schema.tables.items():
+                with suppress(sqlite3.DatabaseError):
+                    there = {row[1] for row in readable.execute(f"PRAGMA table_info({table})")}
+                    known = [column for column in columns if column in there]  # an older file has fewer
+                    rows = readable.execute(f"SELECT {', '.join(known)} FROM {table}")
+                    names, marks = ", ".join(known), ", ".join("?" * len(known))
                     memory.executemany(f"INSERT OR IGNORE INTO {table} ({names}) VALUES ({marks})", rows)
         return memory
 
     def _tell(self, sentence: str) -> None:
         self.trouble = f"{self.trouble}\n{sentence}".strip()
+
+
+class Held(Exception):
+    """Another program holds the file; nothing was done.
+
+    Args:
+        path: The file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(f"{path}: another program holds it")
 
 
 class _Unfit(Exception):
@@ -196,16 +264,21 @@ class _Newer(Exception):
     """A file is of a version that this program does not know."""
 
 
-def _open(path: Path, schema: Schema) -> sqlite3.Connection:
+def _open(path: Path, schema: Schema, patience: float) -> sqlite3.Connection:
     """A connection to a file that is sound and ours, made if there is none.
+
+    Args:
+        path: The file.
+        schema: What is in it.
+        patience: How long another program may hold it, then and later [s].
 
     Raises:
         _Unfit, _Newer: It is not.
         sqlite3.DatabaseError: It cannot be opened or written.
     """
-    deadline = time.monotonic() + BUSY_SECONDS
+    deadline = time.monotonic() + patience
     while True:
-        connection = sqlite3.connect(path, BUSY_SECONDS, isolation_level=None)
+        connection = sqlite3.connect(path, patience, isolation_level=None)
         try:
             _prepare(connection, schema)
             return connection
@@ -214,7 +287,7 @@ def _open(path: Path, schema: Schema) -> sqlite3.Connection:
             if _is_damage(error):
                 raise _Unfit(f"is damaged ({error})") from None
             # To begin a log does not wait for other programs by itself.
-            if _code(error) != sqlite3.SQLITE_BUSY or time.monotonic() > deadline:
+            if not _is_held(error) or time.monotonic() >= deadline:
                 raise
             time.sleep(0.01)
         except BaseException:
@@ -276,18 +349,32 @@ def _text(text: bytes) -> str:
     return text.decode("utf-8", "replace")  # a damaged letter must not hide the rest
 
 
-def _open_to_read(path: Path) -> sqlite3.Connection | None:
-    """A connection to a file that can be read, if it can; not even the files beside it need be writable."""
-    for how in ("mode=ro", "mode=ro&immutable=1"):
+def _open_to_read(path: Path, held: Schema | None = None) -> sqlite3.Connection | None:
+    """A connection to a file that can be read, if it can; not even the files beside it need be writable.
+
+    Args:
+        path: The file.
+        held: What it must hold if another program writes to it; its locks are heeded then.
+    """
+    for how in ("mode=ro",) if held else ("mode=ro", "mode=ro&immutable=1"):
         with suppress(sqlite3.DatabaseError):
-            connection = sqlite3.connect(f"{path.absolute().as_uri()}?{how}", uri=True)
+            connection = sqlite3.connect(
+                f"{path.absolute().as_uri()}?{how}", 0.0 if held else BEGIN_SECONDS, uri=True
+            )
             connection.text_factory = _text
             try:
                 connection.execute("SELECT 1 FROM sqlite_master LIMIT 1").fetchall()
-                return connection
+                if held is None or _marks(connection) == (held.application, held.version):
+                    return connection
             except sqlite3.DatabaseError:
                 connection.close()
+                continue
+            connection.close()
     return None
+
+
+def _marks(connection: sqlite3.Connection) -> tuple[int, int]:
+    return _number(connection, "application_id"), _number(connection, "user_version")
 
 
 @contextmanager
@@ -310,6 +397,10 @@ def _code(error: sqlite3.Error) -> int:
 
 def _is_damage(error: sqlite3.Error) -> bool:
     return _code(error) in _DAMAGE
+
+
+def _is_held(error: sqlite3.Error) -> bool:
+    return _code(error) in _HELD
 
 
 def _reason(error: Exception) -> str:

@@ -18,7 +18,6 @@ How that is read when it comes from elsewhere is the question of `replay_reader`
 from __future__ import annotations
 
 import os
-import stat
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
@@ -38,6 +37,7 @@ from silverball.game.replay_reader import (
 from silverball.game.rules import RULES_VERSION
 from silverball.physics import PHYSICS_VERSION
 from silverball.table import Table, dump_table, table_digest
+from silverball.wholefile import NOTHING, Unreadable, read_text
 
 if TYPE_CHECKING:
     from silverball.world import World
@@ -89,7 +89,7 @@ class Replay:
         from silverball import __version__
 
         return cls(
-            __version__, mode, _without_meshes(world.table), world.seed, world.tick_rate,
+            __version__, mode, without_meshes(world.table), world.seed, world.tick_rate,
             lines, tail, world.tick, score, ended, digest,
         )  # fmt: skip
 
@@ -135,11 +135,11 @@ class Replay:
         Raises:
             StateError: There is no such file, it cannot be read, or it is no replay that can be played.
         """
-        name = os.fspath(path)
+        name = os.fspath(path) or NOTHING
         return cls.from_text(_file_text(name), name)
 
 
-def _without_meshes(table: Table) -> Table:
+def without_meshes(table: Table) -> Table:
     """The table with the footprints of its meshes, so that it needs no other file."""
     if not has_mesh(table):
         return table
@@ -151,23 +151,6 @@ def _without_meshes(table: Table) -> Table:
 def _file_text(path: str) -> str:
     """The text of a file, which is read only if it can be a replay."""
     try:
-        status = os.stat(path)
-        if not stat.S_ISREG(status.st_mode):
-            kind = "a folder" if stat.S_ISDIR(status.st_mode) else "no ordinary file"
-            raise StateError(f"{path}: this is {kind}; give the path of a replay")
-        if status.st_size > TEXT_LIMIT:
-            raise StateError(
-                f"{path}: the file is {status.st_size:,} bytes long, a replay has at most {TEXT_LIMIT:,}"
-            )
-        with open(path, "rb") as file:
-            return file.read(TEXT_LIMIT + 1).decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise StateError(
-            f"{path}: this is no UTF-8 text (byte {error.start + 1:,} is no part of any character), "
-            "so it is no replay, or a damaged one"
-        ) from None
-    except FileNotFoundError:
-        raise StateError(f"{path}: there is no such file; check the path") from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise StateError(f"{path}: cannot be read ({reason})") from None
+        return read_text(path, TEXT_LIMIT, "a replay")
+    except Unreadable as error:
+        raise StateError(f"{path}: {error}") from None

@@ -23,6 +23,7 @@ from silverball.game.replay_record import PLAY_LIMIT, SECONDS_LIMIT
 from silverball.game.rules import RULES_VERSION
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.layout import Fault
+from silverball.plain import plain
 from silverball.table import Table, table_digest
 from silverball.table.explain import explain
 from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
@@ -73,7 +74,7 @@ class Reader:
         digest = self._hex(end, 3, ends[3])
         lines, tail = self._play(play, ticks, rate)
         board = self._table(table, self._hex(head, 6, values[6]))
-        program = values[0][:40]
+        program = plain(values[0][:40])
         return program, Mode(mode), board, seed, rate, lines, tail, ticks, score, ended, digest
 
     def refuse(self, line: int, message: str) -> NoReturn:

@@ -44,12 +44,17 @@ class Verdict(NamedTuple):
     message: str = ""
 
 
-def verify(replay: Replay, progress: Callable[[int], None] = lambda _: None) -> Verdict:
+def verify(
+    replay: Replay,
+    progress: Callable[[int], None] = lambda _: None,
+    look: Callable[[Game], None] = lambda _: None,
+) -> Verdict:
     """Play a replay and see whether the same comes out.
 
     Args:
         replay: The replay.
         progress: Called after every second of play with the ticks so far.
+        look: Called after every second of play, and at the end, with the game that is played.
 
     Returns:
         The verdict; a game that cannot be played, such as one on a board that no world can be made of, is
@@ -72,11 +77,13 @@ def verify(replay: Replay, progress: Callable[[int], None] = lambda _: None) -> 
         if expected != got:
             return _differs_in_second(game.score, before, game.tick, expected, got)
         progress(game.tick)
+        look(game)
     try:
         playback.play(replay.ticks - game.tick)
         playback.finish()
     except InputRefusedError as error:
         return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
+    look(game)
     if game.tick != replay.ticks:
         return _ended_early(playback)
     equal_until = len(replay.lines) * rate

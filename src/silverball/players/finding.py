@@ -7,26 +7,57 @@ on; as text it is one JSON object. It needs neither the soak that made it nor it
 from __future__ import annotations
 
 import json
+import math
 import tomllib
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import AfterValidator, Field, ValidationError
+from pydantic.dataclasses import dataclass
 
 from silverball.errors import StateError
+from silverball.game.replay_reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
-from silverball.players.drive import ACTION
-from silverball.players.soak import Options, Place, Soaked, soaked_round
+from silverball.physics.layout import BALL_COUNT, NOTHING, Motion
+from silverball.physics.step import is_sound
+from silverball.players.jsonfile import STRICT, Amount, Count, file_text, made_from
+from silverball.players.soak import KINDS, Options, Place, Soaked, soaked_round
 from silverball.players.watch import Found, watched_tick
 from silverball.table import Table, dump_table, table_digest
+from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 from silverball.world.state import pack, unpack
 
 FORMAT = 1
 LEAD_SECONDS = 1.0  # [s] before the finding at which the state is kept
 BUTTONS = ("left", "right", "shove", "create")
+SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
+WHAT = "a finding of a soak"
+FASTEST = 1e4  # [u/s] of a kick; chosen: far above every speed cap
 
 
-@dataclass(frozen=True)
+def _action(values: list[Any]) -> list[Any]:
+    """An action as `_written` writes it, or a ValueError."""
+    buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
+    fair = all(type(button) is int and button in (0, 1) for button in buttons)
+    if not fair or len(kicks) != BALL_COUNT or not all(kick is None or _is_kick(kick) for kick in kicks):
+        raise ValueError(f"must be four times 0 or 1 and {BALL_COUNT} velocities")
+    return values
+
+
+def _is_kick(kick: Any) -> bool:
+    return (
+        isinstance(kick, list)
+        and len(kick) == 2
+        and all(type(number) in (int, float) and abs(number) <= FASTEST for number in kick)
+    )
+
+
+Digest = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+
+
+@dataclass(frozen=True, config=STRICT)
 class Finding:
     """One thing that should never happen.
 
@@ -48,20 +79,20 @@ class Finding:
             vz] [u/s], or null.
     """
 
-    kind: str
-    ball: int
-    depth: float
-    round: int
-    world: int
-    tick: int
-    program: str
-    physics: int
-    table_text: str
-    table_digest: str
+    kind: Annotated[str, Field(pattern=f"^({'|'.join(kind.name.lower() for kind in KINDS)})$")]
+    ball: Count
+    depth: Amount
+    round: Count
+    world: Count
+    tick: Count
+    program: Annotated[str, Field(max_length=40)]
+    physics: Count
+    table_text: Annotated[str, Field(max_length=TABLE_LIMIT)]
+    table_digest: Digest
     hostile: bool
-    tick_rate: int
-    state: str
-    actions: list[list[Any]]
+    tick_rate: Annotated[int, Field(ge=10, le=100_000)]
+    state: Annotated[str, Field(pattern="^([0-9a-f]{2})*$")]
+    actions: list[Annotated[list[Any], AfterValidator(_action)]]
 
     def to_text(self) -> str:
         """The finding as JSON, one line for every attribute and every action."""
@@ -77,17 +108,38 @@ class Finding:
         Raises:
             StateError: The text is no finding of this format.
         """
-        try:
-            values = json.loads(text)
-            if values.pop("format") != FORMAT:
-                raise StateError(f"{source}: this program reads findings of format {FORMAT}")
-            finding = cls(**values)
-            for action in finding.actions:
-                _read_into(np.zeros(1, ACTION)[0], action)
-            Found[finding.kind.upper()]
-        except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
-            raise StateError(f"{source}: this is no finding of a soak, or a damaged one ({error})") from None
+        return made_from(text, source, WHAT, FORMAT, cls._of)
+
+    @classmethod
+    def load(cls, path: Path) -> Finding:
+        """Read a finding from a file.
+
+        Raises:
+            StateError: There is none, or it cannot be read.
+        """
+        return cls.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+
+    @classmethod
+    def _of(cls, values: dict[str, Any]) -> Finding:
+        finding = cls(**values)
+        finding.table()
         return finding
+
+    def table(self) -> Table:
+        """The finished table.
+
+        Raises:
+            ValueError: `table_text` is none, or another one than `table_digest` says.
+        """
+        try:
+            table = Table.model_validate(tomllib.loads(self.table_text))
+        except ValidationError:
+            raise ValueError("table_text: is a table that cannot be used") from None
+        if table.random is not None or has_mesh(table):
+            raise ValueError("table_text: is no finished table")
+        if table_digest(table) != self.table_digest:
+            raise ValueError("table_text: does not belong to table_digest; it was changed")
+        return table
 
 
 def found_at(options: Options, place: Place) -> Finding:
@@ -133,17 +185,13 @@ def again(finding: Finding) -> Found:
     """Do again what was done, and say what the watch finds now: `Found.NOTHING` if it does not happen.
 
     Raises:
-        StateError: The table or the state was changed, or is of another version of the physics.
+        StateError: The state was changed, or is of another version of the physics.
     """
-    try:
-        table = Table.model_validate(tomllib.loads(finding.table_text))
-        state = bytes.fromhex(finding.state)
-    except ValueError:
-        raise StateError("finding: table_text is no table or state no state; it was changed") from None
-    if table_digest(table) != finding.table_digest:
-        raise StateError("finding: table_text does not belong to table_digest; it was changed")
-    soaked = Soaked([table], [0], finding.tick_rate, finding.hostile)
-    soaked.batch.state[0] = unpack(state, finding.table_digest, finding.tick_rate)
+    soaked = Soaked([finding.table()], [0], finding.tick_rate, finding.hostile)
+    record = unpack(bytes.fromhex(finding.state), finding.table_digest, finding.tick_rate)
+    soaked.batch.state[0] = record
+    if not _is_possible(soaked):
+        raise StateError("the state of this finding is impossible; it was changed")
     batch, true, watch, action = soaked.batch, soaked.true, soaked.watches[0], soaked.actions[0]
     for values in finding.actions:
         if watch["found"] != Found.NOTHING:
@@ -156,6 +204,21 @@ def again(finding: Finding) -> Found:
             watch, action, 1.0 / finding.tick_rate, finding.hostile,
         )  # fmt: skip
     return Found(int(watch["found"]))
+
+
+def _is_possible(soaked: Soaked) -> bool:
+    """Whether the kernels can go on from the state of the only world: nothing in it leads out of an array."""
+    state, board = soaked.batch.state[0], soaked.batch.boards.board[0]
+    parts = board["collider_end"] - board["collider_first"]
+    balls = state["ball"]
+    numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
+    return bool(
+        not any(map(math.isnan, numbers))  # a time may be infinite: never
+        and ((balls["meets"] >= NOTHING) & (balls["meets"] < parts)).all()
+        and np.isin(balls["motion"], list(Motion)).all()
+        and state["tick"] >= 0
+        and is_sound(state, board)
+    )
 
 
 def _written(action: Any) -> list[Any]:

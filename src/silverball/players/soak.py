@@ -9,16 +9,19 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from dataclasses import field
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import AfterValidator
+from pydantic.dataclasses import dataclass
 
 from silverball.physics.ground import Grounds, survey
 from silverball.physics.layout import records
 from silverball.players.drive import ACTION, DRIVER
 from silverball.players.hostile import hostile_table
+from silverball.players.jsonfile import STRICT, Amount, Count
 from silverball.players.watch import WATCH, Found, soak_worlds
 from silverball.table import Table, generate_table, table_digest
 from silverball.world import WorldBatch
@@ -79,7 +82,13 @@ class Place(NamedTuple):
     tick: int
 
 
-@dataclass
+def _of_every_kind(found: dict[str, int]) -> dict[str, int]:
+    if set(found) != {kind.name.lower() for kind in KINDS}:
+        raise ValueError("must count every kind of finding and no other")
+    return found
+
+
+@dataclass(config=STRICT)
 class Totals:
     """What came of some rounds.
 
@@ -94,14 +103,16 @@ class Totals:
         found: How many findings of each kind; every world ends at its first.
     """
 
-    frames: int = 0
-    boards: int = 0
-    created: int = 0
-    drained: int = 0
-    hits: int = 0
-    jams: int = 0
-    deepest: float = 0.0
-    found: dict[str, int] = field(default_factory=lambda: {kind.name.lower(): 0 for kind in KINDS})
+    frames: Count = 0
+    boards: Count = 0
+    created: Count = 0
+    drained: Count = 0
+    hits: Count = 0
+    jams: Count = 0
+    deepest: Amount = 0.0
+    found: Annotated[dict[str, Count], AfterValidator(_of_every_kind)] = field(
+        default_factory=lambda: {kind.name.lower(): 0 for kind in KINDS}
+    )
 
     def add(self, other: Totals) -> None:
         """Add those of further rounds."""

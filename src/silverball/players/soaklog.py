@@ -10,22 +10,35 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field, fields
 from pathlib import Path
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
-from silverball.errors import StateError
+from pydantic import AfterValidator, Field, InstanceOf
+from pydantic.dataclasses import dataclass
+
+from silverball.errors import OutputError, StateError
 from silverball.physics.kernel import KERNEL_PACKAGES
 from silverball.players.finding import found_at
+from silverball.players.jsonfile import STRICT, Count, file_text, made_from
 from silverball.players.soak import Options, Totals, play_round
-from silverball.wholefile import write_whole
+from silverball.table.quantity import shown
+from silverball.wholefile import STDIN, is_missing, write_whole
 
 FORMAT = 1
 ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them tell nothing new
 MOST_FILES = 20  # findings that are written down, for the same reason
+SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times as much as it has
+WHAT = "a progress file of a soak"
 
 
-@dataclass
+def _file_name(name: str) -> str:
+    if not name.endswith(".json") or Path(name).name != name or "\0" in name:
+        raise ValueError("must be the name of a file")
+    return name
+
+
+@dataclass(config=STRICT)
 class SoakLog:
     """What a soak has done so far.
 
@@ -39,9 +52,12 @@ class SoakLog:
 
     options: dict[str, Any]
     code: str
-    rounds: int = 0
+    rounds: Count = 0
     totals: Totals = field(default_factory=Totals)
-    findings: list[str] = field(default_factory=list)
+    # Instances, for a name may have bytes that are no text, which pydantic takes for no string.
+    findings: Annotated[
+        list[Annotated[InstanceOf[str], AfterValidator(_file_name)]], Field(max_length=MOST_FILES)
+    ] = field(default_factory=list)
 
     def to_text(self) -> str:
         """The log as JSON."""
@@ -54,19 +70,18 @@ class SoakLog:
         Raises:
             StateError: The text is no log of a soak.
         """
-        try:
-            values = json.loads(text)
-            form, totals = values.pop("format"), Totals(**values.pop("totals"))
-            totals.add(Totals())  # every kind of finding is there
-            log = cls(**values, totals=totals)
-            frames = log.rounds + totals.frames + len(log.findings)
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise StateError(
-                f"{source}: this is no progress file of a soak, or a damaged one ({error})"
-            ) from None
-        if form != FORMAT or not isinstance(frames, int):
-            raise StateError(f"{source}: this program reads progress files of format {FORMAT}")
-        return log
+        return made_from(text, source, WHAT, FORMAT, cls._of)
+
+    @classmethod
+    def _of(cls, values: dict[str, Any]) -> Self:
+        totals = values.get("totals")
+        if not isinstance(totals, dict):
+            raise ValueError("it has no totals")
+        for kind, given in ((cls, values), (Totals, totals)):
+            for part in fields(kind):  # a log that was begun has them all
+                if part.name not in given:
+                    raise ValueError(f"it has no {part.name}")
+        return cls(**values | {"totals": Totals(**totals)})
 
 
 def code_digest() -> str:
@@ -92,15 +107,15 @@ def begun(options: Options, path: Path) -> SoakLog:
     """The log of a soak that goes on, or that of a new one.
 
     Raises:
-        StateError: The file is of another soak.
+        StateError: The file is of another soak, or no log at all.
     """
-    if not path.exists():
+    if is_missing(path) and str(path) != STDIN:
         return SoakLog(options.described(), code_digest())
-    log = SoakLog.from_text(path.read_text(encoding="utf-8"), str(path))
+    log = SoakLog.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
     for key, value in options.described().items():
         if log.options.get(key) != value:
             raise StateError(
-                f"{path}: this soak was begun with {key} {log.options.get(key)!r}, not {value!r}; "
+                f"{path}: this soak was begun with {key} {shown(log.options.get(key))}, not {shown(value)}; "
                 "give the same options, or another --progress file"
             )
     if log.code != code_digest():
@@ -125,10 +140,13 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
 
     Raises:
         StateError: The file is of another soak.
-        OSError: The file cannot be written.
+        OutputError: The file cannot be written.
     """
     log = begun(options, path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _unwritable(path, error) from None
     while log.totals.frames < frames and sum(log.totals.found.values()) < ENOUGH:
         before = log.totals.frames
         report = (lambda done, before=before: progress(before + done)) if progress is not None else None
@@ -145,4 +163,11 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
 
 
 def _write(path: Path, text: str) -> None:
-    write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
+    try:
+        write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def _unwritable(path: Path, error: OSError) -> OutputError:
+    return OutputError(f"{path}: cannot be written ({error.strerror or error}); give another --progress file")

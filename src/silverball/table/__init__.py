@@ -1,6 +1,5 @@
 """What a person writes: a pinball table as data, read, checked, generated and saved."""
 
-from silverball.table.check import check_table
 from silverball.table.file import dump_table, load_table, parse_table, save_table, table_digest, table_names
 from silverball.table.generate import generate_table
 from silverball.table.parts import (
@@ -16,6 +15,7 @@ from silverball.table.parts import (
     TriangularPrism,
 )
 from silverball.table.reach import ball_places
+from silverball.table.trial import check_table
 
 __all__ = [
     "Arcade",

@@ -1,4 +1,4 @@
-"""Can this table be played? Every reason why not, each with its path in the file.
+"""Can these parts be played on? Every reason why not, each with its path in the file.
 
 In this order: each part by itself (degenerate, outside the board, a paddle as fast as the cap), parts
 against each other (overlaps, gaps that a ball only just fits), the paddles' turns, the way to the
@@ -6,7 +6,7 @@ gutter, the places where a ball would lie for ever, and the rules of a recipe. A
 repeat an earlier one in other words is left out.
 
 What a mesh or a value by itself must be is said in `parts.py` and `mesh.py`; here the parts exist and the
-question is whether they make a table.
+question is whether they make a table. Whether a recipe makes boards is tried out in `placing.py`.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from silverball.table.geometry import (
     Shapes,
     Standing,
     border_gaps,
-    core_distances,
     distances,
+    near_pairs,
     offsets,
     outline,
     side_of,
@@ -46,6 +46,7 @@ from silverball.table.traps import level_faces, pockets
 FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may reach over an edge of the board
 LEAST_OPEN = 0.5  # share of the board that must lead to the gutter; corners and huts may be closed off
+CROWD = 4000  # pairs of parts nearer to each other than a ball is wide; an arc of 256 short walls makes 2,500
 TANGLE = 100  # overlaps that are spelt out; with more of them, nobody asks for traps yet
 
 # A touch leaves a ball with a hop of at most √(2·A·HOP), A the acceleration at the contact; on a turning
@@ -89,13 +90,8 @@ class Measured(NamedTuple):
     shapes: Shapes
 
 
-def check_table(table: Table) -> list[Problem]:
-    """Every problem of a table, with its path; an empty list for a table that can be played."""
-    return check_layout(Layout.of(table))
-
-
 def check_layout(layout: Layout) -> list[Problem]:
-    """The same for a layout, which may be a part of a table only."""
+    """Every problem of a layout, with its path; an empty list for one that can be played."""
     board_problems = _board_problems(layout.board)
     paddle_problems = _paddle_problems(layout)
     problems = board_problems + _hop_problems(layout.board) + paddle_problems
@@ -103,6 +99,7 @@ def check_layout(layout: Layout) -> list[Problem]:
     problems += part_problems
     if board_problems:
         return problems
+    layout = layout._replace(paddles=_one_a_side(layout.paddles))  # the others are refused anyway
     meetings, tight = _pair_problems(standing, layout.board)
     problems += meetings[:TANGLE]
     if len(meetings) > TANGLE:
@@ -113,7 +110,9 @@ def check_layout(layout: Layout) -> list[Problem]:
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
     problems += _way_problems(layout, paddles, ball_space)
-    if len(meetings) <= TANGLE:
+    crowd = _crowd_problems(standing, layout.board)
+    problems += crowd
+    if len(meetings) <= TANGLE and not crowd:
         problems += _trap_problems(layout, standing, ball_space)
     if layout.random is not None:
         problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)
@@ -162,6 +161,12 @@ def _paddle_problems(layout: Layout) -> list[Problem]:
             problems.append(Problem(f"{path}.pivot", message))
         problems += _speed_problems(path, paddle, layout.board)
     return problems
+
+
+def _one_a_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, Paddle], ...]:
+    """The first paddle of each side."""
+    first = {paddle.side: (path, paddle) for path, paddle in reversed(paddles)}
+    return tuple(sorted(first.values(), key=lambda item: item[0]))
 
 
 def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
@@ -250,11 +255,7 @@ def _pair_problems(
     if not parts:
         return meetings, tight
     widest = (2.0 + PASSAGE) * board.ball_radius
-    center, bound = shapes.bounds()
-    apart = np.sqrt(((center[:, None] - center[None]) ** 2).sum(axis=-1)) - bound[:, None] - bound[None]
-    first, second = np.nonzero(np.triu(apart < widest, 1))
-    gaps = core_distances(shapes.core[first], shapes.core[second])
-    gaps -= shapes.radius[first] + shapes.radius[second]
+    first, second, gaps = near_pairs(shapes, widest)
     for one, other, gap in zip(first.tolist(), second.tolist(), gaps.tolist(), strict=True):
         path = f"{paths[other]}.{_place_key(parts[other])}"
         walls = isinstance(parts[one], SlantWall) and isinstance(parts[other], SlantWall)
@@ -272,6 +273,15 @@ def _pair_problems(
         problem = _tight(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
         tight.append((problem, (float(corner[0]), float(corner[1]))))
     return meetings, tight
+
+
+def _crowd_problems(standing: Measured, board: Board) -> list[Problem]:
+    """Walls may lie one on another, but not by the hundred: every pair may make pockets."""
+    pairs = len(near_pairs(standing.shapes, 2.0 * board.ball_radius)[0])
+    if pairs <= CROWD:
+        return []
+    message = f"has {pairs:,} pairs of parts between which no ball fits, at most {CROWD:,}: take parts away"
+    return [Problem("board", message)]
 
 
 def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
@@ -314,12 +324,8 @@ def _middle(first: Floats, second: Floats) -> tuple[float, float]:
 def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
     """What the paddles touch while they turn."""
     problems = []
-    one_a_side = {paddle.side: (path, paddle) for path, paddle in reversed(layout.paddles)}
-    paddles = sorted(
-        one_a_side.values(), key=lambda item: item[0]
-    )  # a second one on a side is refused anyway
-    for index, (path, paddle) in enumerate(paddles):
-        for other_path, other in paddles[index + 1 :]:
+    for index, (path, paddle) in enumerate(layout.paddles):
+        for other_path, other in layout.paddles[index + 1 :]:
             angles = touches_paddle(paddle, other)
             if angles is not None:
                 at = f"at {angles[0]:.0f} and {angles[1]:.0f} deg"

@@ -15,7 +15,6 @@ import functools
 import hashlib
 import json
 import os
-import stat
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -25,10 +24,12 @@ import tomli_w
 from pydantic import BaseModel, ValidationError
 
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
+from silverball.plain import plain
 from silverball.table.check import Layout, check_layout
 from silverball.table.explain import PART_KINDS, explain
 from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table, TriangularPrism
-from silverball.wholefile import write_whole
+from silverball.table.trial import try_recipe
+from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
 
@@ -54,9 +55,8 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
     Raises:
         UnknownTable: No built-in table has this name.
         TableError: The file cannot be read or has problems; all of them are in `problems`.
-        MissingExtra: The file names a mesh and the extra for meshes is not installed.
     """
-    text = os.fspath(name_or_path)
+    text = os.fspath(name_or_path) or NOTHING
     if isinstance(name_or_path, str) and not _looks_like_path(text):
         if text not in table_names():
             raise UnknownTable(text, _no_such_name(text))
@@ -97,6 +97,9 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
                 "cylinder": tuple(part for _, part in layout.cylinders),
             }
         )
+    problems = try_recipe(table)
+    if problems:
+        raise TableError(source, problems)
     return table
 
 
@@ -158,7 +161,7 @@ def _built_in(name: str) -> Table:
 
 def _looks_like_path(text: str) -> bool:
     separators = [mark for mark in ("/", os.sep, os.altsep) if mark]
-    return text.endswith(".toml") or any(mark in text for mark in separators)
+    return text == STDIN or text.endswith(".toml") or any(mark in text for mark in separators)
 
 
 def _no_such_name(name: str) -> str:
@@ -172,26 +175,9 @@ def _no_such_name(name: str) -> str:
 def _read(path: str) -> str:
     """The text of a table file, or a `TableError` that says in one sentence why there is none."""
     try:
-        status = os.stat(path)
-        if stat.S_ISDIR(status.st_mode):
-            raise _unreadable(path, "is a folder: give the path of a .toml file in it")
-        if not stat.S_ISREG(status.st_mode):
-            raise _unreadable(path, "is no ordinary file: give the path of a .toml file")
-        if status.st_size > SIZE_LIMIT:
-            raise _unreadable(path, f"is {status.st_size:,} bytes long, a table has at most {SIZE_LIMIT:,}")
-        with open(path, "rb") as file:
-            content = file.read(SIZE_LIMIT + 1)
-        if len(content) > SIZE_LIMIT:
-            raise _unreadable(path, f"is longer than {SIZE_LIMIT:,} bytes, the limit for a table")
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        reason = f"is not UTF-8 text (byte {error.start + 1:,} is no part of any character): save it as UTF-8"
-        raise _unreadable(path, reason) from error
-    except FileNotFoundError as error:
-        raise _unreadable(path, "there is no such file: check the path") from error
-    except (OSError, ValueError) as error:  # ValueError: a path with a zero character in it
-        reason = getattr(error, "strerror", None) or str(error)
-        raise _unreadable(path, f"cannot be read ({reason})") from error
+        return read_text(path, SIZE_LIMIT, "a table file")
+    except Unreadable as error:
+        raise _unreadable(path, str(error)) from None
 
 
 def _unreadable(path: str, reason: str) -> TableError:
@@ -218,9 +204,10 @@ def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None
     broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
     if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
         return None
-    given = data.get("board", {})
     bad_keys = {place[1] for place in broken if place[0] == "board"}
-    board = Board.model_validate({key: value for key, value in given.items() if key not in bad_keys})
+    # Each key that is left is good, but perhaps not beside the default of one that is not (`rolling` needs
+    # `friction`): the board is put together without being validated again.
+    board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
     left: dict[str, list[tuple[str, Any]]] = {}
     for kind, model in PART_KINDS.items():
         usable = (kind,) not in broken
@@ -274,4 +261,6 @@ def _literal(value: Any) -> str:
         return "[" + ", ".join(_literal(item) for item in value) + "]"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {_literal(item)}" for key, item in value.items()) + " }"
-    return tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
+    text = tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
+    # A file that is printed must not steer the terminal; tomli_w writes only what TOML demands as escapes.
+    return "".join(letter if plain(letter) == letter else f"\\U{ord(letter):08x}" for letter in text)

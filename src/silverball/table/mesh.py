@@ -5,28 +5,31 @@ board, z to the right), so that seen from above every vertex is a point (x, z) [
 is what a ball meets. Of it a prism keeps the largest triangle among its corners, never a side of the
 prism, which stands upright and has no width from above; a cylinder keeps the smallest circle around it.
 
-Reading needs trimesh (the extra ``mesh``), which is imported only here and only when a mesh is read.
-STL, OBJ and GLB hold data only. Files are bounded in size before they are opened.
+Files are bounded in size before they are opened; how they are read stands in `meshfile.py`.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 import stat
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from silverball.errors import MissingExtra, Problem, TableError
+from silverball.errors import Problem, TableError
 from silverball.table.geometry import Floats
+from silverball.table.meshfile import KINDS, MeshError, mesh_points
 from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
-KINDS = ("stl", "obj", "glb")
 CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle among them is found in a second
+HULL_LIMIT = (
+    2**16
+)  # corners of a hull, of a part of the points too; chosen: more than single precision can make
+FURTHEST = 1e6  # [u] from the origin; what is further out is damage
 NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
 _ROUNDED = 6  # decimals [u] that are kept of a footprint: STL stores single precision
 
@@ -36,11 +39,10 @@ def triangle_footprint(path: Path) -> Triangle:
 
     Raises:
         TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
-        MissingExtra: trimesh is not installed.
     """
     hull = convex_hull(_points(path))
     if len(hull) > CORNERS_LIMIT:
-        count = f"a footprint of {len(hull):,} corners, a prism's has at most {CORNERS_LIMIT:,}"
+        count = f"a footprint of {len(hull):,} corners or more, a prism's has at most {CORNERS_LIMIT:,}"
         message = f"has {count}: simplify {path}"
         raise _unusable(str(path), message)
     corners = largest_triangle(hull)
@@ -53,9 +55,8 @@ def circle_footprint(path: Path) -> tuple[float, float, float]:
 
     Raises:
         TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
-        MissingExtra: trimesh is not installed.
     """
-    x, z, radius = smallest_circle(convex_hull(_points(path)))
+    x, z, radius = smallest_circle(_points(path))
     return round(x, _ROUNDED) + 0.0, round(z, _ROUNDED) + 0.0, round(radius, _ROUNDED)
 
 
@@ -65,6 +66,16 @@ def convex_hull(points: Floats) -> Floats:
     Andrew's monotone chain. Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two
     dimensions", Information Processing Letters 9 (1979).
     """
+    hull = np.empty((0, 2))
+    for begin in range(0, len(points), HULL_LIMIT):  # a part at a time, to bound the memory
+        hull = _chains(np.concatenate([hull, points[begin : begin + HULL_LIMIT]]))
+        if len(hull) > HULL_LIMIT:
+            break
+    return hull
+
+
+def _chains(points: Floats) -> Floats:
+    """The two chains of corners, from low x to high x and back."""
     ordered = [(float(x), float(z)) for x, z in np.unique(points, axis=0)]
     chains: list[list[Point]] = []
     for direction in (ordered, ordered[::-1]):
@@ -105,23 +116,21 @@ def largest_triangle(hull: Floats) -> Floats:
 def smallest_circle(points: Floats) -> tuple[float, float, float]:
     """The smallest circle that holds all points: x, z and radius [u].
 
-    Welzl's move-to-front, unrolled into three loops; the points of a hull are few.
-    Source: E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", LNCS 555 (1991).
+    It is that of two or three of them. The one that lies furthest outside joins those few, over and over;
+    the circle grows with each, so that it ends.
+    Source: B. Gärtner, "Fast and robust smallest enclosing balls", ESA 1999 (the choice of the next point).
     """
-    places = [(float(x), float(z)) for x, z in points]
-    circle = (*places[0], 0.0)
-    for i, p in enumerate(places):
-        if _holds(circle, p):
-            continue
-        circle = (*p, 0.0)
-        for j, q in enumerate(places[:i]):
-            if _holds(circle, q):
-                continue
-            circle = _circle_of_two(p, q)
-            for r in places[:j]:
-                if not _holds(circle, r):
-                    circle = _circle_of_three(p, q, r)
-    return circle
+    few: list[Point] = [(float(points[0, 0]), float(points[0, 1]))]
+    circle = (*few[0], 0.0)
+    while True:
+        away = np.hypot(points[:, 0] - circle[0], points[:, 1] - circle[1])
+        furthest = int(np.argmax(away))
+        if away[furthest] <= circle[2] * (1.0 + 1e-12) + 1e-12:
+            return circle
+        grown, few = _circle_of_few([*few, (float(points[furthest, 0]), float(points[furthest, 1]))])
+        if grown[2] <= circle[2]:  # rounding has the last word
+            return circle
+        circle = grown
 
 
 def _points(path: Path) -> Floats:
@@ -140,32 +149,21 @@ def _points(path: Path) -> Floats:
     if status.st_size > MESH_LIMIT:
         message = f"is {status.st_size:,} bytes long, a mesh has at most {MESH_LIMIT:,}: simplify {name}"
         raise _unusable(name, message)
-    vertices = _vertices(path, kind)
-    if vertices.ndim != 2 or vertices.shape[1:] != (3,) or not np.isfinite(vertices).all():
-        raise _unusable(name, f"has coordinates that are no numbers: {name} is damaged")
+    try:
+        content = path.read_bytes()
+        vertices = mesh_points(content, kind)
+    except OSError as error:
+        raise _unusable(name, f"cannot be read: {name} ({error.strerror or error})") from error
+    except MeshError as error:
+        raise _unusable(name, f"cannot be used: {name} {error}") from error
+    if not (np.abs(vertices) <= FURTHEST).all():  # also not for NaN
+        raise _unusable(
+            name, f"has coordinates beyond {FURTHEST:,.0f} u or that are no numbers: {name} is damaged"
+        )
     points = vertices[:, [0, 2]]
     if len(points) < 3 or _width(points) < NARROWEST:
         raise _unusable(name, f"is flat or empty seen from above (along y): {name} has no footprint")
     return points
-
-
-def _vertices(path: Path, kind: str) -> Floats:
-    """The vertices of a mesh file, shape [vertex, 3]."""
-    try:
-        import trimesh
-    except ImportError as error:
-        raise MissingExtra(f"the mesh {path}", "mesh") from error
-    try:
-        with open(path, "rb") as file:
-            # Only the file itself is read: no material or texture beside it is looked for.
-            loaded: Any = trimesh.load(
-                file, file_type=kind, force="scene", process=False, skip_materials=True
-            )
-        pieces = [np.asarray(piece.vertices, dtype=np.float64) for piece in loaded.dump()]
-    except Exception as error:  # trimesh raises whatever its parsers meet in a damaged file
-        reason = str(error).strip().split("\n")[0][:120] or type(error).__name__
-        raise _unusable(str(path), f"cannot be read as {kind.upper()}: {path} ({reason})") from error
-    return np.concatenate(pieces) if pieces else np.empty((0, 3))
 
 
 def _unusable(source: str, message: str) -> TableError:
@@ -182,6 +180,14 @@ def _width(points: Floats) -> float:
     centred = points - points.mean(axis=0)
     across = np.linalg.svd(centred, full_matrices=False)[2][1]
     return float(np.ptp(centred @ across))
+
+
+def _circle_of_few(points: list[Point]) -> tuple[tuple[float, float, float], list[Point]]:
+    """The smallest circle around up to four points, and the two or three that it runs through."""
+    pairs = [(_circle_of_two(p, q), [p, q]) for p, q in itertools.combinations(points, 2)]
+    triples = [(_circle_of_three(p, q, r), [p, q, r]) for p, q, r in itertools.combinations(points, 3)]
+    holding = [found for found in pairs + triples if all(_holds(found[0], point) for point in points)]
+    return min(holding or triples or pairs, key=lambda found: found[0][2])
 
 
 def _holds(circle: tuple[float, float, float], point: Point) -> bool:

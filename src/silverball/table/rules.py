@@ -118,8 +118,8 @@ def recipe_problems(
         return problems
     around = Surroundings.of(board, parts, paddles)
     x, z = np.linspace(low_x, high_x, _TRIALS), np.linspace(low_z, high_z, _TRIALS)
-    points = np.stack(np.meshgrid(x, z, indexing="ij"), axis=-1)
-    widest = float(around.wall_distances(points).max())
+    rows = (np.stack([np.full_like(z, height), z], axis=-1) for height in x)  # one at a time: walls are many
+    widest = max(float(around.wall_distances(row).max()) for row in rows)
     if widest < max(sizes) + recipe.wall_gap:
         message = (
             f"leaves no place in the area for an obstacle of {max(sizes):g} u: its centre is at most "

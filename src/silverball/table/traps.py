@@ -22,12 +22,16 @@ from typing import NamedTuple
 import numpy as np
 
 from silverball.table.geometry import (
+    AT_ONCE,
     BORDER_NAMES,
     BORDER_NORMALS,
+    Bools,
     Floats,
     Indices,
     Shapes,
     border_gaps,
+    clear_of,
+    near_pairs,
     offsets,
     outward_normals,
 )
@@ -37,7 +41,6 @@ from silverball.table.reach import Space
 LEVEL = 2.0  # [deg] a face is level below this slope; chosen: a ball there needs 8 s to slide a table's width
 SHALLOW = 1e-4  # [u] a ball hops out of a less deep pocket; chosen: a fifth of the least hop of a touch
 CONTACT = 1e-7  # [u] a gap below this is a contact; the crossings themselves are good to 1e-12
-CROSSINGS_AT_ONCE = 4096  # pairs of shapes that are crossed in one go, to bound the memory
 
 
 class LevelFace(NamedTuple):
@@ -67,7 +70,7 @@ def level_faces(shapes: Shapes, board: Board, space: Space) -> list[LevelFace]:
         along = np.linspace(0.0, 1.0, count)[:, None]
         out = normal * (shapes.radius[shape] + board.ball_radius)
         balls = start + along * (end - start) + out
-        free = _gaps(balls, shapes, board).min(axis=1) > -CONTACT
+        free = _is_clear(balls, shapes, board)
         for ball in balls[free]:
             place = (float(ball[0]), float(ball[1]))
             if board.gutter < place[0] and space.reaches(place):
@@ -81,14 +84,19 @@ def pockets(shapes: Shapes, board: Board, space: Space) -> list[Pocket]:
     """The places where two contacts hold a ball, the lowest first, each once."""
     balls = _crossings(shapes, board)
     found: list[Pocket] = []
-    for place in sorted({(round(x, 6), round(z, 6)) for x, z in balls.tolist()}):
-        if not space.reaches(place):
-            continue
-        ball = balls[np.argmin(np.abs(balls - place).sum(axis=1))]
-        pocket = _held(ball, shapes, board)
-        if pocket is not None:
-            found.append(pocket)
+    for ball in balls:
+        if space.reaches((float(ball[0]), float(ball[1]))):
+            pocket = _held(ball, shapes, board)
+            if pocket is not None:
+                found.append(pocket)
     return found
+
+
+def _is_clear(balls: Floats, shapes: Shapes, board: Board) -> Bools:
+    """Whether balls touch things at most, shape [ball]."""
+    inside = border_gaps(balls, board).min(axis=-1) - board.ball_radius > -CONTACT
+    is_clear: Bools = inside & clear_of(balls, board.ball_radius, shapes, CONTACT)
+    return is_clear
 
 
 def _gaps(balls: Floats, shapes: Shapes, board: Board) -> Floats:
@@ -127,26 +135,26 @@ def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
 
 
 def _crossings(shapes: Shapes, board: Board) -> Floats:
-    """Every place where a ball touches two colliders at once and nothing is in its way, [ball, 2]."""
+    """Every place where a ball touches two colliders at once and nothing is in its way, [ball, 2].
+
+    The lowest first, and each once: walls that lie one on another cross in the same places.
+    """
     if len(shapes.radius) == 0:
         return np.empty((0, 2))
-    center, bound = shapes.bounds()
-    apart = np.sqrt(((center[:, None] - center[None]) ** 2).sum(axis=-1)) - bound[:, None] - bound[None]
-    first, second = np.nonzero(np.triu(apart < 2.0 * board.ball_radius, 1))
+    first, second, _ = near_pairs(shapes, 2.0 * board.ball_radius)
     found = []
-    for begin in range(0, len(first), CROSSINGS_AT_ONCE):
-        chunk = slice(begin, begin + CROSSINGS_AT_ONCE)
+    for begin in range(0, len(first), AT_ONCE):
+        chunk = slice(begin, begin + AT_ONCE)
         found.append(_pair_crossings(shapes, first[chunk], second[chunk], board.ball_radius))
+    center, bound = shapes.bounds()
     near_border = border_gaps(center, board) - bound[:, None] < 2.0 * board.ball_radius
     found += [
         _border_crossings(shapes, np.nonzero(near)[0], i, board) for i, near in enumerate(near_border.T)
     ]
     balls = np.concatenate(found)
-    clear = [
-        part[_gaps(part, shapes, board).min(axis=1) > -CONTACT]
-        for part in np.array_split(balls, len(balls) // CROSSINGS_AT_ONCE + 1)
-    ]
-    return np.concatenate(clear)
+    _, once = np.unique(np.round(balls, 6), axis=0, return_index=True)
+    balls = balls[once]
+    return balls[_is_clear(balls, shapes, board)]
 
 
 def _lines(shapes: Shapes, which: Indices, ball_radius: float) -> tuple[Floats, Floats]:

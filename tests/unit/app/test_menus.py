@@ -265,7 +265,7 @@ def test_after_a_game_one_plays_again_watches_or_saves():
     assert choose(menus, "SAVE REPLAY") == SaveReplay()
     menus.say("saved as game.txt")
     assert reads(menus.draw(0.7), "SAVED AS GAME.TXT")
-    assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "random", None)
+    assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "classic", None)
 
 
 def test_initials_start_with_those_of_last_time():
@@ -332,9 +332,9 @@ def test_nobody_at_the_menu_for_a_while_starts_the_show_and_a_button_ends_it():
     assert menus.page == "main"
 
 
-def test_no_show_starts_over_a_paused_game_or_while_initials_are_entered():
+def test_no_show_starts_over_a_paused_game_or_in_a_game():
     menus = menus_with()
-    for open_page in (menus.open_pause, lambda: menus.open_over(9, 1), menus.close):
+    for open_page in (menus.open_pause, menus.close):
         open_page()
         assert menus.tick(1000.0) is None
         assert menus.tick(5000.0) is None
@@ -444,3 +444,26 @@ def test_a_page_slides_in_from_the_side_to_which_one_turns():
     moved = moving[:, middle].any(axis=0).nonzero()[0]
     rested = still[:, middle].any(axis=0).nonzero()[0]
     assert moved.size == 0 or moved.min() > rested.min()
+
+
+@pytest.mark.parametrize("count", [2, 15, 16, 100, 503])
+def test_the_title_tells_which_of_many_choices_is_shown(count):
+    pictures = set()
+    for index in range(count):
+        dots = Dots()
+        layout.title(dots, "TABLE", index, count)
+        pictures.add(dots.pixels.tobytes())
+        assert reads(dots, "TABLE")
+        assert reads(dots, f"{index + 1}/{count}") == (count > layout.MOST_MARKS)
+    assert len(pictures) == count
+
+
+def test_a_paddle_that_is_held_hurries_through_a_long_list():
+    many = [TableEntry(f"t{number}", f"T{number}") for number in range(500)]
+    menus = Menus(Settings(table="t0"), many, scores)
+    choose(menus, "TABLE")
+    menus.tick(1.0)
+    menus.press(RIGHT)
+    for tick in range(12 * 60):
+        menus.tick(1.0 + tick / 60)
+    assert menus._desk.pages[-1].index > 250  # within twelve seconds

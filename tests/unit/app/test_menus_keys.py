@@ -8,9 +8,11 @@ from reading import reads
 from silverball.app.menus import (
     ACTIONS,
     Button,
+    JoystickEntry,
     Menus,
     TableEntry,
     action_by_key,
+    action_by_name,
     action_by_pad,
     keys_of,
     pad_of,
@@ -212,6 +214,36 @@ def test_settings_from_elsewhere_that_give_a_key_twice_are_read_in_one_way():
     assert action_by_key(settings)["p"] == "jitter"
     assert action_by_pad(settings)["a"] == "jitter"
     assert pad_of(settings, LINES["create"]) == ("a",)
+
+
+def test_a_button_of_a_joystick_is_kept_for_its_make_and_leaves_gamepads_as_they_were():
+    menus = asking("JITTER", "NEW BUTTON", "GAMEPAD")
+    menus.capture("button 7", "a guid")
+    menus.know(joysticks=(JoystickEntry("a guid", "Cabinet", 12),))
+    assert menus.page == "conflict"
+    assert menus.settings == Settings()
+    choose(menus, "TAKE IT")
+    assert action_by_name(menus.settings, "a guid")["button 7"] == "jitter"
+    assert action_by_name(menus.settings, "another guid")["button 7"] == "left"
+    assert pad_of(menus.settings, LINES["jitter"]) == LINES["jitter"].pad
+    choose(menus, "RESET")
+    assert "button 7" not in action_by_name(menus.settings, "a guid")
+    press(menus, BACK)
+    choose(menus, "RESET ALL")
+    assert menus.settings == Settings()
+
+
+def test_pages_write_what_stands_on_the_keys_of_the_layout():
+    menus = Menus(Settings(), (), lambda table, mode: ())
+    menus.know(labels={"z": "я", ".": ":"})
+    for item in ("SETTINGS", "KEYS", "JITTER"):
+        choose(menus, item)
+    assert menus.key("jitter") == "Я"
+    assert menus.key("faster") == "COLON"
+    choose(menus, "NEW KEY")
+    menus.capture("p")
+    choose(menus, "TAKE IT")
+    assert menus.settings.keys == {"jitter": ("p",), "pause": ()}
 
 
 def test_names_of_keys_are_written_short():

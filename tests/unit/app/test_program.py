@@ -4,60 +4,17 @@ from __future__ import annotations
 
 import pytest
 
+from evenings import NOTHING, Evening
 from reading import reads
-from silverball.app.controls import Action, Held
-from silverball.app.library import Library
-from silverball.app.program import OVER_SECONDS, SPEEDS, Program
+from silverball.app.controls import Action
+from silverball.app.program import OVER_SECONDS, SPEEDS
 from silverball.app.settings import Settings
+from silverball.app.stages import Showing
 from silverball.app.waiting import Progress
 from silverball.errors import TableError
 from silverball.game.news import Mode, Phase
 from silverball.game.replay import Replay, verify
-from silverball.game.store import Store
 from silverball.players import PlayerKind
-from silverball.table import Board, Cylinder, Table
-
-NOTHING = Held((False, False), (False, False))
-LEAKY = Table(
-    name="Leaky",
-    board=Board(gravity=40.0),
-    cylinder=tuple(Cylinder(center=(-2.0, z), radius=1.15) for z in (-3.2, 0.0, 3.2)),
-)
-
-
-class Evening:
-    """A program, and an evening at it."""
-
-    def __init__(self, folder, settings=None, table=LEAKY) -> None:
-        self.said: list[str] = []
-        self.store = Store(folder)
-        library = Library(self.store, folder, {table.name: table})
-        chosen = settings or Settings(table=table.name)
-        self.program = Program(self.store, chosen, library, seed=3, say=self.said.append)
-        self.seconds = 0.0
-
-    def go(self, seconds: float) -> None:
-        for _ in range(round(seconds * 30)):
-            self.seconds += 1 / 30
-            self.program.pass_time(self.seconds)
-            self.program.advance(NOTHING, 8)
-            self.program.dots(self.seconds)
-
-    def tap(self, *actions: Action) -> None:
-        for action in actions:
-            self.program.press(action)
-            self.program.release(action)
-            self.go(1 / 30)
-
-    def play_to_the_end(self) -> None:
-        for _ in range(30):
-            if self.program.stage.has_ended:
-                return
-            self.tap(Action.CREATE)
-            for _ in range(60):
-                if self.program.stage.game.phase is not Phase.PLAY:
-                    break
-                self.go(0.5)
 
 
 @pytest.fixture
@@ -169,18 +126,6 @@ def test_losing_the_focus_pauses_play_and_nothing_else(evening):
     evening.program.play(Mode.FREE, "Leaky", 3)
     evening.program.lose_focus()
     assert evening.program.is_paused
-
-
-def test_a_table_file_that_cannot_be_used_is_not_offered_and_a_good_one_is(evening, tmp_path):
-    from silverball.table import dump_table
-
-    (tmp_path / "tables").mkdir()
-    (tmp_path / "tables" / "bad.toml").write_text("format = 99", encoding="utf-8")
-    (tmp_path / "tables" / "good.toml").write_text(dump_table(LEAKY), encoding="utf-8")
-    library = Library(evening.store, tmp_path)
-    names = [entry.name for entry in library.entries()]
-    assert str(tmp_path / "tables" / "good.toml") in names
-    assert str(tmp_path / "tables" / "bad.toml") not in names
 
 
 def test_a_table_that_is_not_there_is_an_error_at_the_start_and_a_message_later(tmp_path, evening):
@@ -317,3 +262,88 @@ def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(eveni
     assert "was recorded, but" in evening.said[-1]
     assert evening.program.stage is None
     assert evening.program.menus.is_open
+
+
+def test_a_game_that_is_over_gives_way_to_the_show_when_nobody_is_there(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.play_to_the_end()
+    evening.go(OVER_SECONDS + 40.0)
+    assert evening.program.menus.page == "attract"
+    assert isinstance(evening.program.stage, Showing)
+    assert not evening.program.is_heard
+    assert [row.initials for row in evening.store.scores()] == ["AAA"]
+
+
+def test_the_main_menu_after_a_game_shows_the_board_without_what_was_on_it(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.tap(Action.CREATE)
+    evening.program.stage.game.end()  # with a ball on the board
+    evening.go(OVER_SECONDS + 0.2)
+    assert evening.program.menus.page == "over"
+    evening.tap(Action.LEFT, Action.CREATE)  # menu
+    assert evening.program.menus.page == "main"
+    assert evening.program.stage is None
+
+
+def test_a_table_chosen_after_a_game_is_seen_at_once(evening):
+    evening.program.play(Mode.ARCADE, "Leaky", 3)
+    evening.play_to_the_end()
+    evening.program.menus.open_main()
+    evening.program.use(evening.program.settings.changed(table="classic"))
+    assert evening.program.table.name == "Classic"
+    assert evening.program.stage is None
+
+
+def test_a_table_chosen_elsewhere_leaves_a_game_that_goes_on_alone(evening):
+    evening.program.play(Mode.FREE, "Leaky", 3)
+    stage = evening.program.stage
+    evening.program.set(table="classic")
+    assert evening.program.stage is stage
+    assert evening.program.table.name == "Leaky"
+
+
+def test_a_seed_that_is_chosen_is_seen_at_once_and_played(tmp_path):
+    from silverball.table import generate_table, load_table
+
+    evening = Evening(tmp_path, Settings(table="random"))
+    evening.program.get_ready()
+    # Table, board seed, new or the same or a number.
+    evening.tap(*[Action.RIGHT] * 2, Action.CREATE)
+    while evening.program.menus.page == "table":
+        evening.tap(Action.RIGHT)
+        page = evening.program.menus._desk.pages[-1]
+        if page._listed()[page.index].label == "BOARD SEED":
+            evening.tap(Action.CREATE)
+    evening.tap(Action.LEFT, Action.LEFT, Action.CREATE)
+    assert evening.program.menus.page == "seed"
+    for digit in "42":
+        evening.program.menus.type(digit, digit, is_button=False)
+    evening.tap(Action.CREATE)
+    assert evening.program.table == generate_table(42, load_table("random"))
+    evening.tap(Action.BACK, Action.LEFT, Action.LEFT, Action.CREATE)
+    assert evening.program.stage.game.table == generate_table(42, load_table("random"))
+    evening.store.close()
+
+
+@pytest.mark.parametrize(
+    ("state", "words"),
+    [("menu", "paused"), ("game", "paused"), ("over", "game is over"), ("replay", "held"),
+     ("ended replay", "replay has ended"), ("show", "paused")],
+)  # fmt: skip
+def test_a_single_tick_where_none_is_to_be_had_says_why(evening, state, words):
+    program = evening.program
+    if state in ("over", "replay", "ended replay"):
+        program.play(Mode.ARCADE, "Leaky", 3)
+        evening.play_to_the_end()
+    if "replay" in state:
+        program.watch(Replay.from_text(evening.store.last_game()))
+    if state == "ended replay":
+        program.jump(1e6)
+        evening.go(0.1)
+        assert program.stage.has_ended
+    elif state == "game":
+        program.play(Mode.FREE, "Leaky", 3)
+    elif state == "show":
+        program.show_off()
+    program.single_tick(NOTHING)
+    assert words in evening.said[-1]

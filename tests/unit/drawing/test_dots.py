@@ -70,9 +70,19 @@ def test_a_box_that_begins_outside_keeps_only_what_is_inside():
 
 @pytest.mark.parametrize("font", FONTS, ids=lambda font: font.name)
 def test_letters_that_are_missing_show_a_box(font):
-    for character in "Äß\u4e2d\x00":
+    for character in "\ufdd0\x85\x00":
         assert font.glyph(character) is font.box
-    assert not font.has("Ä")
+        assert not font.has(character)
+
+
+@pytest.mark.parametrize("font", [BOLD, NORMAL], ids=lambda font: font.name)
+def test_letters_of_other_keyboards_are_drawn_and_told_from_their_likes(font):
+    for characters in ("AÄÁ", "OÖÓ", "CÇ", "ФВЯЗКЬТБЮ", "ΔΠΨΩ"):
+        drawn = [font.glyph(character) for character in characters]
+        assert all(glyph is not font.box and glyph.any() for glyph in drawn)
+        assert all(len(glyph) >= font.height for glyph in drawn)
+        pictures = {(glyph.shape, glyph.tobytes()) for glyph in drawn}
+        assert len(pictures) == len(characters)
 
 
 def test_the_small_fonts_have_all_letters_digits_and_common_signs():

@@ -1,4 +1,7 @@
-"""Is a score believed exactly if its replay is of that game and reaches it?"""
+"""Is a score proven exactly if its replay is of that game, on that table, and reaches it?
+
+What a forger writes into the file is tried in `tests/cli/test_forged_scores.py`.
+"""
 
 from __future__ import annotations
 
@@ -7,22 +10,22 @@ from datetime import UTC, datetime
 import pytest
 
 from silverball.game.game import Game
-from silverball.game.proof import prove
+from silverball.game.proof import Counted, prove
 from silverball.game.store import Score
-from silverball.table import load_table, table_digest
+from silverball.table import Table, dump_table, load_table, table_digest
 
 SEED = 5
 
 
-def played(name: str, seed: int = SEED, mode: str = "arcade") -> tuple[Score, str]:
+def played(name: Table | str, seed: int = SEED, mode: str = "arcade") -> tuple[Score, str]:
     """A game that reached some points: its score and its replay."""
-    game = Game(name, seed=seed, mode=mode)
+    table = load_table(name) if isinstance(name, str) else name
+    game = Game(table, seed=seed, mode=mode)
     while not game.score:
         if not game.face.on_board:
             game.create_ball()
         game.advance(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
     game.end()
-    table = load_table(name)
     now = datetime.now(UTC)
     score = Score(1, "ABC", game.score, mode, table.name, table_digest(table), seed, now, None, "", True)
     return score, game.replay.to_text()
@@ -42,7 +45,7 @@ def test_a_game_that_was_played_proves_its_score(name, mode):
         ({"score": 1_000_001}, "its replay reaches"),
         ({"seed": SEED + 1}, f"the seed is {SEED}, not {SEED + 1}"),
         ({"mode": "free"}, "the mode is arcade, not free"),
-        ({"table_digest": table_digest(load_table("rolling"))}, "the table is"),
+        ({"table_digest": table_digest(load_table("rolling"))}, "its list is called"),
     ],
 )
 def test_a_score_that_was_changed_is_not_believed(name, change, why):
@@ -55,12 +58,38 @@ def test_a_score_that_was_changed_is_not_believed(name, change, why):
 def test_the_replay_of_another_board_proves_nothing():
     on_random, _ = played("random")
     _, text = played("classic")
-    assert prove(on_random, text) == (False, "its replay is of another game: the table is 'Classic'")
+    verified, why = prove(on_random, text)
+    assert verified is False
+    assert "another game: the table is 'Classic', not " in why
 
 
-def test_a_board_of_a_recipe_that_is_not_at_hand_is_believed():
-    score, text = played("random")
-    assert prove(score._replace(table_digest="of a file of somebody"), text) == (True, "")
+@pytest.mark.parametrize("name", ["classic", "random"])
+def test_a_table_that_is_not_at_hand_proves_nothing_and_one_that_is_kept_does(name):
+    table = load_table(name).model_copy(update={"name": "Mine"})
+    score, text = played(table)
+    verified, why = prove(score, text)
+    assert verified is False
+    assert "not at hand" in why
+    assert prove(score, text, dump_table(table)) == (True, "")
+
+
+@pytest.mark.parametrize("name", ["classic", "random"])
+def test_a_game_is_counted_once(name):
+    (first, text), counted = played(name), Counted()
+    assert prove(first, text, counted=counted).verified
+    again = first._replace(id=2, initials="XYZ")
+    assert prove(again, text, counted=counted) == (
+        False,
+        "it is the same game as score 1, which is counted",
+    )
+    other, its_text = played(name, seed=SEED + 1)
+    assert prove(other, its_text, counted=counted).verified
+
+
+def test_a_score_that_was_refused_stands_in_no_other_ones_way():
+    (score, text), counted = played("classic"), Counted()
+    assert not prove(score._replace(score=score.score + 1), text, counted=counted).verified
+    assert prove(score._replace(id=2), text, counted=counted).verified
 
 
 @pytest.mark.parametrize("text", ["", "nothing", "silverball replay 1\n", "\0" * 100])
@@ -77,10 +106,10 @@ def test_a_replay_whose_text_was_changed_proves_nothing():
 
 
 @pytest.mark.parametrize("key", ["physics", "rules"])
-def test_a_replay_of_another_version_is_neither_true_nor_false(key):
+def test_a_replay_of_another_version_is_not_proven_and_says_what_to_do(key):
     score, text = played("classic")
     changed = text.replace(f"{key} = ", f"{key} = 9", 1)
     assert changed != text
     verified, why = prove(score, changed)
-    assert verified is None
-    assert "another version" in why
+    assert verified is False
+    assert "get a newer Silverball" in why

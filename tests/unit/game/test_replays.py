@@ -426,7 +426,7 @@ def test_files_that_are_no_replays_are_refused(tmp_path: Path):
         file.truncate(100 * 10**6)
     os.mkfifo(tmp_path / "pipe.replay")
     for name, message in {
-        "latin.replay": "no UTF-8 text .byte 34",
+        "latin.replay": "not UTF-8 text .byte 34",
         "huge.replay": "100,000,000 bytes long",
         "pipe.replay": "no ordinary file",
         "missing.replay": "no such file",

@@ -13,7 +13,7 @@ from silverball.app.settings import Settings
 from silverball.errors import SilverballError
 from silverball.game import store as stores
 from silverball.game.database import Database
-from silverball.game.store import FILE, PLACES, REPLAYS, SCHEMA, Store
+from silverball.game.store import FILE, PLACES, SCHEMA, Store
 
 BOARD = {"mode": "arcade", "table_name": "random", "table_digest": "d" * 64}
 
@@ -49,6 +49,7 @@ def test_a_score_is_there_with_all_it_consists_of_when_the_file_is_opened_again(
             None,
             "",
             True,
+            "",
         )
         assert store.score(number) == score
         assert store.replay(number) == "the replay\n"
@@ -125,13 +126,28 @@ def test_a_score_saved_under_the_last_initials_is_renamed(store):
 
 
 def test_marks_stay_and_can_be_taken_back(store):
-    number = add(store, 10)
-    store.mark(number, False, "its replay reaches 9")
-    assert store.score(number)[-3:-1] == (False, "its replay reaches 9")
-    store.mark(number, True)
-    assert store.score(number)[-3:-1] == (True, "")
-    store.mark(number, None)
-    assert store.score(number)[-3:-1] == (None, "")
+    number, other = add(store, 10), add(store, 20)
+    for mark in ((False, "its replay reaches 9"), (True, ""), (None, "")):
+        store.mark({number: mark})
+        assert (store.score(number).verified, store.score(number).why) == mark
+        assert store.score(other).verified is None
+
+
+def test_a_mark_for_a_score_that_was_removed_meanwhile_does_no_harm(store):
+    number, removed = add(store, 10), add(store, 20)
+    store.remove(removed)
+    store.mark({removed: (True, ""), number: (True, "")})
+    assert [(score.id, score.verified) for score in store.scores()] == [(number, True)]
+
+
+def test_a_score_that_was_tried_in_vain_stands_below_all_others_and_is_in_nobodys_way(store):
+    points = [90, 80, 70, 60]
+    ids = {score: add(store, score) for score in points}
+    store.mark({ids[90]: (False, "why"), ids[70]: (True, ""), ids[80]: (False, "why")})
+    assert [score.score for score in store.scores()] == [70, 60, 90, 80]
+    for score in (95, 85, 65, 5):
+        expected = sum(other >= score for other in (70, 60)) + 1
+        assert store.is_high(score, "arcade", BOARD["table_digest"]) == expected
 
 
 def test_a_removed_score_is_gone_and_its_number_is_never_given_again(store):
@@ -141,32 +157,28 @@ def test_a_removed_score_is_gone_and_its_number_is_never_given_again(store):
     assert add(store, 20) > removed
 
 
-@pytest.mark.parametrize("what", ["score", "replay", "remove", "rename", "mark"])
-def test_a_number_that_no_score_has_is_refused_in_one_sentence(store, what):
-    arguments = {"rename": ("ABC",), "mark": (True,)}.get(what, ())
-    with pytest.raises(SilverballError, match="there is no score 5"):
-        getattr(store, what)(5, *arguments)
+@pytest.mark.parametrize("what", ["score", "replay", "remove", "rename"])
+@pytest.mark.parametrize("number", [5, 0, -1, 2**63 - 1, -(2**63), 2**63, -(2**63) - 1, 10**40])
+def test_a_number_that_no_score_has_is_refused_in_one_sentence(store, what, number):
+    arguments = {"rename": ("ABC",)}.get(what, ())
+    with pytest.raises(SilverballError, match=f"there is no score {number};"):
+        getattr(store, what)(number, *arguments)
 
 
-def test_replays_are_kept_of_the_best_of_every_list_and_scores_of_all(store):
+def test_the_replay_of_every_score_is_kept_however_many_there_are(store):
     ids = {score: add(store, score) for score in (*range(1, 31), *range(60, 30, -1))}
-    other = add(store, 1, mode="free")
-    best = sorted(ids, reverse=True)[:REPLAYS]
     assert [score.score for score in store.scores("arcade", limit=-1)] == sorted(ids, reverse=True)
     for score, number in ids.items():
-        assert store.score(number).has_replay == (score in best)
-    assert store.replay(ids[best[-1]]) == f"replay of {best[-1]}\n"
-    with pytest.raises(SilverballError, match=f"score {ids[1]}: its replay was not kept"):
-        store.replay(ids[1])
-    assert store.score(other).has_replay
+        assert store.replay(number) == f"replay of {score}\n"
 
 
-def test_of_equal_scores_the_earlier_keep_their_replays(store):
-    ids = [add(store, 10) for _ in range(REPLAYS + 5)]
-    assert [store.score(id).has_replay for id in ids] == [True] * REPLAYS + [False] * 5
-    better = add(store, 11)
-    assert [store.score(id).has_replay for id in ids] == [True] * (REPLAYS - 1) + [False] * 6
-    assert store.score(better).has_replay
+def test_the_table_stays_with_its_list_until_a_score_brings_it_anew(store):
+    add(store, 10)
+    (one,) = store.lists()
+    assert store.table_text(one.id) == ""
+    for text, kept in (("first", "first"), ("", "first"), ("second", "second")):
+        add(store, 10, table_text=text)
+        assert store.table_text(one.id) == kept
 
 
 def test_a_list_goes_by_the_last_name_of_its_table(store):
@@ -278,6 +290,28 @@ def test_a_file_of_an_older_version_is_brought_to_the_present_one_with_all_that_
             assert (store.trouble, store.keeps) == ("", True)
             assert store.score(number).score == 42
             assert store._database.read("SELECT balls FROM score") == [(3,)]
+
+
+def test_scores_of_a_file_of_version_1_are_all_there_and_without_a_table(tmp_path, monkeypatch):
+    with closing(sqlite3.connect(tmp_path / FILE)) as old, old:
+        for statement in SCHEMA.migrations[0]:
+            old.execute(statement)
+        old.execute(f"PRAGMA application_id = {SCHEMA.application}")
+        old.execute("PRAGMA user_version = 1")
+        old.execute("INSERT INTO list VALUES (3, 'arcade', 'digest', 'Mine')")
+        for score, replay in ((20, "the replay"), (10, None)):
+            old.execute(
+                "INSERT INTO score (list, initials, score, seed, played, replay)"
+                " VALUES (3, 'ABC', ?, 7, 0, ?)",
+                (score, replay),
+            )
+    for _ in range(2):
+        with Store(tmp_path) as store:
+            assert (store.trouble, store.keeps) == ("", True)
+            assert [(one.score, one.has_replay) for one in store.scores()] == [(20, True), (10, False)]
+            assert store.table_text(3) == ""
+            with pytest.raises(SilverballError, match="its replay was not kept"):
+                store.replay(store.scores()[1].id)
 
 
 def test_a_file_stays_at_its_version_when_bringing_it_to_the_present_one_fails(tmp_path):

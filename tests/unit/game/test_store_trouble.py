@@ -36,7 +36,7 @@ def assert_play_goes_on(store: Store) -> None:
     number = add(store, 123_456)
     assert store.is_high(123_457, "arcade", "d" * 64) == 1
     store.rename(number, "NEW")
-    store.mark(number, True)
+    store.mark({number: (True, "")})
     store.keep_last_game("last")
     store.keep_settings({"volume": 2})
     assert store.scores()[0][:3] == (number, "NEW", 123_456)
@@ -208,19 +208,6 @@ def test_the_disk_is_full_from_the_beginning(small_disk):
         assert len(store.trouble.splitlines()) == 1
         assert not store.keeps
         assert_play_goes_on(store)
-
-
-def test_a_program_that_holds_the_file_for_ever(tmp_path, monkeypatch):
-    with_scores(tmp_path, 10)
-    monkeypatch.setattr(database, "BUSY_SECONDS", 0.2)
-    with Store(tmp_path) as store, closing(sqlite3.connect(tmp_path / FILE, isolation_level=None)) as other:
-        other.execute("BEGIN IMMEDIATE")
-        assert listed(store) == [10]
-        assert_play_goes_on(store)
-        assert_told(store, "another program has held it", keeps=False)
-        with Store(tmp_path) as late:
-            assert_told(late, "another program has held it", keeps=False)
-            assert listed(late) == [10]
 
 
 # ── it is not what it should be ─────────────────────────────────────────────────────────────────────────

@@ -24,13 +24,15 @@ def balls_left(tables):
     return len(worlds) - played.drained
 
 
-def test_a_ball_dropped_anywhere_on_a_generated_board_reaches_the_gutter_within_a_minute():
-    assert balls_left([generate_table(seed) for seed in range(150)]) == 0
+@pytest.mark.parametrize("recipe", ["original", "random"])
+def test_a_ball_dropped_anywhere_on_a_generated_board_reaches_the_gutter_within_a_minute(recipe):
+    assert balls_left([generate_table(seed, recipe) for seed in range(150)]) == 0
 
 
 @pytest.mark.slow
-def test_a_ball_dropped_anywhere_on_a_thousand_generated_boards_reaches_the_gutter_within_a_minute():
-    assert balls_left([generate_table(seed) for seed in range(1000)]) == 0
+@pytest.mark.parametrize("recipe", ["original", "random"])
+def test_a_ball_dropped_anywhere_on_a_thousand_generated_boards_reaches_the_gutter_within_a_minute(recipe):
+    assert balls_left([generate_table(seed, recipe) for seed in range(1000)]) == 0
 
 
 @pytest.mark.parametrize("name", ["classic", "rolling"])

@@ -1,6 +1,8 @@
 """Does `check_table` find what makes a table unplayable, and nothing else?"""
 
 import math
+import time
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -455,3 +457,51 @@ def test_a_hit_speed_that_a_ball_at_rest_would_reach_by_hopping_is_refused(gravi
     for hit_speed, is_refused in ((0.99 * hop, True), (1.2 * hop, False)):
         board = Board(gravity=gravity, hit_speed=hit_speed)
         assert bool(problems_at(Table(board=board), "board.hit_speed")) == is_refused
+
+
+def fan(i):
+    return SlantWall(start=(0, 0), end=(4.9 * math.cos(i), 4.9 * math.sin(i)))
+
+
+def arc(i):
+    places = [(4.0 * math.cos(turn / 60), 4.0 * math.sin(turn / 60)) for turn in (i, i + 1)]
+    return SlantWall(start=places[0], end=places[1])
+
+
+MANY = {
+    "one wall again and again": lambda i: SlantWall(start=(-4.5, -5), end=(-6.87, -2.74)),
+    "a fan of walls": fan,
+    "an arc of walls": arc,
+    "level walls": lambda i: SlantWall(start=(i / 13 - 9, -5), end=(i / 13 - 9, 5), thickness=0),
+    "upright walls": lambda i: SlantWall(start=(-9, i / 26 - 5), end=(9, i / 26 - 5), thickness=0),
+    "paddles in one place": lambda i: Paddle(side="left", pivot=(-7.2, -2.5)),
+    "cylinders in a heap": lambda i: Cylinder(center=(0, 0), radius=0.5),
+    "cylinders in rows": lambda i: Cylinder(center=(i // 16 - 6, i % 16 * 0.6 - 4.5), radius=0.06),
+}
+
+
+@pytest.mark.parametrize("recipe", [None, RandomRecipe(triangular_prisms=32, cylinders=32)], ids=["", "more"])
+@pytest.mark.parametrize("what", MANY)
+def test_many_parts_are_checked_in_seconds_and_in_little_memory(what, recipe):
+    parts = tuple(MANY[what](i) for i in range(256))
+    key = {SlantWall: "slant_wall", Paddle: "paddle", Cylinder: "cylinder"}[type(parts[0])]
+    table = Table(random=recipe, **{key: parts})
+    start = time.process_time()
+    check_table(table)
+    assert time.process_time() - start < 60.0, "it takes two, but for machines that are very busy"
+    tracemalloc.start()
+    try:
+        check_table(table)
+        assert tracemalloc.get_traced_memory()[1] < 100e6
+    finally:
+        tracemalloc.stop()
+
+
+def test_parts_by_the_thousand_pairs_without_room_for_a_ball_between_them_are_refused_at_once():
+    walls = tuple(fan(i) for i in range(120))
+    assert any(
+        path == "board" and "pairs of parts" in message
+        for path, message in check_table(Table(slant_wall=walls))
+    )
+    few = Table(slant_wall=tuple(arc(i) for i in range(256)))
+    assert not any("pairs of parts" in message for _, message in check_table(few))

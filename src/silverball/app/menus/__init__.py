@@ -4,9 +4,19 @@
 commands say (`commands.py`).
 """
 
-from silverball.app.menus.actions import ACTIONS, ActionLine, action_by_key, action_by_pad, keys_of, pad_of
+from silverball.app.menus.actions import (
+    ACTIONS,
+    ActionLine,
+    action_by_key,
+    action_by_name,
+    action_by_pad,
+    capital,
+    keys_of,
+    pad_of,
+    shown,
+)
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import ScoreRow, TableEntry
+from silverball.app.menus.desk import JoystickEntry, ScoreRow, TableEntry
 from silverball.app.menus.menus import Menus
 from silverball.app.menus.transport import ReplayFace
 
@@ -15,12 +25,16 @@ __all__ = [
     "ActionLine",
     "Button",
     "Command",
+    "JoystickEntry",
     "Menus",
     "ReplayFace",
     "ScoreRow",
     "TableEntry",
     "action_by_key",
+    "action_by_name",
     "action_by_pad",
+    "capital",
     "keys_of",
     "pad_of",
+    "shown",
 ]

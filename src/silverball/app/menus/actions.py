@@ -1,19 +1,22 @@
-"""Which actions have keys and gamepad buttons, and which ones are they now?
+"""Which actions have keys and buttons of gamepads and joysticks, and which ones are they now?
 
-Keys go by the names of `pygame.key.name`, gamepad buttons by those of SDL. The settings hold only what
-differs from the defaults here; an empty tuple there means that the player took the last key away.
+Keys go by the names of `keyboard.py`, gamepad buttons by those of SDL, joystick buttons by those of
+`gamepad.py`. The settings hold only what differs from the defaults here; an empty tuple there means that the
+player took the last key away.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Literal, NamedTuple, TypeAlias
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
 
 from silverball.app.settings import Settings
 
-Kind: TypeAlias = Literal["keys", "pad"]
+Kind: TypeAlias = str
+"""Whose names are meant: "keys", "pad" (all gamepads), or the GUID of a joystick."""
 
-RESERVED = {"keys": ("escape",), "pad": ("guide",)}
+RESERVED: dict[Kind, tuple[str, ...]] = {"keys": ("escape",), "pad": ("guide",)}
 """What cannot be chosen: Esc always goes back, and the guide button belongs to the system."""
 
 
@@ -26,6 +29,7 @@ class ActionLine(NamedTuple):
         keys: Its keys if nothing else was chosen.
         pad: Its gamepad buttons if nothing else was chosen.
         needed: Whether the menus could not be worked without it.
+        joystick: Its buttons on a joystick if nothing else was chosen: those of most old pads and encoders.
     """
 
     action: str
@@ -33,22 +37,33 @@ class ActionLine(NamedTuple):
     keys: tuple[str, ...] = ()
     pad: tuple[str, ...] = ()
     needed: bool = False
+    joystick: tuple[str, ...] = ()
 
     def defaults(self, kind: Kind) -> tuple[str, ...]:
-        """Its keys or its gamepad buttons if nothing else was chosen."""
-        return self.keys if kind == "keys" else self.pad
+        """Its keys or its buttons if nothing else was chosen."""
+        return self.keys if kind == "keys" else self.pad if kind == "pad" else self.joystick
 
 
 ACTIONS = (
     ActionLine(
-        "left", "LEFT PADDLE", ("a", "left", "left shift"), ("leftshoulder", "dpleft", "lefttrigger"), True
+        "left",
+        "LEFT PADDLE",
+        ("a", "left", "left shift"),
+        ("leftshoulder", "dpleft", "lefttrigger"),
+        True,
+        ("button 3", "button 5", "button 7", "hat 1 left", "axis 1 -"),
     ),
     ActionLine(
-        "right", "RIGHT PADDLE", ("d", "right", "right shift"), ("rightshoulder", "b", "righttrigger"), True
+        "right",
+        "RIGHT PADDLE",
+        ("d", "right", "right shift"),
+        ("rightshoulder", "b", "righttrigger"),
+        True,
+        ("button 2", "button 6", "button 8", "hat 1 right", "axis 1 +"),
     ),
-    ActionLine("create", "NEW BALL", ("space",), ("a",), True),
-    ActionLine("jitter", "JITTER", ("z",), ("y", "x", "dpup")),
-    ActionLine("pause", "PAUSE", ("p",), ("start",)),
+    ActionLine("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
+    ActionLine("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
+    ActionLine("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
     ActionLine("new_board", "NEW BOARD", ("r",)),
     ActionLine("mute", "MUTE", ("m",)),
     ActionLine("help", "HELP", ("f1",)),
@@ -57,7 +72,7 @@ ACTIONS = (
     ActionLine("slower", "SLOWER", (",",)),
     ActionLine("faster", "FASTER", (".",)),
     ActionLine("single_tick", "SINGLE TICK", ("n",)),
-    ActionLine("back", "BACK", (), ("back",)),
+    ActionLine("back", "BACK", (), ("back",), joystick=("button 9",)),
 )
 """All actions that can be given other keys. Esc is always "back" and is not among them."""
 
@@ -70,6 +85,8 @@ _SHORT = {
     "right shift": "R SHIFT",
     ",": "COMMA",
     ".": "PERIOD",
+    ";": "SEMICOLON",
+    ":": "COLON",
     "left ctrl": "L CTRL",
     "right ctrl": "R CTRL",
     "left alt": "L ALT",
@@ -87,75 +104,95 @@ _SHORT = {
 }
 
 
-def shown(name: str) -> str:
-    """A key or gamepad button as the display writes it."""
-    return _SHORT.get(name, name.upper())
+def shown(name: str, labels: Mapping[str, str] = MappingProxyType({})) -> str:
+    """A key or button as the display writes it.
+
+    Args:
+        name: Its name.
+        labels: What stands on keys on the layout in use, where it is not their name.
+    """
+    label = labels.get(name, name)
+    return _SHORT.get(label, capital(label))
+
+
+def capital(label: str) -> str:
+    """What stands on a key, in capitals; a letter whose capital would be two, as ß, stays as it is."""
+    return label if len(label.upper()) > len(label) else label.upper()
+
+
+def chosen(settings: Settings, kind: Kind) -> Mapping[str, tuple[str, ...]]:
+    """What a player has chosen, by action."""
+    if kind == "keys":
+        return settings.keys
+    return settings.pad if kind == "pad" else settings.joysticks.get(kind, {})
+
+
+def with_chosen(settings: Settings, kind: Kind, names: Mapping[str, tuple[str, ...]]) -> Settings:
+    """The settings with this choice instead; without any names, as it was at first."""
+    if kind in ("keys", "pad"):
+        return settings.changed(**{kind: dict(names)})
+    others = {guid: its for guid, its in settings.joysticks.items() if guid != kind}
+    return settings.changed(joysticks=others | ({kind: dict(names)} if names else {}))
 
 
 def keys_of(settings: Settings, line: ActionLine) -> tuple[str, ...]:
     """The keys of an action."""
-    return settings.keys.get(line.action, line.keys)
+    return names_of(settings, line, "keys")
 
 
 def pad_of(settings: Settings, line: ActionLine) -> tuple[str, ...]:
     """The gamepad buttons of an action."""
-    return settings.pad.get(line.action, line.pad)
+    return names_of(settings, line, "pad")
 
 
 def names_of(settings: Settings, line: ActionLine, kind: Kind) -> tuple[str, ...]:
-    """The keys or the gamepad buttons of an action."""
-    return keys_of(settings, line) if kind == "keys" else pad_of(settings, line)
+    """The keys or the buttons of an action."""
+    return chosen(settings, kind).get(line.action, line.defaults(kind))
 
 
 def action_by_key(settings: Settings, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
     """What every key does: actions by names of keys."""
-    return _by_name(actions, settings.keys, lambda line: line.keys)
+    return action_by_name(settings, "keys", actions)
 
 
 def action_by_pad(settings: Settings, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
     """What every gamepad button does: actions by names of buttons."""
-    return _by_name(actions, settings.pad, lambda line: line.pad)
+    return action_by_name(settings, "pad", actions)
+
+
+def action_by_name(settings: Settings, kind: Kind, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
+    """What every key or button does: actions by their names."""
+    by_name: dict[str, str] = {}
+    mine = chosen(settings, kind)
+    # What a player chose counts more than a default, whichever stands first.
+    for line in sorted(actions, key=lambda line: line.action not in mine):
+        for name in names_of(settings, line, kind):
+            by_name.setdefault(name, line.action)
+    return by_name
 
 
 def owner(settings: Settings, actions: Sequence[ActionLine], kind: Kind, name: str) -> ActionLine | None:
-    """The action to which a key or gamepad button belongs; None if it is free."""
-    found = action_by_key(settings, actions) if kind == "keys" else action_by_pad(settings, actions)
+    """The action to which a key or button belongs; None if it is free."""
+    found = action_by_name(settings, kind, actions)
     return next((line for line in actions if line.action == found.get(name)), None)
 
 
 def assigned(
     settings: Settings, actions: Sequence[ActionLine], kind: Kind, action: str, names: Sequence[str]
 ) -> Settings:
-    """The settings in which an action has these keys or gamepad buttons, and no other action has any of them.
+    """The settings in which an action has these keys or buttons, and no other action has any of them.
 
     Args:
         settings: As they are.
         actions: All actions.
-        kind: Whether keys or gamepad buttons are meant.
+        kind: Whose names are meant.
         action: The name of the action.
         names: What it gets.
     """
-    chosen: dict[str, tuple[str, ...]] = {}
+    differing: dict[str, tuple[str, ...]] = {}
     for line in actions:
         kept = names_of(settings, line, kind)
         mine = tuple(names) if line.action == action else tuple(n for n in kept if n not in names)
         if mine != line.defaults(kind):
-            chosen[line.action] = mine
-    return settings.changed(**{kind: chosen})
-
-
-def _by_name(
-    actions: Sequence[ActionLine],
-    chosen: Mapping[str, tuple[str, ...]],
-    defaults: Callable[[ActionLine], tuple[str, ...]],
-) -> dict[str, str]:
-    by_name: dict[str, str] = {}
-    # What a player chose counts more than a default, whichever stands first.
-    for line in actions:
-        for name in chosen.get(line.action, ()):
-            by_name.setdefault(name, line.action)
-    for line in actions:
-        if line.action not in chosen:
-            for name in defaults(line):
-                by_name.setdefault(name, line.action)
-    return by_name
+            differing[line.action] = mine
+    return with_chosen(settings, kind, differing)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from silverball.app.menus import layout
-from silverball.app.menus.actions import keys_of, shown
+from silverball.app.menus.actions import keys_of
 from silverball.app.menus.board import MODES
 from silverball.app.menus.commands import Attract, Button, Command
 from silverball.app.menus.desk import Desk, Page
@@ -24,6 +24,7 @@ class AttractPage(Page):
 
     name = "attract"
     repeats = False
+    quiet = False
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Somebody is there."""
@@ -117,7 +118,7 @@ def _tips(desk: Desk) -> list[tuple[str, str]]:
     for line in desk.actions:
         keys = keys_of(desk.settings, line)
         if keys and line.action in ("left", "right", "create", "jitter", "help"):
-            tips.append((line.label, "  ".join(shown(key) for key in keys[:2])))
+            tips.append((line.label, "  ".join(desk.shown(key) for key in keys[:2])))
     return tips
 
 

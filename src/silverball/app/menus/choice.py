@@ -53,12 +53,16 @@ class Item(NamedTuple):
         hint: What it is or does.
         choose: What Space does; it may open or leave pages.
         value: The setting that Space lets the paddles change.
+        key: What tells it from others on a page to which items come while it is open.
+        does: What Space does, in a word.
     """
 
     label: str
     hint: str = ""
     choose: Callable[[], Command | None] | None = None
     value: Value | None = None
+    key: str = ""
+    does: str = "CHOOSE"
 
 
 class ChoicePage(Page):
@@ -70,7 +74,7 @@ class ChoicePage(Page):
         items: What can be chosen now; asked anew whenever it is needed, since settings change.
         start: The item that is shown first.
         back: What "back" does instead of showing the page below.
-        quiet: Whether the program may begin to play by itself while this page is open.
+        quiet: Whether the program may play by itself while this page, or one opened from it, is open.
     """
 
     def __init__(
@@ -85,6 +89,7 @@ class ChoicePage(Page):
         self.name = name
         self.quiet = quiet
         self.index = start
+        self._key: str | None = None  # of the item that is shown, None before any was
         self._title = title
         self._items = items
         self._back = back
@@ -95,8 +100,7 @@ class ChoicePage(Page):
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Turn, choose, or go back."""
-        items = self._items()
-        self.index = min(self.index, len(items) - 1)
+        items = self._listed()
         if self._is_editing:
             value = items[self.index].value
             if value is not None:
@@ -107,14 +111,15 @@ class ChoicePage(Page):
             return self._choose(items[self.index], desk)
         step = -1 if button is Button.LEFT else 1
         self.index = (self.index + step) % len(items)
+        self._key = items[self.index].key
         self.shown_at, self._moved_at, self._direction = desk.now, desk.now, step
         return None
 
     def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
         """The title, the item, and what there is to say about it."""
         dots = Dots()
-        items = self._items()
-        index = min(self.index, len(items) - 1)
+        items = self._listed()
+        index = self.index
         item = items[index]
         since = seconds - self.shown_at
         heading = self._title if isinstance(self._title, str) else self._title()
@@ -136,8 +141,18 @@ class ChoicePage(Page):
     def _help(self, item: Item, desk: Desk) -> tuple[str, ...]:
         key = desk.key("create")
         if item.value is None:
-            return (item.hint, "" if item.choose is None else f"{key}: CHOOSE   ◄ ►: NEXT")
+            return (item.hint, "" if item.choose is None else f"{key}: {item.does}   ◄ ►: NEXT")
         return f"IS {item.value.shown[item.value.place(desk)]} – {key}: CHANGE", item.hint
+
+    def _listed(self) -> Sequence[Item]:
+        """The items; the one that was shown stays shown where others have come or gone before it."""
+        items = self._items()
+        self.index = min(self.index, len(items) - 1)
+        if self._key != items[self.index].key:
+            keys = [item.key for item in items]
+            self.index = keys.index(self._key) if self._key is not None and self._key in keys else self.index
+        self._key = items[self.index].key
+        return items
 
     def _choose(self, item: Item, desk: Desk) -> Command | None:
         if item.value is not None:

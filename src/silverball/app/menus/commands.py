@@ -73,6 +73,30 @@ class Change:
 
 
 @dataclass(frozen=True)
+class SeeBoard:
+    """Show the board of the chosen table that a seed makes.
+
+    Attributes:
+        seed: None: another one.
+    """
+
+    seed: int | None
+
+
+@dataclass(frozen=True)
+class TellTrouble:
+    """Tell why a table cannot be played.
+
+    Attributes:
+        table: As in the settings: a path.
+        problem: The first reason.
+    """
+
+    table: str
+    problem: str
+
+
+@dataclass(frozen=True)
 class Quit:
     """End the program."""
 
@@ -89,7 +113,7 @@ class Restart:
 
 @dataclass(frozen=True)
 class EndGame:
-    """Give the paused game up. The main menu is open."""
+    """Give the paused game up, or put the one away that is over. The main menu is open."""
 
 
 @dataclass(frozen=True)
@@ -145,6 +169,8 @@ Command: TypeAlias = (
     | WatchScore
     | WatchMachine
     | Change
+    | SeeBoard
+    | TellTrouble
     | Quit
     | Resume
     | Restart

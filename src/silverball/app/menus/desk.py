@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from silverball.app.menus import layout
@@ -26,12 +26,14 @@ class TableEntry(NamedTuple):
         title: What the player reads.
         about: A few words more.
         is_random: Whether every seed makes another board of it.
+        problem: Why it cannot be played; empty if it can.
     """
 
     name: str
     title: str
     about: str = ""
     is_random: bool = False
+    problem: str = ""
 
 
 class ScoreRow(NamedTuple):
@@ -50,6 +52,20 @@ class ScoreRow(NamedTuple):
     key: str = ""
 
 
+class JoystickEntry(NamedTuple):
+    """A joystick that is plugged in.
+
+    Attributes:
+        guid: What its maker tells it by; its buttons are kept under it.
+        title: What the player reads.
+        buttons: How many it has.
+    """
+
+    guid: str
+    title: str
+    buttons: int
+
+
 class Page(ABC):
     """One page: it answers buttons and draws itself."""
 
@@ -57,7 +73,10 @@ class Page(ABC):
     repeats = True
     """Whether a paddle button that is held counts again and again."""
     quiet = True
-    """Whether the program may begin to play by itself when nobody touches anything."""
+    """Whether the program may begin to play by itself when nobody touches anything; where not, then neither
+    on the pages that are opened from here."""
+    extra_patience = 0.0
+    """How much longer than elsewhere that takes [s]."""
     shown_at = 0.0
     """Since when it is shown as it is [s]: texts begin to scroll then."""
 
@@ -91,7 +110,10 @@ class Desk:
         last_seed: Of the board that was played last; None if there was none.
         has_last_game: Whether there is a last game to watch.
         performer: Who plays while the program plays by itself; None if it has not done so yet.
+        joysticks: Those that are plugged in.
+        labels: What stands on keys on the layout in use, by their names, where it is something else.
         now: The time of the last tick [s].
+        idle: How long nobody has touched anything by then [s].
         pages: The open pages, the visible one last; none while the game runs.
     """
 
@@ -112,7 +134,9 @@ class Desk:
         self.last_seed: int | None = None
         self.has_last_game = False
         self.performer: Performer | None = None
-        self.now = 0.0
+        self.joysticks: Sequence[JoystickEntry] = ()
+        self.labels: Mapping[str, str] = {}
+        self.now = self.idle = 0.0
         self.pages: list[Page] = []
         self._message = ("", 0.0)
         self._left: list[Page] = []  # the pages that were open when a replay began
@@ -175,8 +199,12 @@ class Desk:
         """The first key of an action as the display writes it."""
         for line in self.actions:
             if line.action == action and keys_of(self.settings, line):
-                return shown(keys_of(self.settings, line)[0])
+                return self.shown(keys_of(self.settings, line)[0])
         return "?"
+
+    def shown(self, name: str) -> str:
+        """A key or button as the display writes it."""
+        return shown(name, self.labels)
 
     def boards(self) -> list[tuple[TableEntry, Mode, Sequence[ScoreRow]]]:
         """All score tables that have scores, that of the chosen table and game first."""

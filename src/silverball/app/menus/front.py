@@ -4,13 +4,25 @@ from __future__ import annotations
 
 from silverball.app.menus.board import ScoresPage
 from silverball.app.menus.choice import ChoicePage, Item, Value
-from silverball.app.menus.commands import Change, Command, Play, Quit, WatchLast, WatchMachine, WatchScore
+from silverball.app.menus.commands import (
+    Change,
+    Command,
+    Play,
+    Quit,
+    SeeBoard,
+    TellTrouble,
+    WatchLast,
+    WatchMachine,
+    WatchScore,
+)
 from silverball.app.menus.desk import Desk, TableEntry
 from silverball.app.menus.letters import LettersPage
 from silverball.app.menus.remap import remap_page
 from silverball.app.performers import PERFORMERS
 
 SEED_DIGITS = 9
+BROKEN = "!"  # before the name of a table that cannot be played
+SHOWN_OF_TROUBLE = 120  # letters of a problem that scroll by; choosing the table tells all of it
 
 MODE = Value(
     "mode",
@@ -28,11 +40,11 @@ def main_page(desk: Desk) -> ChoicePage:
         return Play(desk.mode(), desk.settings.table, desk.seed if desk.table().is_random else None)
 
     def items() -> list[Item]:
-        entry = desk.table()
+        title = _title(desk.table())
         return [
-            Item("PLAY", f"{MODE.shown[MODE.place(desk)]} · {entry.title.upper()}", play),
+            Item("PLAY", f"{MODE.shown[MODE.place(desk)]} · {title}", play),
             Item("MODE", MODE.hints[MODE.place(desk)], value=MODE),
-            Item("TABLE", f"IS {entry.title.upper()}", lambda: desk.open(table_page(desk))),
+            Item("TABLE", f"IS {title}", lambda: desk.open(table_page(desk))),
             Item("WATCH", "GAMES PLAYED BY YOU OR BY ME", lambda: desk.open(watch_page(desk))),
             Item("SCORES", "THE BEST OF EVERY TABLE", lambda: desk.open(ScoresPage())),
             Item("SETTINGS", "COLOURS, SOUND, KEYS", lambda: desk.open(settings_page(desk))),
@@ -59,14 +71,19 @@ def table_page(desk: Desk) -> ChoicePage:
         return desk.change(table=entry.name)
 
     def table_item(entry: TableEntry) -> Item:
+        if entry.problem:
+            hint = f"CANNOT BE PLAYED: {entry.problem[:SHOWN_OF_TROUBLE].upper()}"
+            tell = TellTrouble(entry.name, entry.problem)
+            return Item(_title(entry), hint, lambda: tell, key=entry.name, does="SAY MORE")
         hint = "THIS ONE IS CHOSEN" if entry.name == desk.settings.table else entry.about.upper()
-        return Item(entry.title.upper(), hint, lambda: take(entry))
+        return Item(_title(entry), hint, lambda: take(entry), key=entry.name)
 
     def items() -> list[Item]:
         listed = [table_item(entry) for entry in desk.tables]
         if any(entry.is_random for entry in desk.tables):
-            listed.append(Item("BOARD SEED", _seed_text(desk), lambda: desk.open(seed_page(desk))))
-        return [*listed, _back_item(desk)]
+            seed = Item("BOARD SEED", _seed_text(desk), lambda: desk.open(seed_page(desk)), key="seed")
+            listed.append(seed)
+        return [*listed, _back_item(desk)._replace(key="back")]
 
     names = [entry.name for entry in desk.tables]
     start = names.index(desk.settings.table) if desk.settings.table in names else 0
@@ -76,16 +93,17 @@ def table_page(desk: Desk) -> ChoicePage:
 def seed_page(desk: Desk) -> ChoicePage:
     """Which board a random table makes."""
 
-    def take(seed: int | None) -> None:
+    def take(seed: int | None) -> Command | None:
         desk.seed = seed
         desk.back()
+        return SeeBoard(seed) if desk.table().is_random else None
 
     def enter() -> None:
         desk.open(LettersPage("seed", "BOARD SEED", "0123456789", SEED_DIGITS, entered, least=1))
 
-    def entered(text: str) -> None:
+    def entered(text: str) -> Command | None:
         desk.back()
-        take(int(text))
+        return take(int(text))
 
     def items() -> list[Item]:
         listed = [Item("NEW", "ANOTHER BOARD EVERY GAME", lambda: take(None))]
@@ -182,6 +200,12 @@ def settings_page(desk: Desk) -> ChoicePage:
         ]
 
     return ChoicePage("settings", "SETTINGS", items)
+
+
+def _title(entry: TableEntry) -> str:
+    """A table as the display names it."""
+    title = entry.title.upper()
+    return f"{BROKEN} {title}" if entry.problem else title
 
 
 def _back_item(desk: Desk) -> Item:

@@ -58,9 +58,10 @@ def over_page(desk: Desk, score: int) -> ChoicePage:
         saved = True
         return SaveReplay()
 
-    def menu() -> None:
+    def menu() -> Command:
         desk.close()
         desk.open(main_page(desk))
+        return EndGame()
 
     def items() -> list[Item]:
         return [

@@ -1,13 +1,17 @@
-"""How are initials and numbers entered with three buttons? The paddles turn a letter, Space takes it.
+"""How are initials and numbers entered? The paddles turn a letter and Space takes it, or a keyboard types it.
 
-Behind the last letter stands END; "◄" among the letters deletes one.
+Behind the last letter stands END; "◄" among the letters deletes one. Keys that are paddle buttons and bear a
+letter, A and D, turn letters until any other letter has been typed, or backspace pressed; then they are
+letters like all others, until a button that bears none (an arrow, Shift, a gamepad's) turns again.
 """
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Callable, Hashable
 
 from silverball.app.menus import layout
+from silverball.app.menus.actions import keys_of
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.desk import Desk, Page
 from silverball.drawing.dotfonts import BOLD, NORMAL
@@ -15,6 +19,9 @@ from silverball.drawing.dots import FULL, WIDTH, Dots
 
 DELETE, END = "◄", "END"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.- "
+BACKSPACE = "backspace"
+SIGN_PATIENCE = 25.0  # [s] without a touch after which a score is signed as offered
+HELP_TURN = 2.5  # [s] after which the help says the next thing
 LARGE_MOST = 3  # letters that are written twice as large, the help beside them
 HELP_X, END_WIDTH = 68, 29  # [dot] where it may begin then, and how much of it END takes
 
@@ -31,8 +38,6 @@ class LettersPage(Page):
         least: How many there must be.
         start: Offered to begin with, letter by letter.
     """
-
-    quiet = False
 
     def __init__(
         self,
@@ -53,6 +58,7 @@ class LettersPage(Page):
         self._offered = start
         self.text = ""
         self._turn = 0
+        self._is_typed = False  # whether keys that are paddle buttons too are letters
         self._offer()
 
     @property
@@ -64,6 +70,12 @@ class LettersPage(Page):
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Turn the letter, take it, or take the last one back."""
+        if self._is_typed and button is Button.START:
+            text = self._completed()
+            return self._done(text) if len(text) >= self._least else None
+        if self._is_typed:
+            self._is_typed = False
+            self._offer()
         choice = self.choices[self._turn]
         if button is Button.LEFT:
             self._turn = (self._turn - 1) % len(self.choices)
@@ -78,17 +90,40 @@ class LettersPage(Page):
             self._offer()
         return None
 
+    def type(self, written: str, key: str, desk: Desk, *, is_button: bool) -> bool:
+        """A key was pressed; whether it was meant for the text.
+
+        Args:
+            written: What the key writes; empty if that is not known.
+            key: The name of the key.
+            desk: Is told if this cannot be entered here.
+            is_button: Whether it is a button of the menus as well.
+        """
+        if key == BACKSPACE:
+            self.text = self.text[:-1]
+        elif " " in (written, key) or key == "space" or (is_button and not self._is_typed):
+            return False
+        elif letter := _typed(written, key, self._letters):
+            self.text = (self.text + letter)[: self._most]
+        elif written.isprintable() and written:
+            desk.say("ONLY DIGITS" if self._letters.isdigit() else "ONLY LETTERS, DIGITS, . AND -")
+            return True
+        else:
+            return False
+        self._is_typed = True
+        self._turn = 0
+        return True
+
     def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
         """The text so far, the letter that turns, and what the buttons do."""
         dots = Dots()
         layout.title(dots, self._title, seconds=seconds)
-        choice = self.choices[self._turn]
-        does = {END: "DONE", DELETE: "DELETE"}.get(choice, "TAKE")
-        help_ = ("◄ ►: TURN", f"{desk.key('create')}: {does}")
+        help_ = self._help(desk, seconds)
         if self._most <= LARGE_MOST:
             self._draw_places(dots, 4, 8, 2, seconds)
+            ends = not self._is_typed and self.choices[self._turn] == END
             for line, y in zip(help_, (11, 22), strict=True):
-                room = WIDTH - HELP_X - (END_WIDTH if choice == END else 0)
+                room = WIDTH - HELP_X - (END_WIDTH if ends else 0)
                 left = WIDTH - min(NORMAL.width(line), room)
                 layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
         else:
@@ -96,17 +131,27 @@ class LettersPage(Page):
             layout.foot(dots, ("   ".join(help_),), seconds)
         return dots
 
+    def _help(self, desk: Desk, seconds: float) -> tuple[str, str]:
+        """What the buttons do, and in turn what the keys of a keyboard do."""
+        start = desk.key("create")
+        is_first = seconds % (2 * HELP_TURN) < HELP_TURN
+        if self._is_typed:
+            return ("TYPE ON", f"{start}: DONE") if is_first else ("◄ ►: TURN", "BACKSP.: DEL")
+        does = {END: "DONE", DELETE: "DELETE"}.get(self.choices[self._turn], "TAKE")
+        return (_turning_keys(desk), f"{start}: {does}") if is_first else ("ALL OTHER", "KEYS: TYPE")
+
     def _draw_places(self, dots: Dots, left: int, y: int, scale: int, seconds: float) -> None:
         """A place for every letter, each underlined, and END behind them."""
-        choice = self.choices[self._turn]
+        choice = "" if self._is_typed else self.choices[self._turn]
         count, step = len(self.text), scale * 9 + 2
         for place in range(self._most):
             x = left + place * step
             here = choice if place == count and choice not in (END, DELETE) else ""
             letter = self.text[place] if place < count else here
-            light = FULL if here or choice == END else layout.HALF
+            light = FULL if here or choice == END or self._is_typed else layout.HALF
             dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
-            dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else layout.HALF)
+            if place != count or not self._is_typed or layout.blinks(seconds):
+                dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else layout.HALF)
         if choice == END and layout.blinks(seconds):
             dots.text(END, left + count * step + 2, y + 11 * scale - 11, BOLD)
         if choice == DELETE and layout.blinks(seconds):
@@ -115,7 +160,11 @@ class LettersPage(Page):
 
     def signature(self) -> Hashable:
         """How many letters there are, and which one turns."""
-        return len(self.text), self._turn
+        return len(self.text), self._turn, self._is_typed
+
+    def _completed(self) -> str:
+        """The text as it is to be taken if nothing more comes."""
+        return self.text
 
     def _delete(self, desk: Desk) -> Command | None:
         if not self.text:
@@ -137,7 +186,7 @@ class LettersPage(Page):
 
 
 class InitialsPage(LettersPage):
-    """Whose score is it?
+    """Whose score is it? Where nobody says so, it is signed as offered.
 
     Args:
         score: The score.
@@ -146,9 +195,37 @@ class InitialsPage(LettersPage):
         done: What to do with the initials.
     """
 
+    quiet = False  # the score is signed first, then the program may play
+
     def __init__(self, score: int, rank: int, start: str, done: Callable[[str], Command | None]) -> None:
         super().__init__("initials", f"NO. {rank} WITH {score:,}", LETTERS, 3, done, start=start)
 
     def _give_up(self, desk: Desk) -> Command | None:
         # A score is never lost: who leaves at once gets the initials of last time.
         return self._done(self._offered)
+
+    def tick(self, desk: Desk) -> Command | None:
+        """Whoever made the score may have gone; the next one must not sign it."""
+        return self._done(self._completed()) if desk.idle >= SIGN_PATIENCE else None
+
+    def _completed(self) -> str:
+        if self._is_typed and self.text:
+            return self.text.ljust(self._most)
+        return self.text + self._offered[len(self.text) :]
+
+
+def _typed(written: str, key: str, letters: str) -> str:
+    """The letter that a key means: what it writes, without accents, else what it is called; empty if none."""
+    for text in (written, key.removeprefix("[").removesuffix("]")):  # in brackets those of the number pad
+        if len(text) == 1:
+            letter = unicodedata.normalize("NFKD", text).upper()[:1]
+            if letter in letters:
+                return letter
+    return ""
+
+
+def _turning_keys(desk: Desk) -> str:
+    """Which buttons turn, those that bear letters named."""
+    sides = [line for line in desk.actions if line.action in ("left", "right")]
+    letters = [desk.shown(key) for line in sides for key in keys_of(desk.settings, line) if len(key) == 1]
+    return " ".join([*letters[:2], "◄ ►: TURN"])

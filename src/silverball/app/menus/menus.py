@@ -10,16 +10,16 @@ No clock, no window and no keyboard in here: the same presses at the same times 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 
 from silverball.app.menus import layout
-from silverball.app.menus.actions import ACTIONS, ActionLine
+from silverball.app.menus.actions import ACTIONS, ActionLine, Kind
 from silverball.app.menus.attract import AttractPage
 from silverball.app.menus.commands import Attract, Button, Command, EndReplay, Initials
-from silverball.app.menus.desk import Desk, ScoreRow, TableEntry
+from silverball.app.menus.desk import Desk, JoystickEntry, ScoreRow, TableEntry
 from silverball.app.menus.front import main_page
 from silverball.app.menus.gamepages import over_page, pause_page
-from silverball.app.menus.letters import InitialsPage
+from silverball.app.menus.letters import InitialsPage, LettersPage
 from silverball.app.menus.remap import CapturePage
 from silverball.app.menus.transport import ReplayFace, TransportPage
 from silverball.app.performers import Performer
@@ -30,6 +30,7 @@ from silverball.game.news import Mode
 
 REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it counts again
 REPEAT_EVERY = 0.09  # [s]
+HURRY_AFTER, HURRY_EVERY = 4.0, 0.03  # [s] who holds it for so long has a long way to go
 BACK_AFTER = 1.0  # [s] for which both paddle buttons are held to go back
 IDLE = 30.0  # [s] without a button, after which the program plays by itself
 
@@ -67,6 +68,11 @@ class Menus:
         return self._desk.settings
 
     @property
+    def seed(self) -> int | None:
+        """The seed that was chosen for random boards; None: another one for every game."""
+        return self._desk.seed
+
+    @property
     def is_open(self) -> bool:
         """Whether a page is shown; else the buttons are the game's."""
         return bool(self._desk.pages)
@@ -83,8 +89,13 @@ class Menus:
 
     @property
     def wants_pad(self) -> bool:
-        """Whether the next gamepad button belongs to `capture`."""
+        """Whether the next button of a gamepad or joystick belongs to `capture`."""
         return self._wants("pad")
+
+    @property
+    def wants_text(self) -> bool:
+        """Whether keys that bear letters are for `type`."""
+        return bool(self._desk.pages) and isinstance(self._desk.pages[-1], LettersPage)
 
     @property
     def signature(self) -> Hashable:
@@ -113,12 +124,32 @@ class Menus:
         self._down.clear()
         self._is_spent = False
 
-    def capture(self, name: str) -> Command | None:
-        """The key or gamepad button that was asked for, as pygame or SDL names it."""
+    def capture(self, name: str, kind: Kind | None = None) -> Command | None:
+        """The key or button that was asked for.
+
+        Args:
+            name: Its name.
+            kind: Whose name that is; None: of what was asked for.
+        """
         desk = self._desk
         self._touched = desk.now
         page = desk.pages[-1] if desk.pages else None
-        return page.capture(desk, name) if isinstance(page, CapturePage) else None
+        return page.capture(desk, name, kind or page.kind) if isinstance(page, CapturePage) else None
+
+    def type(self, written: str, key: str, *, is_button: bool) -> bool:
+        """A key was pressed while a text is entered; whether it was meant for that.
+
+        Args:
+            written: What the key writes; empty if that is not known.
+            key: The name of the key.
+            is_button: Whether it is a button of the menus as well.
+        """
+        desk = self._desk
+        page = desk.pages[-1] if desk.pages else None
+        if not isinstance(page, LettersPage) or not page.type(written, key, desk, is_button=is_button):
+            return False
+        self._touched = desk.now
+        return True
 
     def tick(self, seconds: float) -> Command | None:
         """Time has gone on: held buttons count again, and pages end by themselves.
@@ -132,14 +163,16 @@ class Menus:
             self._touched = desk.now
         if not desk.pages:
             return None
+        if self._down:
+            self._touched = desk.now
+        desk.idle = desk.now - self._touched
         page = desk.pages[-1]
         command = page.tick(desk)
         if command is not None or not desk.pages:
             return command
         if self._down:
-            self._touched = desk.now
             return self._held()
-        if page.quiet and page.name != "attract" and desk.now - self._touched >= IDLE:
+        if all(one.quiet for one in desk.pages) and desk.idle >= IDLE + page.extra_patience:
             return self.open_attract()
         return None
 
@@ -236,6 +269,8 @@ class Menus:
         last_seed: int | None = None,
         has_last_game: bool | None = None,
         performer: Performer | None = None,
+        joysticks: Sequence[JoystickEntry] | None = None,
+        labels: Mapping[str, str] | None = None,
     ) -> None:
         """Learn what has changed; what is None stays.
 
@@ -244,6 +279,8 @@ class Menus:
             last_seed: Of the board that is being played.
             has_last_game: Whether there is a last game to watch.
             performer: Who plays while the program plays by itself.
+            joysticks: Those that are plugged in.
+            labels: What stands on keys on the layout in use, by their names, where it is something else.
         """
         if tables is not None:
             self._desk.tables = tables
@@ -253,6 +290,14 @@ class Menus:
             self._desk.has_last_game = has_last_game
         if performer is not None:
             self._desk.performer = performer
+        if joysticks is not None:
+            self._desk.joysticks = joysticks
+        if labels is not None:
+            self._desk.labels = labels
+
+    def key(self, action: str) -> str:
+        """The first key of an action as the display writes it."""
+        return self._desk.key(action)
 
     def _wants(self, kind: str) -> bool:
         page = self._desk.pages[-1] if self._desk.pages else None
@@ -276,5 +321,6 @@ class Menus:
             return None
         if self._is_spent or not self._desk.pages[-1].repeats or now < self._next:
             return None
-        self._next = max(self._next + REPEAT_EVERY, now)
+        every = REPEAT_EVERY if now - max(self._down.values()) < HURRY_AFTER else HURRY_EVERY
+        self._next = max(self._next + every, now)
         return self._pass_on(next(iter(self._down)))

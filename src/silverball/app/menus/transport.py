@@ -19,6 +19,7 @@ from silverball.drawing.dotfonts import NORMAL
 from silverball.drawing.dots import WIDTH, Dots
 
 JUMP = 5.0  # [s]
+STUDY = 270.0  # [s] for which a replay may be held beyond what other pages wait
 HELP_TIME = 3.0  # [s] for which the help stands
 SPEEDS = {0.25: "1/4×", 0.5: "1/2×"}  # as glyphs they would be too small to read
 
@@ -49,11 +50,20 @@ class TransportPage(Page):
     """
 
     name = "transport"
-    quiet = False
     repeats = True
 
     def __init__(self, face: ReplayFace) -> None:
         self.face = face
+
+    @property
+    def quiet(self) -> bool:  # type: ignore[override]
+        """Not while the replay goes on: somebody looks on."""
+        return self.face.paused or self._is_over()
+
+    @property
+    def extra_patience(self) -> float:  # type: ignore[override]
+        """A replay that is held is being studied."""
+        return 0.0 if self._is_over() else STUDY
 
     def press(self, button: Button, desk: Desk) -> Command | None:
         """Ask the window for what the button means; it alone knows the replay."""

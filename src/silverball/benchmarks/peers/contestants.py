@@ -87,7 +87,7 @@ def present_peers() -> list[Engine]:
     """
     found = [engine for engine in PEERS if engine.is_installed]
     if not found:
-        raise SilverballError("\n".join(engine.missing for engine in PEERS))
+        raise SilverballError(*(engine.missing for engine in PEERS))
     if util.find_spec("mpmath") is None:
         raise SilverballError(f"mpmath is not installed: pip install 'silverball[{EXTRA}]'")
     return found

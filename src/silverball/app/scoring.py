@@ -1,0 +1,135 @@
+"""How does one score? Sentences with the table's own numbers, for the second page of the help."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
+
+from silverball.game import tilt
+from silverball.game.news import Mode
+from silverball.table import Arcade, Table
+
+KINDS = ("cylinder", "triangular prism", "slant wall", "paddle")
+TIMES = {1: "once", 2: "twice"}
+MOST_SHOVES = 1002  # one more than the greatest limit of a table
+
+
+class Rule(NamedTuple):
+    """One thing to know.
+
+    Attributes:
+        title: In a word or two.
+        text: As a sentence.
+    """
+
+    title: str
+    text: str
+
+
+def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
+    """What a player should know about points, in the order of use.
+
+    Args:
+        table: A finished table.
+        mode: Which game is played on it.
+        shove_key: What shoves the table, as it is to be written; empty if no key does.
+    """
+    hits = Rule("Hits", _hits(table))
+    most = table.board.max_balls
+    if mode is Mode.FREE:
+        balls = "one at a time" if most == 1 else f"at most {most} at a time"
+        more = "Shoves cost nothing. Combos, tilt and high scores belong to arcade"
+        return [hits, Rule("Free play", f"As many balls as you like, {balls}. {more}")]
+    arcade = table.arcade
+    rules = [hits, Rule("Combo", _combo(arcade))]
+    if arcade.double > 1 and arcade.balls > 1 and most > 1:
+        text = f"While two balls are on the board every hit counts ×{arcade.double}"
+        rules.append(Rule("Double", f"{text}; the second ball is one of your {arcade.balls}"))
+    balls = "One ball" if arcade.balls == 1 else f"{arcade.balls} balls"
+    return [
+        *rules,
+        Rule("Ball save", _ball_save(arcade)),
+        Rule("Tilt", _tilt(arcade, shove_key)),
+        Rule("Game", f"{balls}. The ten best scores of a table are kept, with their replays"),
+    ]
+
+
+def _hits(table: Table) -> str:
+    points = (
+        [part.points for part in table.cylinder],
+        [part.points for part in table.triangular_prism],
+        [part.points for part in table.slant_wall],
+        [part.points for part in table.paddle],
+    )
+    worth = [
+        f"{kind} {_range(some)}"
+        for kind, all_ in zip(KINDS, points, strict=True)
+        if (some := [*filter(None, all_)])
+    ]
+    if not worth:
+        return "Nothing on this table gives points"
+    words = _listed(worth)
+    return f"{words[0].upper()}{words[1:]} points. A gentle touch is no hit"
+
+
+def _range(values: Collection[int]) -> str:
+    least, most = min(values), max(values)
+    return f"{least:,}" if least == most else f"{least:,} to {most:,}"
+
+
+def _combo(arcade: Arcade) -> str:
+    if not arcade.combo_window:
+        return "Hits in a row count no more than single ones here"
+    within = f"Hits at most {arcade.combo_window:g} s apart make a combo"
+    if arcade.combo_limit == 1:
+        return f"{within}, which is counted but pays nothing here"
+    second = f"from the {_ordinal(arcade.combo_step + 1)} hit on they count ×2"
+    if arcade.combo_limit == 2:
+        return f"{within}: {second}"
+    third = f"from the {_ordinal(2 * arcade.combo_step + 1)} on ×3"
+    more = f", up to ×{arcade.combo_limit}" if arcade.combo_limit > 3 else ""
+    return f"{within}: {second}, {third}{more}"
+
+
+def _ball_save(arcade: Arcade) -> str:
+    if not arcade.ball_save or not arcade.ball_saves:
+        return "None: a ball that is lost is lost"
+    times = TIMES.get(arcade.ball_saves, f"{arcade.ball_saves} times")
+    return f"A ball lost within {arcade.ball_save:g} s of its start comes back, {times}"
+
+
+def _tilt(arcade: Arcade, shove_key: str) -> str:
+    shove = f"{shove_key} shoves the balls" if shove_key else "A shove moves the balls"
+    warns, tilts = quick_shoves(arcade)
+    if warns is None:
+        words = f"the {_ordinal(tilts)} of quick ones tilts"
+    else:
+        words = f"the {_ordinal(warns)} of quick ones warns, the {_ordinal(tilts)} tilts"
+        if arcade.warnings:
+            warnings = "1 warning" if arcade.warnings == 1 else f"{arcade.warnings} warnings"
+            words += f", and so does one too many after {warnings}"
+    return f"{shove}; {words}. Then the paddles are dead and nothing scores until the board is empty"
+
+
+def quick_shoves(arcade: Arcade) -> tuple[int | None, int]:
+    """Which of shoves in quick succession is warned of first, None if none is, and which one tilts."""
+    warns: int | None = None
+    warnings = 0
+    for count in range(1, MOST_SHOVES):
+        swing = count * tilt.SHOVE
+        verdict = tilt.judged(swing, warnings, arcade.tilt_warning, arcade.tilt_limit, arcade.warnings)
+        if verdict is tilt.Verdict.TILT:
+            return warns, count
+        if verdict is tilt.Verdict.WARNING:
+            warnings += 1
+            warns = warns or count
+    return warns, MOST_SHOVES
+
+
+def _ordinal(number: int) -> str:
+    ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{ending}"
+
+
+def _listed(words: Sequence[str]) -> str:
+    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else words[0]

@@ -1,0 +1,44 @@
+"""What does an environment say of how it was made? Gymnasium's spec, with its own limit and fit for JSON."""
+
+from __future__ import annotations
+
+import copy
+import enum
+import os
+from typing import Any
+
+import numpy as np
+from gymnasium.envs.registration import EnvSpec
+
+from silverball.table import Table
+
+
+def own_spec(spec: EnvSpec | None, steps: int | None) -> EnvSpec | None:
+    """The spec that Gymnasium gives an environment, with the limit that the environment keeps itself.
+
+    Gymnasium would put a wrapper around it that counts once more, in steps of any length.
+
+    Args:
+        spec: As `gymnasium.make` has filled it in.
+        steps: The steps after which the environment truncates an episode; None: never.
+    """
+    if spec is None:
+        return None
+    own = copy.copy(spec)
+    own.max_episode_steps = steps
+    own.kwargs = {name: _for_json(value) for name, value in spec.kwargs.items()}
+    return own
+
+
+def _for_json(value: Any) -> Any:
+    """An option in the form in which JSON can hold it, and which makes the same environment."""
+    if isinstance(value, Table):
+        keys = value.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
+        return {"format": value.format, "name": value.name, **keys}
+    if isinstance(value, (list, tuple)):
+        return type(value)(_for_json(one) for one in value)
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, enum.Enum):
+        return value.value
+    return os.fspath(value) if isinstance(value, os.PathLike) else value

@@ -1,0 +1,299 @@
+"""Which points does a mesh file hold? The vertices that its faces use, where they stand in the scene.
+
+STL (binary and text), OBJ and GLB (binary glTF 2.0) are read, and of them no more than a footprint needs:
+no colours, no textures, no file beside this one, whatever it names. The size of the file bounds STL and OBJ;
+a GLB can ask for far more than it holds (nodes that show one mesh many times, accessors without data), so
+its vertices are counted before any is made.
+
+Source: Khronos Group, glTF 2.0 specification, sections 3.5 (scenes), 3.6 (accessors) and 4.4 (GLB).
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from array import array
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.table.geometry import Floats
+
+KINDS = ("stl", "obj", "glb")
+POINTS_LIMIT = 1_100_000  # vertices, every instance counted; chosen: those of the largest binary STL
+JSON_LIMIT = 2**20  # [bytes] of a GLB's scene; chosen: a thousand nodes take a tenth of it
+NODES_LIMIT = 10_000  # of a scene, every way to a node counted
+LINES_LIMIT = 2_200_000  # of text; chosen: as many as can say something in 16 MiB ("v 1 1 1", "f 1 2 3")
+LINE_LIMIT = 2**16  # [bytes] of a line of text; chosen: a face of 5,000 corners
+KNOWN = (
+    "KHR_mesh_quantization",
+    "KHR_materials_",
+    "KHR_texture_",
+)  # extensions that are read, or change no shape
+_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])  # 50 bytes
+_TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+
+
+class MeshError(Exception):
+    """A mesh file that cannot be used; the message ends a sentence that begins with the file's name."""
+
+
+def mesh_points(content: bytes, kind: str) -> Floats:
+    """The vertices of a mesh file, shape [vertex, 3]; some may stand there more than once.
+
+    Args:
+        content: The whole file.
+        kind: One of `KINDS`.
+
+    Raises:
+        MeshError: The file is damaged, or asks for too much.
+    """
+    read = {"stl": _stl, "obj": _obj, "glb": _glb}[kind]
+    try:
+        with np.errstate(all="ignore"):  # what is no finite number is refused afterwards
+            return read(content)
+    except (ValueError, OverflowError, struct.error) as error:
+        reason = str(error).split("\n")[0][:80]
+        raise MeshError(f"is damaged or no {kind.upper()} file ({reason})") from error
+    except (
+        TypeError,
+        KeyError,
+        IndexError,
+        AttributeError,
+        RecursionError,
+    ) as error:  # JSON of another shape
+        raise MeshError(
+            f"is damaged or no {kind.upper()} file (its scene is not put together right)"
+        ) from error
+
+
+# --- STL ------------------------------------------------------------------------------------------------
+
+
+def _stl(content: bytes) -> Floats:
+    """Every corner of every triangle."""
+    count = int.from_bytes(content[80:84], "little") if len(content) >= 84 else 0
+    ends = 84 + 50 * count
+    is_text = content.lstrip()[:5].lower() == b"solid" and len(content) != ends
+    if not is_text:
+        if len(content) < max(ends, 84):
+            raise ValueError(f"{len(content):,} bytes are too few for {count:,} triangles")
+        triangles = np.frombuffer(content, _TRIANGLE, count, 84)
+        return triangles["corner"].reshape(-1, 3).astype(np.float64)
+    values = array("d")
+    for line in _lines(content):
+        words = line.split()
+        if words and words[0].lower() == b"vertex":
+            values.extend(_three(words[1:]))
+    return np.array(values).reshape(-1, 3)
+
+
+# --- OBJ ------------------------------------------------------------------------------------------------
+
+
+def _obj(content: bytes) -> Floats:
+    """The vertices that a face, a line or a point uses."""
+    values, used = array("d"), array("q")
+    for line in _lines(content.replace(b"\\\r\n", b" ").replace(b"\\\n", b" ")):
+        words = line.split()
+        if not words:
+            continue
+        if words[0] == b"v":
+            values.extend(_three(words[1:]))
+        elif words[0] in (b"f", b"l", b"p"):
+            count = len(values) // 3
+            for word in words[1:]:
+                number = int(word.partition(b"/")[0])
+                place = number - 1 if number > 0 else count + number  # from the end, if negative
+                if not 0 <= place < count:
+                    raise ValueError(f"a face names vertex {number}, of {count:,} so far")
+                used.append(place)
+    return np.array(values).reshape(-1, 3)[np.unique(np.array(used, dtype=np.int64))]
+
+
+def _lines(content: bytes) -> Iterator[bytes]:
+    """One line after the other; all of them at once would take ten times the file."""
+    text = content if b"\n" in content else content.replace(b"\r", b"\n")
+    count = text.count(b"\n")
+    if count > LINES_LIMIT:
+        raise ValueError(f"{count:,} lines, at most {LINES_LIMIT:,}")
+    for line in io.BytesIO(text):
+        if len(line) > LINE_LIMIT:
+            raise ValueError(f"a line of more than {LINE_LIMIT:,} characters")
+        yield line
+
+
+def _three(words: list[bytes]) -> tuple[float, float, float]:
+    return float(words[0]), float(words[1]), float(words[2])
+
+
+# --- GLB ------------------------------------------------------------------------------------------------
+
+
+def _glb(content: bytes) -> Floats:
+    """The vertices of all meshes of the scene, each where its node stands."""
+    scene, binary = _chunks(content)
+    for extension in scene.get("extensionsRequired", ()):
+        if not str(extension).startswith(KNOWN):
+            raise MeshError(
+                f"needs the extension {str(extension)[:60]!r}, which is not read: export it without"
+            )
+    places = _instances(scene)
+    parts = {mesh: scene["meshes"][mesh]["primitives"] for mesh, _ in places}
+    counts = {mesh: sum(_count(scene, each) for each in primitives) for mesh, primitives in parts.items()}
+    total = sum(counts[mesh] for mesh, _ in places)
+    if total > POINTS_LIMIT:
+        many = f"shows {total:,} vertices in {len(places):,} places"
+        raise MeshError(f"{many}, a mesh has at most {POINTS_LIMIT:,}: simplify it")
+    points = {
+        mesh: np.concatenate([np.empty((0, 3)), *(_used(scene, binary, each) for each in primitives)])
+        for mesh, primitives in parts.items()
+    }
+    found = (points[mesh] @ matrix[:3, :3].T + matrix[:3, 3] for mesh, matrix in places)
+    return np.concatenate([np.empty((0, 3)), *found])
+
+
+def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
+    """The scene, and the binary data that it speaks of."""
+    magic, version, _, length, kind = struct.unpack_from("<4sIIII", content)
+    if magic != b"glTF" or version != 2 or kind != 0x4E4F534A:
+        raise ValueError("it does not begin as binary glTF 2.0 does")
+    if length > JSON_LIMIT:
+        raise MeshError(f"has a scene of {length:,} bytes, at most {JSON_LIMIT:,}: simplify it")
+    scene = json.loads(content[20 : 20 + length])
+    if not isinstance(scene, dict):
+        raise ValueError("it holds no scene")
+    rest = memoryview(content)[20 + length :]
+    if len(rest) < 8:
+        return scene, rest[:0]
+    size, kind = struct.unpack_from("<II", rest)
+    return scene, rest[8 : 8 + size] if kind == 0x004E4942 else rest[:0]
+
+
+def _instances(scene: dict[str, Any]) -> list[tuple[int, Floats]]:
+    """Every mesh that the scene shows, with the matrix of its place, shape [4, 4]."""
+    nodes = scene.get("nodes", [])
+    scenes = scene.get("scenes", [])
+    if scenes:
+        roots = scenes[_index(scene.get("scene", 0), scenes)].get("nodes", [])
+    else:
+        children = {child for node in nodes for child in node.get("children", [])}
+        roots = [number for number in range(len(nodes)) if number not in children]
+    found: list[tuple[int, Floats]] = []
+    open_ = [(_index(root, nodes), np.eye(4), 0) for root in roots]
+    for _ in range(NODES_LIMIT + 1):
+        if not open_:
+            return found
+        number, above, depth = open_.pop()
+        if depth > len(nodes):
+            raise MeshError("has a node that is inside itself: export it anew")
+        node = nodes[number]
+        matrix = above @ _matrix(node)
+        if "mesh" in node:
+            found.append((_index(node["mesh"], scene["meshes"]), matrix))
+        if len(open_) + len(node.get("children", [])) > NODES_LIMIT:
+            break
+        open_ += [(_index(child, nodes), matrix, depth + 1) for child in node.get("children", [])]
+    raise MeshError(f"has a scene of more than {NODES_LIMIT:,} nodes, or one inside itself: simplify it")
+
+
+def _matrix(node: dict[str, Any]) -> Floats:
+    """The place of a node in the one above it: its matrix, or T · R · S."""
+    if "matrix" in node:
+        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+    x, y, z, w = (float(value) for value in node.get("rotation", (0.0, 0.0, 0.0, 1.0)))
+    turn = np.array(
+        [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
+            [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
+            [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
+        ]
+    )
+    matrix = np.eye(4)
+    matrix[:3, :3] = turn * np.array(node.get("scale", (1.0, 1.0, 1.0)), dtype=np.float64)
+    matrix[:3, 3] = node.get("translation", (0.0, 0.0, 0.0))
+    return matrix
+
+
+def _count(scene: dict[str, Any], primitive: dict[str, Any]) -> int:
+    """How many vertices reading a primitive would make."""
+    names = [primitive["attributes"]["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]
+    return max(_whole(scene["accessors"][_index(name, scene["accessors"])]["count"]) for name in names)
+
+
+def _used(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) -> Floats:
+    """The vertices of a primitive, shape [vertex, 3]; of those with indices only what they name."""
+    points = _accessor(scene, binary, primitive["attributes"]["POSITION"], 3).astype(np.float64)
+    if "indices" not in primitive:
+        return points
+    named: Floats = points[np.unique(_accessor(scene, binary, primitive["indices"], 1))]
+    return named
+
+
+def _accessor(scene: dict[str, Any], binary: memoryview, name: Any, width: int) -> NDArray[Any]:
+    """The rows of an accessor, shape [row, width] or [row]."""
+    accessor = scene["accessors"][_index(name, scene["accessors"])]
+    kind, count = np.dtype(_TYPES[accessor["componentType"]]), _whole(accessor["count"])
+    if accessor["type"] != {1: "SCALAR", 3: "VEC3"}[width]:
+        raise ValueError(f"an accessor of type {str(accessor['type'])[:20]}")
+    if "bufferView" in accessor:
+        rows = _rows(scene, binary, accessor, kind, count, width)
+    else:
+        rows = np.zeros((count, width), kind)
+    if "sparse" in accessor:
+        rows = _with_sparse(scene, binary, accessor["sparse"], rows)
+    if accessor.get("normalized") and kind.kind != "f":
+        rows = np.maximum(rows / np.iinfo(kind).max, -1.0)
+    return rows if width > 1 else rows[:, 0]
+
+
+def _with_sparse(
+    scene: dict[str, Any], binary: memoryview, sparse: dict[str, Any], rows: NDArray[Any]
+) -> NDArray[Any]:
+    """The rows with those that are given one by one in their places."""
+    count = _whole(sparse["count"])
+    if count > len(rows):
+        raise ValueError("more sparse rows than rows")
+    where = _rows(
+        scene, binary, sparse["indices"], np.dtype(_TYPES[sparse["indices"]["componentType"]]), count, 1
+    )
+    rows = rows.copy()
+    rows[where[:, 0]] = _rows(scene, binary, sparse["values"], rows.dtype, count, rows.shape[1])
+    return rows
+
+
+def _rows(
+    scene: dict[str, Any],
+    binary: memoryview,
+    given: dict[str, Any],
+    kind: np.dtype[Any],
+    count: int,
+    width: int,
+) -> NDArray[Any]:
+    """Rows of a buffer view, which may stand apart by a stride; nothing is read beyond the view."""
+    view = scene["bufferViews"][_index(given["bufferView"], scene["bufferViews"])]
+    if _whole(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only the first is the one in this file
+        raise MeshError("keeps its data in another place, which is not read: export it as one GLB file")
+    start, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
+    offset, row = _whole(given.get("byteOffset", 0)), kind.itemsize * width
+    stride = _whole(view.get("byteStride", 0)) or row
+    if count == 0 or stride < row or start + size > len(binary) or offset + (count - 1) * stride + row > size:
+        raise ValueError("an accessor reaches beyond its data")
+    return np.ndarray((count, width), kind, binary, start + offset, (stride, kind.itemsize))
+
+
+def _index(value: Any, among: list[Any]) -> int:
+    """A number that names one of a list."""
+    number = _whole(value)
+    if number >= len(among):
+        raise ValueError(f"it names number {number:,} of {len(among):,}")
+    return number
+
+
+def _whole(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**32:
+        raise ValueError("a number that counts nothing")
+    return value

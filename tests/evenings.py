@@ -1,0 +1,53 @@
+"""A program without a window, and somebody who spends an evening at it."""
+
+from __future__ import annotations
+
+from silverball.app.controls import Action, Held
+from silverball.app.library import Library
+from silverball.app.program import Program
+from silverball.app.settings import Settings
+from silverball.game.news import Phase
+from silverball.game.store import Store
+from silverball.table import Board, Cylinder, Table
+
+NOTHING = Held((False, False), (False, False))
+LEAKY = Table(
+    name="Leaky",
+    board=Board(gravity=40.0),
+    cylinder=tuple(Cylinder(center=(-2.0, z), radius=1.15) for z in (-3.2, 0.0, 3.2)),
+)
+
+
+class Evening:
+    """A program, and an evening at it."""
+
+    def __init__(self, folder, settings=None, table=LEAKY) -> None:
+        self.said: list[str] = []
+        self.store = Store(folder, at_once=True)  # as a window has it
+        self.library = Library(self.store, folder, {table.name: table})
+        chosen = settings or Settings(table=table.name)
+        self.program = Program(self.store, chosen, self.library, seed=3, say=self.said.append)
+        self.seconds = 0.0
+
+    def go(self, seconds: float) -> None:
+        for _ in range(round(seconds * 30)):
+            self.seconds += 1 / 30
+            self.program.pass_time(self.seconds)
+            self.program.advance(NOTHING, 8)
+            self.program.dots(self.seconds)
+
+    def tap(self, *actions: Action) -> None:
+        for action in actions:
+            self.program.press(action)
+            self.program.release(action)
+            self.go(1 / 30)
+
+    def play_to_the_end(self) -> None:
+        for _ in range(30):
+            if self.program.stage.has_ended:
+                return
+            self.tap(Action.CREATE)
+            for _ in range(60):
+                if self.program.stage.game.phase is not Phase.PLAY:
+                    break
+                self.go(0.5)

@@ -1,0 +1,164 @@
+"""Which pages wait for ever for somebody who has gone, and what becomes of the others?"""
+
+import pytest
+
+from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
+from silverball.app.menus.commands import Attract, Initials
+from silverball.app.menus.letters import SIGN_PATIENCE
+from silverball.app.menus.menus import IDLE
+from silverball.app.menus.transport import STUDY
+from silverball.app.settings import Settings
+from silverball.game.news import Mode
+
+LEFT, RIGHT, START, BACK = Button
+TABLES = (TableEntry("classic", "Classic"), TableEntry("random", "Random", "", True))
+ROWS = (ScoreRow("ABC", 1000, "2026-11-25", "k1"),)
+STEP = 0.25  # [s]
+
+
+def menus_at(root: str, *labels: str) -> Menus:
+    """Menus with a page open, reached by the labels of items."""
+
+    def scores(table: str, mode: Mode):
+        return ROWS if mode is Mode.ARCADE else ()
+
+    menus = Menus(Settings(initials="OLD"), TABLES, scores, themes=("neon", "night"))
+    menus.know(last_seed=7, has_last_game=True)
+    {
+        "main": menus.open_main,
+        "pause": menus.open_pause,
+        "over": lambda: menus.open_over(4321),
+        "initials": lambda: menus.open_over(4321, 3),
+        "replay": lambda: menus.open_transport(ReplayFace(3.0, 60.0)),
+        "held replay": lambda: menus.open_transport(ReplayFace(3.0, 60.0, paused=True)),
+        "ended replay": lambda: menus.open_transport(ReplayFace(60.0, 60.0)),
+    }[root]()
+    menus.tick(1.0)
+    for label in labels:
+        page = menus._desk.pages[-1]
+        found = [item.label for item in page._items()].index(label)
+        for _ in range((found - page.index) % len(page._items())):
+            press(menus, RIGHT)
+        press(menus, START)
+    return menus
+
+
+def press(menus: Menus, *buttons: Button) -> None:
+    for button in buttons:
+        menus.press(button)
+        menus.release(button)
+
+
+def wait(menus: Menus, seconds: float) -> list[object]:
+    """The commands that come while nobody touches anything."""
+    start = menus._desk.now
+    ticks = (menus.tick(start + STEP * count) for count in range(1, round(seconds / STEP) + 1))
+    return [command for command in ticks if command is not None]
+
+
+FORSAKEN = [
+    ("main",),
+    ("main", "MODE"),
+    ("main", "TABLE"),
+    ("main", "TABLE", "BOARD SEED"),
+    ("main", "TABLE", "BOARD SEED", "NUMBER"),
+    ("main", "WATCH"),
+    ("main", "WATCH", "HIGH SCORES"),
+    ("main", "SCORES"),
+    ("main", "SETTINGS"),
+    ("main", "SETTINGS", "VOLUME"),
+    ("main", "SETTINGS", "KEYS"),
+    ("main", "SETTINGS", "KEYS", "JITTER"),
+    ("main", "SETTINGS", "KEYS", "JITTER", "NEW KEY"),
+    ("main", "SETTINGS", "GAMEPAD"),
+    ("main", "SETTINGS", "GAMEPAD", "JITTER", "NEW BUTTON"),
+    ("over",),
+    ("initials",),
+    ("ended replay",),
+]
+
+
+@pytest.mark.parametrize("way", FORSAKEN, ids=" ".join)
+def test_a_page_that_was_left_alone_gives_way_to_the_show(way):
+    menus = menus_at(*way)
+    if way != ("main",):
+        assert menus.page != "main" or way[-1] == "MODE"
+    assert not wait(menus, 0.8 * SIGN_PATIENCE)
+    assert wait(menus, IDLE)[-1] == Attract(True)
+    assert menus.page == "attract"
+    assert not wait(menus, 20 * IDLE)
+    press(menus, RIGHT)
+    assert menus.page == "main"
+
+
+PAUSED = [
+    ("pause",),
+    ("pause", "RESTART"),
+    ("pause", "END GAME"),
+    ("pause", "SETTINGS"),
+    ("pause", "SETTINGS", "VOLUME"),
+    ("pause", "SETTINGS", "KEYS"),
+    ("pause", "SETTINGS", "KEYS", "JITTER"),
+    ("pause", "SETTINGS", "GAMEPAD"),
+]
+
+
+@pytest.mark.parametrize("way", PAUSED, ids=" ".join)
+def test_a_paused_game_waits_for_its_player_on_whatever_page(way):
+    menus = menus_at(*way)
+    page = menus.page
+    assert not wait(menus, 100 * IDLE)
+    assert menus.page == page
+
+
+def test_a_replay_waits_while_it_goes_on_and_for_minutes_while_it_is_held():
+    menus = menus_at("replay")
+    assert not wait(menus, 100 * IDLE)
+    menus = menus_at("held replay")
+    assert not wait(menus, STUDY)
+    assert wait(menus, 2 * IDLE) == [Attract(True)]
+
+
+@pytest.mark.parametrize(
+    ("buttons", "letters", "signed"),
+    [
+        ((), "", "OLD"),
+        ((START,), "", "OLD"),
+        ((RIGHT, START), "", "PLD"),
+        ((RIGHT, START, START, RIGHT, START), "", "PLE"),
+        ((), "m", "M  "),
+        ((), "mia", "MIA"),
+    ],
+)
+def test_initials_that_nobody_finishes_are_taken_as_they_stand_and_the_score_is_signed_once(
+    buttons, letters, signed
+):
+    menus = menus_at("initials")
+    press(menus, *buttons)
+    for letter in letters:
+        menus.type(letter, letter, is_button=False)
+    assert not wait(menus, 0.9 * SIGN_PATIENCE)
+    assert wait(menus, IDLE) == [Initials(signed), Attract(True)]
+    assert menus.settings.initials == signed
+    assert not wait(menus, 3 * IDLE)
+
+
+@pytest.mark.parametrize("touch", [lambda menus: press(menus, RIGHT), lambda menus: type_x(menus)])
+def test_every_touch_gives_the_player_the_whole_time_again(touch):
+    menus = menus_at("initials")
+    for _ in range(5):
+        assert not wait(menus, 0.9 * SIGN_PATIENCE)
+        touch(menus)
+    assert menus.page == "initials"
+    assert wait(menus, 1.1 * SIGN_PATIENCE)
+
+
+def test_a_paddle_that_is_held_is_a_touch():
+    menus = menus_at("initials")
+    menus.press(RIGHT)
+    assert not wait(menus, 2 * SIGN_PATIENCE)
+    assert menus.page == "initials"
+
+
+def type_x(menus: Menus) -> None:
+    menus.type("x", "x", is_button=False)

@@ -1,0 +1,386 @@
+"""Is everything kept, shown and saved in the end while another program holds the file of the scores?"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from holder import ALONE, WRITES, held
+from silverball.errors import SilverballError
+from silverball.game import database
+from silverball.game.store import FILE, Store
+from silverball.game.waiting import NAME
+
+REPLAY = "a line of a replay\n" * 100
+LIST = ("arcade", "random", "d" * 64)
+
+
+def add(store: Store, score: int) -> int:
+    return store.add_score("AAA", score, *LIST, 7, f"{score}\n{REPLAY}", table_text="the table")
+
+
+def in_the_file(folder: Path) -> list[tuple[int, str]]:
+    """What another program reads in the file: scores and initials, best first."""
+    with closing(sqlite3.connect(folder / FILE)) as connection:
+        return connection.execute("SELECT score, initials FROM score ORDER BY score DESC, id").fetchall()
+
+
+def waiting_files(folder: Path) -> list[Path]:
+    return list(folder.glob(f"{NAME}*"))
+
+
+def listed(store: Store) -> list[tuple[int, str]]:
+    return [(one.score, one.initials) for one in store.scores(limit=-1)]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder in which there are two scores, a last game and settings."""
+    with Store(tmp_path) as store:
+        add(store, 20)
+        add(store, 10)
+        store.keep_last_game("before")
+        store.keep_settings({"volume": 9, "muted": True})
+    return tmp_path
+
+
+def play_on(store: Store) -> int:
+    """All that a game asks of a store works and shows; the number of the new score."""
+    number = add(store, 15)
+    assert store.is_high(16, *LIST[::2]) == 2
+    store.rename(number, "NEW")
+    store.keep_last_game("now")
+    store.keep_settings({"volume": 2})
+    assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+    assert store.score(number).initials == "NEW"
+    assert store.replay(number) == f"15\n{REPLAY}"
+    assert (store.last_game(), store.settings()) == ("now", {"volume": 2, "muted": True})
+    return number
+
+
+def assert_all_is_saved(folder: Path) -> None:
+    assert in_the_file(folder) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+    assert waiting_files(folder) == []
+    with Store(folder) as store:
+        assert (store.trouble, store.keeps, store.is_held) == ("", True, False)
+        assert (store.last_game(), store.settings()) == ("now", {"volume": 2, "muted": True})
+        assert [store.table_text(one.id) for one in store.lists()] == ["the table"]
+        assert store.replay(store.scores()[1].id) == f"15\n{REPLAY}"
+
+
+def test_a_store_that_is_not_to_wait_has_sqlite_not_wait(folder):
+    with Store(folder, at_once=True) as store:
+        assert store._database._connection.execute("PRAGMA busy_timeout").fetchone() == (0,)
+
+
+def test_what_comes_while_the_file_is_held_waits_on_the_disk_and_is_saved_when_it_is_free(folder):
+    with Store(folder, at_once=True) as store:
+        with held(folder / FILE):
+            number = play_on(store)
+            assert store.is_held
+            assert store.is_safe
+            assert store.keeps
+            (file,) = waiting_files(folder)
+            assert "15" in file.read_text()
+            assert not store.try_again()
+            assert in_the_file(folder) == [(20, "AAA"), (10, "AAA")]
+        assert store.try_again()
+        assert not store.is_held
+        assert store.score(number).score == 15  # the number that was given out stays good
+        assert store.replay(number) == f"15\n{REPLAY}"
+        store.rename(number, "NEW")
+        assert store.trouble == ""
+    assert_all_is_saved(folder)
+
+
+@pytest.mark.parametrize("how", [WRITES, ALONE])
+def test_a_file_that_is_held_at_the_start_is_used_when_it_is_free(folder, how, monkeypatch):
+    monkeypatch.setattr(database, "BEGIN_SECONDS", 0.05)
+    with held(folder / FILE, how):
+        store = Store(folder, at_once=True)
+        assert "another program holds it" in store.trouble
+        assert store.is_blind == (how == ALONE)
+        if how == WRITES:
+            play_on(store)
+        else:
+            store.rename(add(store, 15), "NEW")
+            store.keep_last_game("now")
+            store.keep_settings({"volume": 2})
+            assert listed(store) == [(15, "NEW")]
+        assert store.is_safe
+    assert store.try_again()
+    assert store.trouble == ""
+    assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+    store.close()
+    assert_all_is_saved(folder)
+
+
+def test_what_still_waits_at_the_end_is_there_at_the_next_start(folder):
+    with held(folder / FILE):
+        with Store(folder, at_once=True) as store:
+            play_on(store)
+        (file,) = waiting_files(folder)
+        assert file.name in store.farewell
+    Store(folder, at_once=True).close()
+    assert_all_is_saved(folder)
+
+
+def test_what_waits_survives_a_kill(folder):
+    code = (
+        "import os, signal, sys; from pathlib import Path; from test_store_held import play_on, Store\n"
+        "store = Store(Path(sys.argv[1]), at_once=True); play_on(store)\n"
+        "os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    paths = os.environ | {"PYTHONPATH": os.pathsep.join([*sys.path, str(Path(__file__).parent)])}
+    with held(folder / FILE):
+        done = subprocess.run([sys.executable, "-c", code, str(folder)], env=paths, check=False)
+        assert done.returncode == -signal.SIGKILL
+    assert in_the_file(folder) == [(20, "AAA"), (10, "AAA")]
+    with Store(folder) as store:
+        assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+    assert_all_is_saved(folder)
+
+
+def test_a_program_that_is_killed_between_saving_and_tidying_up_saves_nothing_twice(folder):
+    with Store(folder, at_once=True) as store:
+        with held(folder / FILE):
+            play_on(store)
+            (file,) = waiting_files(folder)
+            content = file.read_text()
+        store.try_again()
+    for initials in ("NEW", "XYZ"):
+        file.write_text(content.replace('"NEW"', f'"{initials}"'))
+        with Store(folder) as store:
+            assert listed(store) == [(20, "AAA"), (15, initials), (10, "AAA")]
+        assert waiting_files(folder) == []
+
+
+def test_another_program_may_take_in_what_this_one_has_waiting(folder):
+    with Store(folder, at_once=True) as store:
+        with held(folder / FILE):
+            number = play_on(store)
+        with Store(folder) as other:
+            assert listed(other) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+        store.rename(number, "TWO")
+        assert in_the_file(folder) == [(20, "AAA"), (15, "TWO"), (10, "AAA")]
+        store.rename(number, "NEW")
+    assert_all_is_saved(folder)
+
+
+def test_what_is_added_after_another_program_has_taken_in_the_rest_is_not_lost(folder):
+    with held(folder / FILE):
+        store = Store(folder, at_once=True)
+        play_on(store)
+    Store(folder).close()
+    with held(folder / FILE):
+        add(store, 5)
+        store.close()
+    Store(folder).close()
+    assert in_the_file(folder) == [(20, "AAA"), (15, "NEW"), (10, "AAA"), (5, "AAA")]
+
+
+def test_initials_for_a_score_that_was_saved_before_wait_too(folder):
+    with Store(folder, at_once=True) as store:
+        number = add(store, 15)
+        with held(folder / FILE):
+            store.rename(number, "NEW")
+            assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+            assert store.score(number).initials == "NEW"
+            assert in_the_file(folder)[1] == (15, "AAA")
+            kept = store._room.path.read_text()
+        assert store.try_again()
+        assert in_the_file(folder)[1] == (15, "NEW")
+        store.rename(number, "ZZZ")
+    (folder / f"{NAME}1.json").write_text(kept)  # as after a kill
+    with Store(folder) as store:
+        assert store.score(number).initials == "NEW"
+
+
+def test_lists_that_were_read_before_are_shown_while_the_file_cannot_even_be_read(folder):
+    with Store(folder, at_once=True) as store:
+        store._database._connection.execute("PRAGMA journal_mode = DELETE").fetchall()  # readers are kept out
+        before = store.scores(*LIST[::2])
+        id = before[0].id
+        with held(folder / FILE):
+            assert store.scores(*LIST[::2]) == before
+            with pytest.raises(SilverballError, match="another program holds it"):
+                store.replay(id)
+            assert store.is_held
+            assert store.is_high(15, *LIST[::2]) == 2
+            play = add(store, 15)
+            assert [one.id for one in store.scores(*LIST[::2])] == [before[0].id, play, before[1].id]
+        assert store.try_again()
+        assert store.replay(id) == f"20\n{REPLAY}"
+    assert [score for score, _ in in_the_file(folder)] == [20, 15, 10]
+
+
+# ── it cannot be written beside it ──────────────────────────────────────────────────────────────────────
+
+
+@pytest.fixture
+def full(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
+    """Whether there is no room for more files; it can be changed."""
+    is_full = [True]
+    whole = "silverball.game.waiting.write_whole"
+    from silverball.wholefile import write_whole
+
+    def write(path, work):
+        if is_full[0]:
+            raise OSError(28, "No space left on device")
+        write_whole(path, work)
+
+    monkeypatch.setattr(whole, write)
+    return is_full
+
+
+def test_what_is_only_in_the_memory_is_not_called_kept_and_is_saved_when_the_file_is_free(folder, full):
+    with Store(folder, at_once=True) as store:
+        with held(folder / FILE):
+            play_on(store)
+            assert not store.is_safe
+            assert not store.keeps
+            assert not store.try_again()
+        assert store.try_again()
+        assert store.is_safe
+        assert store.keeps
+    assert_all_is_saved(folder)
+
+
+def test_what_is_only_in_the_memory_is_written_beside_it_as_soon_as_there_is_room(folder, full):
+    with held(folder / FILE):
+        store = Store(folder, at_once=True)
+        play_on(store)
+        full[0] = False
+        assert not store.try_again()
+        assert store.is_safe
+        store.close()
+    Store(folder).close()
+    assert_all_is_saved(folder)
+
+
+def test_at_the_end_what_is_only_in_the_memory_is_tried_for_some_time(folder, full, monkeypatch):
+    with held(folder / FILE) as program:
+        store = Store(folder, at_once=True)
+        play_on(store)
+        monkeypatch.setattr(
+            database.time, "sleep", lambda seconds: program.communicate()
+        )  # it ends meanwhile
+        store.close()
+        assert store.farewell == ""
+    monkeypatch.undo()
+    assert_all_is_saved(folder)
+
+
+def test_what_is_lost_in_the_end_is_said_to_be_lost(folder, full, monkeypatch):
+    monkeypatch.setattr(database, "BUSY_SECONDS", 0.1)
+    with held(folder / FILE):
+        store = Store(folder, at_once=True)
+        play_on(store)
+        store.close()
+        assert "is lost" in store.farewell
+
+
+def test_a_disk_that_is_full_when_the_file_is_free_leaves_what_waits_where_it_is(folder, monkeypatch):
+    with Store(folder, at_once=True) as store:
+        with held(folder / FILE):
+            play_on(store)
+        connection = store._database._connection
+        connection.execute(f"PRAGMA max_page_count = {connection.execute('PRAGMA page_count').fetchone()[0]}")
+        store._room.waiting.scores[0].replay += "x" * 100_000
+        store._room.keep()
+        assert store.try_again()
+        assert not store.keeps
+        assert "the disk is full" in store.trouble
+        assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+        assert len(waiting_files(folder)) == 1
+    Store(folder).close()
+    assert in_the_file(folder) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
+    assert waiting_files(folder) == []
+
+
+# ── what lies there may be anything ─────────────────────────────────────────────────────────────────────
+
+
+def waiting_content(folder: Path) -> dict:
+    with held(folder / FILE), Store(folder, at_once=True) as store:
+        play_on(store)
+    (file,) = waiting_files(folder)
+    content = json.loads(file.read_text())
+    file.unlink()
+    return content
+
+
+CHANGES = {
+    "empty": lambda content: "",
+    "cut off": lambda content: json.dumps(content)[:-20],
+    "no object": lambda content: "[]",
+    "deep": lambda content: "[" * 100_000,
+    "no text": lambda content: b"\xff\xfe\x00",
+    "a later format": lambda content: json.dumps(content | {"format": 2}),
+    "something more": lambda content: json.dumps(content | {"more": 1}),
+    "initials are a number": lambda content: json.dumps(content | {"initials": {"1": 5}}),
+    "the last game is a list": lambda content: json.dumps(content | {"last_game": []}),
+}
+for key, value in (
+    ("score", 2**63),
+    ("score", "7"),
+    ("score", 1.5),
+    ("seed", None),
+    ("played", -1),
+    ("played", 10**15),
+):
+    CHANGES[f"{key} is {value!r}"] = lambda content, key=key, value=value: json.dumps(
+        content | {"scores": [content["scores"][0] | {key: value}]}
+    )
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_a_waiting_file_that_cannot_be_read_is_set_aside_with_a_sentence(folder, change):
+    text = change(waiting_content(folder))
+    text = text if isinstance(text, bytes) else text.encode()
+    (folder / f"{NAME}1.json").write_bytes(text)
+    with Store(folder) as store:
+        assert len(store.trouble.splitlines()) == 1
+        (aside,) = folder.glob("silverball-set-aside-*.json")
+        assert aside.name in store.trouble
+        assert aside.read_bytes() == text
+        assert store.keeps
+    with Store(folder) as store:
+        assert store.trouble == ""
+    assert in_the_file(folder) == [(20, "AAA"), (10, "AAA")]
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes with names")
+def test_what_is_no_file_is_left_alone(folder):
+    os.mkfifo(folder / f"{NAME}1.json")
+    (folder / f"{NAME}2.json").mkdir()
+    (folder / f"{NAME}3.json").symlink_to("/dev/zero")
+    with Store(folder) as store:
+        assert (store.trouble, store.keeps) == ("", True)
+
+
+# ── whoever waits ───────────────────────────────────────────────────────────────────────────────────────
+
+
+def test_a_store_that_waits_is_told_in_a_sentence_that_it_waited_in_vain(folder, monkeypatch):
+    monkeypatch.setattr(database, "BUSY_SECONDS", 0.1)
+    with held(folder / FILE, ALONE), Store(folder) as store:
+        for ask in (store.scores, store.lists, lambda: store.score(1), lambda: store.replay(1)):
+            with pytest.raises(SilverballError, match="another program holds it; try again") as error:
+                ask()
+            assert len(str(error.value).splitlines()) == 1
+    with Store(folder) as store, held(folder / FILE):
+        for change in (lambda: store.remove(1), lambda: store.mark({1: (True, "")})):
+            with pytest.raises(SilverballError, match="another program holds it; try again"):
+                change()
+        add(store, 15)  # what cannot be done again is not lost
+    Store(folder).close()
+    assert [score for score, _ in in_the_file(folder)] == [20, 15, 10]
