@@ -12,7 +12,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from silverball.envs import IDS, PinballEnv, PinballVectorEnv, engine
 from silverball.table import load_table
-from silverball.world.batch import pool_of_threads
+from silverball.world.threads import pool_of_threads
 
 MODES = tuple(AutoresetMode)
 CLASSIC = "silverball/PinballClassic-v0"

@@ -21,6 +21,7 @@ from silverball.app.orders import carry_out
 from silverball.app.performers import BEST, Cast
 from silverball.app.settings import Settings
 from silverball.app.stages import Playing, Showing, Stage, Watching, why_no_tick
+from silverball.app.waiting import Progress, draw_line, draw_page
 from silverball.errors import BoardFull, NoRoom, SilverballError
 from silverball.game.news import Mode
 from silverball.plain import plain
@@ -59,6 +60,7 @@ class Program:
         stage: What goes on on it; None before anything does.
         menus: The pages on the score display.
         is_ready: Whether the physics is loaded.
+        progress: How far it is compiled; None while nothing is.
         is_over: Whether the program is to end.
         is_held: Whether a replay stands still.
         store: What is kept.
@@ -80,6 +82,7 @@ class Program:
         self.settings = settings
         self.stage: Stage | None = None
         self.is_ready = self.is_over = False
+        self.progress: Progress | None = None
         self.is_held = False
         library.choose(settings.table)
         self.menus = Menus(settings, library.entries(), library.scores, themes=themes)
@@ -157,10 +160,11 @@ class Program:
             best = self._library.best(self._key, mode) if is_played and self._key is not None else 0
             below = self.display.frame(self.stage.game.face, seconds, best)
         if not self.menus.is_open and below is None:
-            from silverball.drawing.dots import Dots
-
-            return Dots()
-        return self.menus.draw(seconds, below)
+            return draw_page(seconds, self.progress)
+        dots = self.menus.draw(seconds, below)
+        if self.progress is not None:
+            draw_line(dots, self.progress)
+        return dots
 
     # --- time ---------------------------------------------------------------------------------------
 
@@ -248,7 +252,7 @@ class Program:
             elif action is Action.JITTER and self.is_paused:
                 self.say("the game is paused")
         elif self.stage is None:
-            self.say(WAIT)  # for the physics: what was chosen begins as soon as it is ready
+            self._press_while_waiting(action)
         elif isinstance(self.stage, Playing):
             self._press_in_play(action, again, self.stage)
         else:
@@ -283,6 +287,14 @@ class Program:
         """Change settings otherwise than in the menus, by a key for example."""
         self.use(self.settings.changed(**values))
         self.menus.use(self.settings)
+
+    def _press_while_waiting(self, action: Action) -> None:
+        """For the physics: what was chosen begins as soon as it is ready, unless the player goes back."""
+        if action is Action.BACK:
+            self._wish = None
+            self.menus.open_main()
+        else:
+            self.say(WAIT)
 
     def _press_in_play(self, action: Action, again: bool, stage: Playing) -> None:
         if stage.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):

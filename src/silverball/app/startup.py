@@ -6,8 +6,11 @@ The first start on a machine compiles for some seconds; later ones load in a fra
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
+
+from silverball.app.waiting import Progress
 
 if TYPE_CHECKING:
     from silverball.table import Table
@@ -22,7 +25,7 @@ class Startup:
     """
 
     def __init__(self, table: Table, on_compile: Callable[[], None] = lambda: None) -> None:
-        self.is_compiling = False
+        self._compiles_since: float | None = None  # by time.monotonic
         self._on_compile = on_compile
         self._table = table
         self._error: BaseException | None = None
@@ -42,6 +45,15 @@ class Startup:
             raise self._error
         return True
 
+    @property
+    def progress(self) -> Progress | None:
+        """How far the compilation is; None if nothing is compiled."""
+        if self._compiles_since is None:
+            return None
+        from silverball.physics.kernel import compiled_share
+
+        return Progress(time.monotonic() - self._compiles_since, compiled_share())
+
     def wait(self) -> None:
         """Wait until a game can begin."""
         self._thread.join()
@@ -52,7 +64,7 @@ class Startup:
 
             if not is_compiled():
                 forget_old_code()
-                self.is_compiling = True
+                self._compiles_since = time.monotonic()
                 self._on_compile()
             warm_up(self._table)
         except BaseException as error:  # shown to the player by whoever asks `is_done`

@@ -135,7 +135,7 @@ class Window:
             modes = (Mode.ARCADE, Mode.FREE) if mode is None else (mode,)
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
-            settings = settings.changed(mode=mode)
+            settings = settings.changed(mode=mode.value)  # Pydantic 2.7 takes no enum's member for its text
         library = Library(self.store, self._folder, given)
         try:
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
@@ -285,13 +285,16 @@ class Window:
     def _begin_when_ready(self) -> None:
         if self._startup is not None and self._startup.is_done:
             self._startup = None
+            self.program.progress = None
             self.messages.clear()
             self._on_ready()
             self.rehearsal = Rehearsal(self.program.table)
             self.program.cast.is_ready = self.rehearsal.is_ready
             self.program.get_ready()
-        elif self._startup is not None and self._startup.is_compiling and self.messages.strength < 1.0:
-            self.messages.say(compiling_words())
+        elif self._startup is not None:
+            self.program.progress = self._startup.progress
+            if self.program.progress is not None and self.messages.strength < 1.0:
+                self.messages.say(compiling_words())
 
     def _play(self, elapsed: float) -> None:
         program = self.program

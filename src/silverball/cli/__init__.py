@@ -8,12 +8,18 @@ from __future__ import annotations
 
 import sys
 
+from silverball.cli.signals import run_until_stopped
+
 
 def main() -> None:
     """The entry point of `silverball` and `python -m silverball`."""
+    run_until_stopped(_run)
+
+
+def _run() -> int:
     from silverball.cli.streams import prepare
 
     prepare()
     from silverball.cli.app import run
 
-    sys.exit(run(sys.argv[1:]))
+    return run(sys.argv[1:])

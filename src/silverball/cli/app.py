@@ -5,7 +5,6 @@ The modules of the commands import what they need when they run, so that `silver
 
 from __future__ import annotations
 
-import signal
 import sys
 from typing import Any
 
@@ -19,6 +18,7 @@ from silverball.cli.play import play
 from silverball.cli.replay import replay
 from silverball.cli.scores import scores
 from silverball.cli.show import show
+from silverball.cli.signals import STOPPED, stopped
 from silverball.cli.simulate import simulate
 from silverball.cli.streams import give_up, is_broken_pipe
 from silverball.cli.tables import tables
@@ -65,16 +65,17 @@ def run(arguments: list[str]) -> int:
     too little memory; one message says which.
     130: stopped by Ctrl-C.
     """
-    for name in ("SIGTERM", "SIGHUP"):  # a terminal that closes must not leave half files behind either
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), lambda number, _: sys.exit(128 + number))
     try:
         code = app(args=arguments, prog_name="silverball", standalone_mode=False)
         sys.stdout.flush()
     except SilverballError as error:
         return complain(str(error))
-    except (KeyboardInterrupt, typer.Abort):
-        code = 130
+    except KeyboardInterrupt:
+        code = STOPPED
+    except typer.Abort as end:
+        if isinstance(end.__cause__, EOFError):  # nobody is asked anything here, so no Ctrl-D ends anything
+            raise end.__cause__ from None
+        code = STOPPED
     except (BrokenPipeError, SystemExit) as error:
         if not is_broken_pipe(error):
             raise
@@ -91,8 +92,8 @@ def run(arguments: list[str]) -> int:
         if not hasattr(error, "format_message"):
             raise
         return complain(usage_message(error, arguments))
-    if code == 130:
-        print("stopped", file=sys.stderr)
+    if code == STOPPED:
+        return stopped()
     return code if isinstance(code, int) else 0
 
 

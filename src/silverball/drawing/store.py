@@ -1,8 +1,9 @@
 """Where are baked pictures kept for the next time? In files of the user's cache directory.
 
 A file is named after everything that its picture depends on, the drawing's own sources included, so it can be
-missing but never out of date. The oldest go when there are too many. A folder that cannot be written, a full
-disk or a damaged file cost time and nothing else.
+missing but never out of date; it begins with a digest of its name and its content, so a damaged one, or
+another one in its place, is never used. The oldest go when there are too many. A folder that cannot be
+written, a full disk or a damaged file cost time and nothing else.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import contextlib
 import hashlib
 import io
 import os
-import zipfile
+import shutil
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -24,6 +25,7 @@ from silverball.wholefile import write_whole
 
 LIMIT = 256_000_000  # bytes of all pictures together
 ENDING = ".picture"
+DIGEST_SIZE = 32  # bytes
 PACKAGE = Path(__file__).resolve().parent.parent
 
 Arrays = dict[str, NDArray[Any]]
@@ -45,24 +47,27 @@ class Store:
         """What was saved under a key; None if there is nothing, or nothing whole."""
         path = self.folder / (key + ENDING)
         try:
-            with np.load(path, allow_pickle=False) as file:
-                arrays = {name: file[name] for name in file.files}
+            if not os.path.lexists(path):
+                return None
+            kept = path.read_bytes() if path.is_file() else b""  # a pipe would wait for ever
+            digest, content = kept[:DIGEST_SIZE], kept[DIGEST_SIZE:]
+            if digest != digest_of(key, content):
+                _remove(path)
+                return None
             os.utime(path)  # the pictures that are looked at stay longest
-        except FileNotFoundError:
+        except OSError:
             return None
-        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, SyntaxError):
-            with contextlib.suppress(OSError):
-                path.unlink()
-            return None
-        return arrays
+        with np.load(io.BytesIO(content), allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
 
     def save(self, key: str, arrays: Mapping[str, NDArray[Any]]) -> None:
         """Keep arrays under a key, if that is possible."""
         content = io.BytesIO()
         np.savez(content, **arrays)  # type: ignore[arg-type]  # the stubs take the names for options
+        kept = digest_of(key, content.getvalue()) + content.getvalue()
         with contextlib.suppress(OSError):
             self.folder.mkdir(parents=True, exist_ok=True)
-            write_whole(self.folder / (key + ENDING), lambda place: place.write_bytes(content.getbuffer()))
+            write_whole(self.folder / (key + ENDING), lambda place: place.write_bytes(kept))
             self._forget_oldest()
 
     def _forget_oldest(self) -> None:
@@ -71,8 +76,20 @@ class Store:
         for stat, path in sorted(files, key=lambda file: file[0].st_mtime):
             if total <= self._limit:
                 break
-            path.unlink()
+            _remove(path)
             total -= stat.st_size
+
+
+def _remove(path: Path) -> None:
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink()
+
+
+def digest_of(key: str, content: bytes) -> bytes:
+    """What a file begins with."""
+    return hashlib.sha256(key.encode() + b"\0" + content).digest()
 
 
 def usual_folder() -> Path:

@@ -30,7 +30,7 @@ from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import SETTINGS, straight
 from silverball.physics.layout import WORLD, Part, records
-from silverball.world.batch import pool_of_threads
+from silverball.world.threads import pool_of_threads
 
 FORMAT = 3  # of saved states
 MARK = 16  # bytes that say of which boards and which version a saved state is

@@ -27,8 +27,9 @@ from silverball.envs.spec import own_spec
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
 from silverball.world import WorldBatch
-from silverball.world.batch import checked_int, cores
+from silverball.world.batch import checked_int
 from silverball.world.snapshot import Index, chosen
+from silverball.world.threads import cores
 
 MODES = {
     AutoresetMode.DISABLED: Mode.DISABLED,

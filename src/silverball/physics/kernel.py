@@ -12,20 +12,18 @@ Options, and why:
 * ``no_cpython_wrapper=True``, for what only kernels call: it cannot be called from Python, and needs no code
   that unpacks arguments; it saves some 10 % of the compilation.
 * the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
-  code after a change of a callee in *another* file. Compiled code is therefore kept in a folder of the user's
-  cache directory that is named after a hash of the sources of all packages that hold kernels, and of what
-  else machine code depends on. The drawing has a folder of its own: nothing that plays calls it, so a change
-  of a colour need not compile the physics anew.
+  code after a change of a callee in *another* file, and it trusts its files (see `codecache.py`). Compiled
+  code is therefore kept in a folder of the user's cache directory that is named after a hash of the sources
+  of all packages that hold kernels, and of what else machine code depends on. The drawing has a folder of its
+  own: nothing that plays calls it, so a change of a colour need not compile the physics anew.
 """
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 import os
 import shutil
 import sys
-import threading
 import time
 from collections.abc import Callable
 from functools import cache
@@ -36,16 +34,28 @@ import numba
 import numba.core.config
 from numba.core.registry import CPUDispatcher
 
+from silverball.physics.aside import aside
+from silverball.physics.codecache import INDEX, CodeCache, code_of, discard, remove, sweep
+
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
 DRAWING = ("physics", "drawing/kernels")
 AGENTS = (*PLAY, "envs")
 KERNEL_PACKAGES = (*AGENTS, "drawing")  # a kernel elsewhere must be added here; a test sees to it
-_ONE_AT_A_TIME = threading.Lock()
 KEEP_SECONDS = 30 * 24 * 3600.0
+_kernels: list[Any] = []  # all of this process
+_swept: set[Path] = set()  # folders of compiled code in which no file is damaged, or was when we looked
 
 
-class Internal(CPUDispatcher):
+class Compiled(CPUDispatcher):
+    """A function that is compiled, or loaded, on its first call, and without harm interrupted meanwhile."""
+
+    def compile(self, signature: Any) -> Any:
+        """The machine code for arguments of these types."""
+        return aside(super().compile, signature)
+
+
+class Internal(Compiled):
     """A compiled function without the code that would let Python call it."""
 
     def __call__(self, *arguments: Any) -> Any:
@@ -115,6 +125,8 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     base = os.environ.get("SILVERBALL_CACHE") or platformdirs.user_cache_dir("silverball")
     folder = Path(base) / "compiled" / digest.hexdigest()[:16]
     try:
+        if not folder.is_dir():
+            remove(folder)  # whatever else stands there
         folder.mkdir(parents=True, exist_ok=True)
         folder.touch()
     except OSError:
@@ -123,9 +135,32 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
 
 
 def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> bool:
-    """Whether the compiled code of a kernel is on disk; a first start compiles it and all it calls."""
+    """Whether the compiled code of a kernel is on disk; a first start compiles it and all it calls.
+
+    Not so either if anything in its folder is damaged, when this is asked for the first time: then that, and
+    this kernel as the last one, are compiled anew.
+    """
     folder = cache_folder(packages)
-    return folder is not None and any(folder.rglob(f"*.{name}-*.nbc"))
+    if folder is None:
+        return False
+    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if code_of(index) is not None]
+    if folder not in _swept:
+        _swept.add(folder)
+        if not sweep(folder):
+            for index in found:
+                discard(index)
+            return False
+    return bool(found)
+
+
+def compiled_share(packages: tuple[str, ...] = PLAY) -> float:
+    """Which share of the kernels that this process has loaded the source of are compiled, 0 to 1.
+
+    It grows evenly while a first start compiles: the larger kernels are called by, and so come after, the
+    smaller ones.
+    """
+    kernels = [one for one in _kernels if _packages_of(one.py_func.__module__) == packages]
+    return sum(bool(one.overloads) for one in kernels) / max(len(kernels), 1)
 
 
 def _machine() -> tuple[Any, ...]:
@@ -148,9 +183,7 @@ def forget_old_code() -> None:
 
 
 def _compile(function: F, **more: bool | str) -> F:
-    folder = cache_folder(_packages_of(function.__module__))
     options: dict[str, Any] = {
-        "cache": folder is not None,
         "error_model": "numpy",
         "fastmath": False,
         "nogil": True,
@@ -158,20 +191,14 @@ def _compile(function: F, **more: bool | str) -> F:
         "no_cfunc_wrapper": True,
         **more,
     }
-    # Numba picks the place of the cache when the decorator runs, from this one setting, which all threads
-    # share: a window loads the physics in one and the drawing in another.
-    with _ONE_AT_A_TIME:
-        before = SETTINGS.CACHE_DIR
-        try:
-            if folder is not None:
-                SETTINGS.CACHE_DIR = str(folder)
-            compiled = numba.njit(**options)(function)
-        finally:
-            SETTINGS.CACHE_DIR = before
-    if more.get("no_cpython_wrapper") and isinstance(compiled, CPUDispatcher):
-        compiled.__class__ = Internal
-    if hasattr(compiled, "_cache"):
-        _save_if_possible(compiled._cache)
+    compiled: Any = numba.njit(**options)(function)
+    if isinstance(compiled, CPUDispatcher):
+        compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled
+        if more.get("inline") != "always":  # those are never compiled by themselves
+            _kernels.append(compiled)
+        folder = cache_folder(_packages_of(function.__module__))
+        if folder is not None:
+            vars(compiled)["_cache"] = CodeCache(function, folder)
     return cast(F, compiled)
 
 
@@ -180,14 +207,3 @@ def _packages_of(module: str) -> tuple[str, ...]:
     if module.startswith("silverball.drawing."):
         return DRAWING
     return AGENTS if module.startswith("silverball.envs.") else PLAY
-
-
-def _save_if_possible(store: Any) -> None:
-    """Let a full disk cost the next start some seconds, not this one its life."""
-    save = store.save_overload
-
-    def save_or_go_on(signature: Any, code: Any) -> None:
-        with contextlib.suppress(OSError):
-            save(signature, code)
-
-    store.save_overload = save_or_go_on

@@ -281,9 +281,9 @@ def is_number(x: float) -> bool:
 @kernel
 def run_worlds(
     worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, logs: Any, tallies: Any,
-    actions: Any, first: int, end: int, ticks: int, tick: float,
+    actions: Any, first: int, end: int, begun: int, ticks: int, tick: float,
 ) -> None:  # fmt: skip
-    """Move the worlds first … end − 1 on by a number of ticks.
+    """Move the worlds first … end − 1 on by a number of ticks, or by those of them that are left.
 
     Args:
         worlds: WORLD records [world].
@@ -291,23 +291,26 @@ def run_worlds(
         board_of: The board of each world [world].
         colliders: COLLIDER records of all boards.
         grid: The grids of all boards.
-        logs: LOG records [world]; emptied first.
+        logs: LOG records [world]; emptied before the first tick.
         tallies: Hits of each part [world, part], added to.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
-        ticks: How many ticks.
+        begun: How many of the ticks have been played by calls before this one, with the same arguments but
+            for `ticks`.
+        ticks: How many ticks altogether.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
     for index in range(first, end):
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
-        log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, board, tick):
+        if begun == 0:
+            log.count, log.lost = 0, 0
+        if ticks == begun or not is_ready(world, board, tick):
             continue
-        step = 0
+        step = begun
         while step < ticks and is_inside(world, board):
             row = 0 if is_held else step
             if actions[row, index, 2] and (step == 0 or not is_held):

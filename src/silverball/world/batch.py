@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -24,9 +23,11 @@ from silverball.table import Table, generate_table, load_table
 from silverball.world import state as states
 from silverball.world.compile import Boards, compile_tables
 from silverball.world.snapshot import Index, Snapshot, put_back, taken
+from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
 LEAST_SLICE = 512  # world-ticks below which a slice costs more to hand out than to run
+PIECE_WORK = 2**16  # world-ticks a thread: Python hears of Ctrl-C between two pieces, which take some 50 ms
 GREATEST_SEED = 2**63 - 1
 
 
@@ -91,6 +92,9 @@ class WorldBatch:
     def step(self, actions: ArrayLike, ticks: int = 1) -> None:
         """Move every world on.
 
+        Ctrl-C ends a long call within a fraction of a second. All worlds then stand at the end of the same
+        tick, as after a shorter call (no batch is stopped within a tick, however many worlds it has).
+
         Args:
             actions: bool [world, 3]: left, right, jitter, held for all ticks with one shove on the first;
                 or [ticks, world, 3], one row for every tick. For example `np.zeros((count, 3), bool)`.
@@ -112,23 +116,28 @@ class WorldBatch:
 
     def run(self, held: NDArray[np.bool_], ticks: int) -> None:
         """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
-        boards = self.boards
-        self.on_threads(
-            lambda first, end: run_worlds(
-                self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
-                self.tallies, held, first, end, ticks, 1.0 / self.tick_rate,
-            ),
-            self.count * ticks,
-        )  # fmt: skip
+        boards, piece = self.boards, max(1, PIECE_WORK * self.threads // self.count)
+        for begun in range(0, max(ticks, 1), piece):
+            end_tick = min(begun + piece, ticks)
+            self.on_threads(
+                lambda first, end, begun=begun, end_tick=end_tick: run_worlds(  # type: ignore[misc]
+                    self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
+                    self.tallies, held, first, end, begun, end_tick, 1.0 / self.tick_rate,
+                ),
+                self.count * (end_tick - begun),
+            )  # fmt: skip
 
     def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
-        """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays."""
+        """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays.
+
+        An exception from outside, such as Ctrl-C, is raised when all slices are done.
+        """
         slices = min(self.count, self.threads * SLICES_PER_THREAD, work // LEAST_SLICE)
         if self.threads == 1 or slices < 2:
             task(0, self.count)
             return
         edges = [self.count * number // slices for number in range(slices + 1)]
-        list(pool_of_threads(self.threads).map(task, edges[:-1], edges[1:]))
+        run_on_threads(task, list(pairwise(edges)), self.threads)
 
     def create_balls(self, mask: ArrayLike | None = None) -> NDArray[np.bool_]:
         """Create a ball in every world of the mask that has room for one.
@@ -209,23 +218,6 @@ def _create_balls(
         if wanted[index] and worlds[index].fault == Fault.NONE:
             board = boards[board_of[index]]
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
-
-
-def cores() -> int:
-    """The cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
-@cache
-def pool_of_threads(threads: int) -> ThreadPoolExecutor:
-    """So many threads, which wait for work."""
-    return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
-
-
-if hasattr(os, "register_at_fork"):  # threads do not survive a fork; the child makes its own
-    os.register_at_fork(after_in_child=pool_of_threads.cache_clear)
 
 
 def checked_int(name: str, value: Any, least: int, greatest: int) -> int:

@@ -32,6 +32,7 @@ from silverball.world.batch import WorldBatch, checked_int
 from silverball.world.events import Ball, Event, Paddle, read_balls, read_events, read_paddles
 
 MEASURES = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
+PIECE_TICKS = 2**12  # of a long step: Python hears of Ctrl-C between two pieces, which take some milliseconds
 COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
 
 
@@ -91,6 +92,9 @@ class World:
     def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
         """Move on with the paddle buttons held or not.
 
+        Ctrl-C ends a long call within a fraction of a second. The world then stands at the end of one of the
+        ticks, as after a shorter call: `tick` says of which, and `events` are those of the ticks played.
+
         Args:
             left: Whether the left button is held, in all ticks.
             right: The same of the right one.
@@ -101,10 +105,13 @@ class World:
             FaultError: The world's state has become impossible and it has stopped.
             ValueError: The number of ticks is not a whole number of at least 0.
         """
-        if ticks.__class__ is not int or not 0 <= ticks <= 2**40:
-            ticks = checked_int("ticks", ticks, 0, 2**40)
         buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
-        if self._alone.step(buttons, ticks):
+        begun = 0
+        if ticks.__class__ is not int or not 0 <= ticks <= PIECE_TICKS:
+            ticks = checked_int("ticks", ticks, 0, 2**40)
+            while ticks - begun > PIECE_TICKS and not self._alone.step(buttons, begun, begun + PIECE_TICKS):
+                begun += PIECE_TICKS
+        if self._alone.step(buttons, begun, ticks):
             self._raise_fault()
 
     def create_ball(

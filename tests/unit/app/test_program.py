@@ -5,10 +5,12 @@ from __future__ import annotations
 import pytest
 
 from evenings import NOTHING, Evening
+from reading import reads
 from silverball.app.controls import Action
 from silverball.app.program import OVER_SECONDS, SPEEDS
 from silverball.app.settings import Settings
 from silverball.app.stages import Showing
+from silverball.app.waiting import Progress
 from silverball.errors import TableError
 from silverball.game.news import Mode, Phase
 from silverball.game.replay import Replay, verify
@@ -46,6 +48,34 @@ def test_what_is_asked_for_before_the_physics_is_ready_is_done_when_it_is(tmp_pa
     assert not evening.program.menus.is_open
     evening.program.get_ready()
     assert evening.program.is_playing
+    evening.store.close()
+
+
+def test_before_the_physics_is_ready_the_display_is_never_empty_and_tells_the_time(tmp_path):
+    evening = Evening(tmp_path)
+    program = evening.program
+    assert reads(program.dots(0.0), "SILVERBALL")
+    program.progress = Progress(4.0, 0.2)
+    assert reads(program.dots(0.0), "COMPILING 4/20 S")
+    evening.tap(Action.CREATE)  # PLAY
+    assert not program.menus.is_open
+    assert reads(program.dots(0.0), "4/20 S")
+    program.progress = None
+    assert program.dots(0.0).pixels.any()
+    program.get_ready()
+    assert program.is_playing
+    assert not reads(program.dots(0.0), "4/20 S")
+    evening.store.close()
+
+
+def test_who_goes_back_before_the_physics_is_ready_is_in_the_menu_and_no_game_begins(tmp_path):
+    evening = Evening(tmp_path)
+    evening.tap(Action.CREATE)
+    evening.tap(Action.BACK)
+    assert evening.program.menus.page == "main"
+    evening.program.get_ready()
+    assert evening.program.stage is None
+    assert evening.program.menus.page == "main"
     evening.store.close()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 
@@ -62,7 +63,7 @@ def test_a_change_of_the_drawings_sources_makes_all_pictures_anew(monkeypatch):
     store_module._sources.cache_clear()
 
 
-@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "text"])
+@pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "text", "array", "others", "folder", "pipe"])
 def test_a_damaged_picture_is_baked_anew(tmp_path, baked, damage):
     first = picture(tmp_path)
     for path in tmp_path.glob("*" + ENDING):
@@ -70,7 +71,20 @@ def test_a_damaged_picture_is_baked_anew(tmp_path, baked, damage):
         if damage == "flipped":
             content[len(content) // 2] ^= 0xFF
         changed = {"cut": content[: len(content) // 2], "empty": b"", "text": b"no picture"}
-        path.write_bytes(bytes(changed.get(damage, content)))
+        if damage in ("array", "others"):
+            content = io.BytesIO()
+            np.savez(content, a=np.zeros(3))
+            changed[damage] = content.getvalue()
+            if damage == "others":  # a whole file, but that of another picture
+                Store(tmp_path / "other").save("other", arrays(1))
+                changed[damage] = (tmp_path / "other" / f"other{ENDING}").read_bytes()
+        path.unlink()
+        if damage == "folder":
+            (path / "deep").mkdir(parents=True)
+        elif damage == "pipe":
+            os.mkfifo(path) if hasattr(os, "mkfifo") else None
+        else:
+            path.write_bytes(bytes(changed.get(damage, content)))
     assert (picture(tmp_path) == first).all()
     assert len(baked) == 2
     assert (picture(tmp_path) == first).all()  # the new ones are whole

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 import silverball
-from silverball.physics import kernel
+from silverball.physics import codecache, kernel
 
 PACKAGE = Path(silverball.__file__).parent
 
@@ -85,14 +85,17 @@ def test_importing_the_package_alone_loads_nothing_heavy():
     assert not loaded & {"numba", "llvmlite", "numpy", "pygame", "pydantic", "PIL", "typer", "rich"}
 
 
-def test_a_full_disk_costs_the_cache_and_nothing_else():
+def test_a_full_disk_costs_the_cache_and_nothing_else(tmp_path, monkeypatch):
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    class Store:
-        save_overload = staticmethod(full)
+    def doubled(number):
+        return 2 * number
 
-    store = Store()
-    kernel._save_if_possible(store)
-    store.save_overload("signature", "code")
-    assert hasattr(kernel.kernel(full), "_cache"), "numba keeps its cache elsewhere: mend kernel.py"
+    tried = []
+    monkeypatch.setattr(codecache, "write", lambda *of: (tried.append(of), full()))
+    compiled = kernel.kernel(doubled)
+    compiled._cache = codecache.CodeCache(doubled, tmp_path)
+    assert compiled(4) == 8
+    assert tried, "nothing was to be written: numba keeps its cache elsewhere, mend codecache.py"
+    assert not list(tmp_path.rglob("*.nb?"))

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.world.batch import cores
+from silverball.world.threads import cores
 
 CLASSIC, RANDOM, PIXELS = (
     "silverball/PinballClassic-v0",

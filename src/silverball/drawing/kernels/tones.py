@@ -13,7 +13,8 @@ RGB: TypeAlias = tuple[float, float, float]
 @inlined
 def ink(inks: Any, row: int) -> RGB:
     """A colour of the scene."""
-    return inks[row, 0], inks[row, 1], inks[row, 2]
+    at = row + 0  # an Ink becomes a number: before Numba 0.68 no member of an enum indexes an array
+    return inks[at, 0], inks[at, 1], inks[at, 2]
 
 
 @inlined

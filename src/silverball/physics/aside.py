@@ -1,0 +1,113 @@
+"""How can a compilation be interrupted? It runs aside, in another thread, while the main thread waits.
+
+Python hears Ctrl-C in the main thread alone, between any two of its own instructions. Inside of the compiler
+that would leave half-made code, print tracebacks from destructors, or end the process. So the main thread
+only waits; an interruption ends the wait at once, and the compilation goes on, for the next call needs it
+too. Python cannot end while a thread is in the compiler, so at its end it waits until the function that is
+being compiled is done; the functions that call it are then no longer compiled.
+"""
+
+from __future__ import annotations
+
+import atexit
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from numba.core.compiler_lock import global_compiler_lock
+
+POLL_SECONDS = 0.1  # on Windows a wait hears of Ctrl-C only when it ends
+MOST_SECONDS = 60.0  # that the end of Python waits
+
+
+class Leaving(BaseException):
+    """Python ends: nothing more is compiled."""
+
+
+class _State:
+    lock = threading.Lock()
+    busy = 0  # threads in the compiler
+    is_leaving = False
+
+
+class _Job:
+    """A call, and what came of it."""
+
+    def __init__(self, call: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+        self._call, self._arguments = call, arguments
+        self.result: Any = None
+        self.error: BaseException | None = None
+        self.done = threading.Event()
+
+    def run(self) -> None:
+        try:
+            with _busy():
+                self.result = self._call(*self._arguments)
+        except BaseException as error:  # raised again by whoever waits
+            self.error = error
+        finally:
+            self.done.set()
+
+
+def aside(call: Callable[..., Any], *arguments: Any) -> Any:
+    """Call something that compiles where no signal interrupts it; its result.
+
+    Raises:
+        KeyboardInterrupt: Or whatever else a signal's handler raises; the call goes on.
+        BaseException: Whatever the call raised.
+    """
+    if _State.is_leaving:
+        raise Leaving
+    # Who compiles already, or imports, holds a lock for which another thread would wait in vain.
+    is_main = threading.current_thread() is threading.main_thread()
+    if not is_main or _is_compiling() or _is_importing():
+        with _busy():
+            return call(*arguments)
+    job = _Job(call, arguments)
+    threading.Thread(target=job.run, name="silverball compiler", daemon=True).start()
+    while not job.done.wait(POLL_SECONDS):
+        pass
+    if job.error is not None:
+        raise job.error
+    return job.result
+
+
+def wait_for_the_compiler() -> None:
+    """Let no thread be in the compiler when Python ends."""
+    _State.is_leaving = True
+    end = time.monotonic() + MOST_SECONDS
+    while _State.busy and time.monotonic() < end:
+        time.sleep(POLL_SECONDS / 10)
+
+
+atexit.register(wait_for_the_compiler)
+
+
+def _is_compiling() -> bool:
+    """Whether this thread is in the compiler."""
+    lock: Any = global_compiler_lock
+    return bool(lock.is_locked())
+
+
+def _is_importing() -> bool:
+    """Whether this thread is called by a module that is being imported."""
+    frame = sys._getframe()
+    while frame is not None:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            return True
+        frame = frame.f_back  # type: ignore[assignment]
+    return False
+
+
+@contextmanager
+def _busy() -> Iterator[None]:
+    with _State.lock:
+        _State.busy += 1
+    try:
+        yield
+    finally:
+        with _State.lock:
+            _State.busy -= 1

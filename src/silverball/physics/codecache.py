@@ -1,0 +1,187 @@
+"""Where does machine code lie, and what becomes of a damaged file? It is compiled anew.
+
+Numba's own cache unpickles whatever it finds in its files and runs it. Here nothing is unpickled that is not
+bit for bit what was written, and damage is told once. For a function and the types of its arguments there
+are two files:
+
+    NAME.TYPES.nbi     the index: the SHA-256 that says which code
+    NAME.SHA-256.nbc   the code; its SHA-256 is taken over the name of the index too
+
+Each is renamed into its place when it is whole, the code first. So processes that write at the same time
+never mix two versions, and a file that was emptied, cut short, changed or exchanged for another one is found
+out.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import logging
+import os
+import pickle
+import secrets
+import shutil
+import sys
+from pathlib import Path
+from typing import Any, cast
+
+import numba
+from numba.core.caching import FunctionCache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps as untyped_dumps
+
+Base, Result, dumps = cast(Any, FunctionCache), cast(Any, CompileResult), cast(Any, untyped_dumps)
+INDEX, CODE = ".nbi", ".nbc"
+
+
+class Damage:
+    """What was found damaged in this process.
+
+    Attributes:
+        words: A sentence about it; empty if there is nothing to say.
+    """
+
+    words = ""
+
+    @classmethod
+    def say(cls, folder: Path) -> None:
+        """Tell it to whoever runs the program, the first time."""
+        if not cls.words:
+            cls.words = f"compiled code in {str(folder)!r} was damaged, and is compiled anew"
+            logging.getLogger("silverball").warning("silverball: %s", cls.words)
+
+
+class CodeCache(Base):  # type: ignore[misc,valid-type]
+    """The compiled code of one function, as Numba asks for it.
+
+    Args:
+        function: That is compiled.
+        folder: Of all compiled code of these sources.
+    """
+
+    def __init__(self, function: Any, folder: Path) -> None:
+        # Nothing of Numba's: it would look for a place of its own.
+        package, _, module = function.__module__.rpartition(".")
+        version = f"py{sys.version_info[0]}{sys.version_info[1]}"
+        name = f"{module}.{function.__qualname__}-{function.__code__.co_firstlineno}.{version}"
+        self._py_func = function
+        self._folder = folder / (package.removeprefix("silverball.") or "main")
+        self._name = "".join(letter for letter in name if letter not in "<>")
+        self._enabled = True
+
+    @property
+    def cache_path(self) -> str:
+        """The folder of this function's files."""
+        return str(self._folder)
+
+    def flush(self) -> None:
+        """Forget all versions of this function."""
+        for index in self._folder.glob(f"{self._name}.*{INDEX}"):
+            discard(index)
+
+    def load_overload(self, signature: Any, target_context: Any) -> Any:
+        """The code for these types; None if there is none that can be trusted."""
+        target_context.refresh()
+        if not self._enabled:
+            return None
+        key = self._index_key(signature, target_context.codegen())
+        index = self._index(key)
+        if not os.path.lexists(index):
+            return None
+        content = code_of(index)
+        if content is None:
+            Damage.say(self._folder.parent)
+            discard(index)
+            return None
+        kept, code = pickle.loads(content)
+        return Result._rebuild(target_context, *code) if kept == key else None
+
+    def save_overload(self, signature: Any, code: Any) -> None:
+        """Keep code, if that is possible; a full disk costs the next start some seconds and nothing else."""
+        if not self._enabled or code.library.has_dynamic_globals:
+            return
+        key = self._index_key(signature, code.codegen)
+        content = dumps((key, code._reduce()))
+        index = self._index(key)
+        digest = digest_of(index, content)
+        with contextlib.suppress(OSError):
+            if not self._folder.is_dir():
+                remove(self._folder)  # whatever else stands there
+            self._folder.mkdir(parents=True, exist_ok=True)
+            write(place_of_code(index, digest), content)
+            write(index, digest.encode())
+
+    def _index(self, key: Any) -> Path:
+        types = hashlib.sha256(repr((numba.__version__, str(key))).encode()).hexdigest()[:16]
+        return self._folder / f"{self._name}.{types}{INDEX}"
+
+
+def sweep(folder: Path) -> bool:
+    """Discard what is damaged in a folder of compiled code; whether all was whole."""
+    try:
+        damaged = [index for index in folder.rglob(f"*{INDEX}") if code_of(index) is None]
+    except OSError:
+        return True  # it cannot be looked through; each file is checked again before it is used
+    for index in damaged:
+        discard(index)
+    if damaged:
+        Damage.say(folder)
+    return not damaged
+
+
+def code_of(index: Path) -> bytes | None:
+    """The code that an index names; None if either of the two is not what was written."""
+    digest = content_of(index)
+    if digest is None or len(digest) != hashlib.sha256().digest_size * 2 or not digest.isalnum():
+        return None
+    name = digest.decode("ascii", "replace")
+    content = content_of(place_of_code(index, name))
+    return content if content is not None and digest_of(index, content) == name else None
+
+
+def content_of(path: Path) -> bytes | None:
+    """What stands in a file; None if it is none, or cannot be read."""
+    try:
+        return path.read_bytes() if path.is_file() else None  # a pipe would wait for ever
+    except OSError:
+        return None
+
+
+def digest_of(index: Path, content: bytes) -> str:
+    """What tells this code for this index from any other."""
+    return hashlib.sha256(index.name.encode() + b"\0" + content).hexdigest()
+
+
+def place_of_code(index: Path, digest: str) -> Path:
+    """The file with the code of a digest."""
+    function = index.name.removesuffix(INDEX).rpartition(".")[0]
+    return index.with_name(f"{function}.{digest[:32]}{CODE}")
+
+
+def discard(index: Path) -> None:
+    """Remove an index, whatever stands in its place, and the code that it names."""
+    digest = content_of(index)
+    if digest and digest.isalnum() and digest.isascii():
+        remove(place_of_code(index, digest.decode()))
+    remove(index)
+
+
+def remove(path: Path) -> None:
+    """Remove a file, or a folder in its place, if that is possible."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with contextlib.suppress(OSError):
+            path.unlink(missing_ok=True)
+
+
+def write(path: Path, content: bytes) -> None:
+    """Put a file in its place in one step."""
+    temporary = path.with_name(f".{secrets.token_hex(8)}.tmp")
+    try:
+        temporary.write_bytes(content)
+        if path.is_dir():
+            remove(path)  # nothing can be renamed onto a folder
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)

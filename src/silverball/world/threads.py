@@ -1,0 +1,86 @@
+"""How are slices of worlds handed to threads, and what if Ctrl-C comes meanwhile? All are done first."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from types import CodeType
+from typing import Any
+
+WAIT_SECONDS = 0.1  # on Windows a wait hears of Ctrl-C only when it ends
+_compiled: set[CodeType] = set()  # tasks that have been called
+
+
+def cores() -> int:
+    """The cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+class _Round:
+    """Slices of work, which threads take one after the other."""
+
+    def __init__(self, task: Callable[[int, int], None], slices: Sequence[tuple[int, int]]) -> None:
+        self._task = task
+        self._to_do = deque(slices)
+        self._open = [None] * len(slices)  # one for each slice that is not done
+        self.errors: list[BaseException] = []
+        self.over = threading.Event()
+
+    def work(self) -> None:
+        """Take slices until there are none; what a list or a deque does is done at once."""
+        while True:
+            try:
+                slice_ = self._to_do.popleft()
+            except IndexError:
+                return
+            try:
+                self._task(*slice_)
+            except BaseException as error:  # raised by whoever waits
+                self.errors.append(error)
+            finally:
+                self._open.pop()
+                if not self._open:
+                    self.over.set()
+
+
+def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -> None:
+    """Call task(first, end) for every slice on so many threads and wait until all are done.
+
+    Whatever a signal's handler raises meanwhile is kept back until then: worlds must not part.
+    """
+    code = getattr(task, "func", task).__code__
+    if code not in _compiled:
+        task(0, 0)  # no world: what it calls is compiled here, where it can be interrupted
+        _compiled.add(code)
+    work = _Round(task, slices)
+    interruption: BaseException | None = None
+    while not work.over.is_set():
+        try:
+            for _ in range(min(threads, len(slices))):
+                pool_of_threads(threads).submit(work.work)
+            while not work.over.wait(WAIT_SECONDS):
+                pass
+        except RuntimeError:  # Python ends: no thread begins any more
+            work.work()
+        except BaseException as error:
+            interruption = error
+    if interruption is not None:
+        raise interruption
+    if work.errors:
+        raise work.errors[0]
+
+
+@cache
+def pool_of_threads(threads: int) -> ThreadPoolExecutor:
+    """So many threads, which wait for work."""
+    return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
+
+
+if hasattr(os, "register_at_fork"):  # threads do not survive a fork; the child makes its own
+    os.register_at_fork(after_in_child=pool_of_threads.cache_clear)
