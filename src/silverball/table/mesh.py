@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from silverball.errors import Problem, TableError
+from silverball.plain import plain
 from silverball.table.geometry import Floats
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
 from silverball.table.parts import Point, Triangle
@@ -43,7 +44,7 @@ def triangle_footprint(path: Path) -> Triangle:
     hull = convex_hull(_points(path))
     if len(hull) > CORNERS_LIMIT:
         count = f"a footprint of {len(hull):,} corners or more, a prism's has at most {CORNERS_LIMIT:,}"
-        message = f"has {count}: simplify {path}"
+        message = f"has {count}: simplify {plain(str(path))}"
         raise _unusable(str(path), message)
     corners = largest_triangle(hull)
     a, b, c = (tuple(float(value) + 0.0 for value in np.round(corner, _ROUNDED)) for corner in corners)
@@ -136,7 +137,7 @@ def smallest_circle(points: Floats) -> tuple[float, float, float]:
 def _points(path: Path) -> Floats:
     """The vertices of a mesh file seen from above, (x, z) [u], shape [vertex, 2]."""
     kind = path.suffix.lower().removeprefix(".")
-    name = str(path)
+    name = plain(str(path))
     if kind not in KINDS:
         raise _unusable(name, f"must be an STL, OBJ or GLB file, got {path.name!r}")
     try:
