@@ -27,9 +27,7 @@ from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
 CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle among them is found in a second
-HULL_LIMIT = (
-    2**16
-)  # corners of a hull, of a part of the points too; chosen: more than single precision can make
+HULL_LIMIT = 2**16  # corners of a hull, of a part of the points too; chosen: as many as singles can make
 FURTHEST = 1e6  # [u] from the origin; what is further out is damage
 NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
 _ROUNDED = 6  # decimals [u] that are kept of a footprint: STL stores single precision
