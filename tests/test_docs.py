@@ -114,3 +114,34 @@ def test_the_reference_of_the_table_file_is_what_the_models_say():
     names: dict = {"__name__": "reference", "__file__": str(script)}
     exec(compile(script.read_text(encoding="utf-8"), script.name, "exec"), names)
     assert names["PAGE"].read_text(encoding="utf-8") == names["page"](), "run: python docs/make_reference.py"
+
+
+def test_every_file_name_and_test_that_the_page_of_the_original_names_exists():
+    page = (ROOT / "docs" / "original.md").read_text(encoding="utf-8")
+    files = set(re.findall(r"`((?:src|tests|docs)/[\w/.]+)", page))
+    assert [name for name in files if not (ROOT / name).is_file()] == []
+    tests = set(re.findall(r"`(tests/[\w/.]+)::(\w+)`", page))
+    assert len(files) > 20
+    assert len(tests) > 30
+    gone = [name for file, name in tests if f"\ndef {name}(" not in (ROOT / file).read_text(encoding="utf-8")]
+    assert gone == []
+
+
+def test_every_word_of_the_code_that_the_page_of_the_original_puts_beside_a_file_is_in_it():
+    page = (ROOT / "docs" / "original.md").read_text(encoding="utf-8")
+    beside = re.findall(r"`(src/[\w/.]+\.py)` \((`\w[^)]*)\)", page)
+    named = [(file, word) for file, words in beside for word in re.findall(r"`([\w.]+)`", words)]
+    assert len(named) > 10
+    code = {file: (ROOT / file).read_text(encoding="utf-8") for file, _ in named}
+    gone = [
+        (file, word)
+        for file, word in named
+        if not re.search(rf"^\s*(def|class) {word.rpartition('.')[2]}\b", code[file], re.MULTILINE)
+    ]
+    assert gone == []
+
+
+def test_the_pictures_of_the_original_are_small():
+    pictures = sorted((ROOT / "docs").glob("original*.png"))
+    assert len(pictures) == 3
+    assert all(picture.stat().st_size < 300_000 for picture in pictures)

@@ -18,7 +18,7 @@ import os
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import tomli_w
 from pydantic import BaseModel, ValidationError
@@ -31,7 +31,10 @@ from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table,
 from silverball.table.trial import try_recipe
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
+MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
+
+_Part: TypeAlias = TriangularPrism | Cylinder
 
 # Without these a layout cannot be measured; chosen to be what `check` needs to know of a board.
 _MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
@@ -227,20 +230,41 @@ def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None
 def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
     """The layout with every mesh replaced by its footprint; parts whose mesh is no good are left out."""
     problems: list[Problem] = []
+    known: dict[tuple[type, str], _Part | TableError] = {}  # a file that many parts name is read once
+
+    def resolved(part: _Part) -> _Part | TableError:
+        assert part.mesh is not None
+        key = (type(part), part.mesh)
+        if key not in known and len(known) >= MESHES_LIMIT:
+            message = (
+                f"is one mesh too many: a table reads at most {MESHES_LIMIT}: give its footprint instead"
+            )
+            return TableError(part.mesh, [Problem("mesh", message)])
+        if key not in known:
+            try:
+                known[key] = part.resolved(folder)
+            except TableError as error:
+                known[key] = error
+        found = known[key]
+        if isinstance(found, TableError):
+            return found
+        place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
+        return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
 
     def solid(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
-        kept: list[tuple[str, TriangularPrism | Cylinder]] = []
+        kept: list[tuple[str, _Part]] = []
         for path, part in parts:
-            try:
-                kept.append((path, part.resolved(folder)))
-            except TableError as error:
-                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in error.problems)
+            found = part if part.mesh is None else resolved(part)
+            if isinstance(found, TableError):
+                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
+            else:
+                kept.append((path, found))
         return tuple(kept)
 
-    resolved = layout._replace(
+    whole = layout._replace(
         triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
     )
-    return resolved, problems
+    return whole, problems
 
 
 def _has_mesh(table: Table) -> bool:

@@ -20,15 +20,14 @@ from pathlib import Path
 import numpy as np
 
 from silverball.errors import Problem, TableError
+from silverball.plain import plain
 from silverball.table.geometry import Floats
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
 from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
 CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle among them is found in a second
-HULL_LIMIT = (
-    2**16
-)  # corners of a hull, of a part of the points too; chosen: more than single precision can make
+HULL_LIMIT = 2**16  # corners of a hull, of a part of the points too; chosen: as many as singles can make
 FURTHEST = 1e6  # [u] from the origin; what is further out is damage
 NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
 _ROUNDED = 6  # decimals [u] that are kept of a footprint: STL stores single precision
@@ -43,7 +42,7 @@ def triangle_footprint(path: Path) -> Triangle:
     hull = convex_hull(_points(path))
     if len(hull) > CORNERS_LIMIT:
         count = f"a footprint of {len(hull):,} corners or more, a prism's has at most {CORNERS_LIMIT:,}"
-        message = f"has {count}: simplify {path}"
+        message = f"has {count}: simplify {plain(str(path))}"
         raise _unusable(str(path), message)
     corners = largest_triangle(hull)
     a, b, c = (tuple(float(value) + 0.0 for value in np.round(corner, _ROUNDED)) for corner in corners)
@@ -136,7 +135,7 @@ def smallest_circle(points: Floats) -> tuple[float, float, float]:
 def _points(path: Path) -> Floats:
     """The vertices of a mesh file seen from above, (x, z) [u], shape [vertex, 2]."""
     kind = path.suffix.lower().removeprefix(".")
-    name = str(path)
+    name = plain(str(path))
     if kind not in KINDS:
         raise _unusable(name, f"must be an STL, OBJ or GLB file, got {path.name!r}")
     try:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from datetime import date, time
 from numbers import Integral, Real
 from typing import Any, Never
 
@@ -35,7 +36,9 @@ def shown(value: object) -> str:
         return "a whole number of more than 18 digits"
     if isinstance(value, str) and len(value) > SHOWN:
         value = value[:SHOWN]  # a megabyte of text is cut before it is quoted
-    if isinstance(value, list | tuple):
+    if isinstance(value, date | time):  # a datetime is a date too
+        text = value.isoformat()
+    elif isinstance(value, list | tuple):
         text = "[" + ", ".join(shown(item) for item in value[:SHOWN]) + "]"
     else:
         text = repr(value)

@@ -7,16 +7,19 @@ import sys
 import pytest
 
 from boards import CLASSIC
-from silverball.errors import TableError, UnknownTable
+from silverball.errors import Problem, TableError, UnknownTable
 from silverball.table import (
     Table,
     check_table,
     dump_table,
     generate_table,
     load_table,
+    parse_table,
+    placing,
     save_table,
     table_digest,
 )
+from silverball.table.trial import try_recipe
 
 RECIPE = load_table("random")
 RULES = RECIPE.random
@@ -183,3 +186,50 @@ def test_a_seed_is_a_whole_number_from_0(seed):
 def test_rules_can_be_empty_of_parts():
     bare = Table(name="Bare", random={"triangular_prisms": 1, "cylinders": 1})
     assert check_table(generate_table(3, bare)) == []
+
+
+NASTY_AREAS = [
+    ((-3.0, -4.0), (-1.87, 4.9)),  # as low as the paddles
+    ((0.0, -2.0), (1.0, 2.0)),
+    ((-2.0, -1.0), (8.0, 1.0)),
+    ((4.0, -4.0), (6.5, 4.0)),
+    ((2.0, 2.0), (2.0, 2.0)),
+    ((-9.0, -5.0), (10.0, 5.0)),
+]
+
+
+@pytest.mark.parametrize("area", NASTY_AREAS, ids=str)
+@pytest.mark.parametrize(("prisms", "cylinders"), [(1, 0), (2, 1), (4, 3), (3, 5)])
+@pytest.mark.parametrize("gap", [0.62, 0.9, 1.5])
+def test_a_recipe_that_is_good_makes_a_board_of_every_seed(area, prisms, cylinders, gap):
+    table = recipe_with(area=area, triangular_prisms=prisms, cylinders=cylinders, gap=gap)
+    problems = check_table(table)
+    if problems:  # then it says which rule is in the way, and what may be changed
+        assert all(problem.path.startswith("random") for problem in problems)
+        with pytest.raises(TableError):
+            parse_table(dump_table(table))
+        return
+    assert parse_table(dump_table(table)) == table
+    for seed in range(40):
+        assert len(circles(generate_table(1000 + seed, table))) == prisms + cylinders
+
+
+def test_a_recipe_that_makes_boards_of_few_seeds_only_is_refused_before_anybody_plays_it():
+    crowded = [recipe_with(cylinders=count) for count in range(1, 20)]
+    good = [not check_table(table) for table in crowded]
+    assert good[0]
+    assert not good[-1]
+    assert good == sorted(good, reverse=True), "the more obstacles, the less room"
+    message = check_table(crowded[-1])[0].message
+    assert "could not be kept" in message
+    assert "enlarge random.area" in message
+
+
+def test_what_the_last_board_had_is_told_when_no_board_passes(monkeypatch):
+    def refuse(layout):
+        return [Problem("board", "has no way to the gutter")]
+
+    monkeypatch.setattr(placing, "check_layout", refuse)
+    ((path, message),) = try_recipe(RECIPE)
+    assert path == "random"
+    assert "board has no way to the gutter" in message

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from silverball.errors import TableError
+from silverball.table import mesh, parse_table
+from silverball.table.file import MESHES_LIMIT
 from silverball.table.mesh import MESH_LIMIT, circle_footprint, triangle_footprint
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
 
@@ -63,18 +65,18 @@ def sorted_rows(points):
 @pytest.mark.parametrize("seed", range(5))
 def test_a_mesh_has_the_points_that_trimesh_finds(tmp_path, kind, seed):
     random = np.random.default_rng(seed)
-    mesh = trimesh.creation.icosphere(subdivisions=2, radius=float(random.uniform(0.1, 3.0)))
-    mesh.apply_transform(trimesh.transformations.random_rotation_matrix(random.uniform(size=3)))
-    mesh.apply_translation(random.uniform(-5.0, 5.0, 3))
-    mesh.export(tmp_path / f"ball.{kind}")
+    ball = trimesh.creation.icosphere(subdivisions=2, radius=float(random.uniform(0.1, 3.0)))
+    ball.apply_transform(trimesh.transformations.random_rotation_matrix(random.uniform(size=3)))
+    ball.apply_translation(random.uniform(-5.0, 5.0, 3))
+    ball.export(tmp_path / f"ball.{kind}")
     found = mesh_points((tmp_path / f"ball.{kind}").read_bytes(), kind)
     again = trimesh.load(tmp_path / f"ball.{kind}", force="mesh", process=False)
     assert np.allclose(sorted_rows(found), sorted_rows(again.vertices), atol=2e-5)
 
 
 def test_a_text_stl_has_the_points_of_the_binary_one(tmp_path):
-    mesh = trimesh.creation.box((1.0, 2.0, 3.0))
-    texts = [mesh.export(file_type="stl_ascii").encode(), mesh.export(file_type="stl")]
+    box = trimesh.creation.box((1.0, 2.0, 3.0))
+    texts = [box.export(file_type="stl_ascii").encode(), box.export(file_type="stl")]
     assert sorted_rows(mesh_points(texts[0], "stl")) == sorted_rows(mesh_points(texts[1], "stl"))
     assert sorted_rows(mesh_points(texts[0].replace(b"\n", b"\r\n"), "stl")) == sorted_rows(
         BOX - np.array([0.5, 1, 1.5])
@@ -242,6 +244,34 @@ def test_a_post_of_100_000_corners_leaves_its_circle_in_little_memory(tmp_path):
         assert tracemalloc.get_traced_memory()[1] < 200e6
     finally:
         tracemalloc.stop()
+
+
+def parts_of_meshes(names):
+    return "".join(f'[[triangular_prism]]\nmesh = "{name}"\n' for name in names)
+
+
+def test_a_mesh_that_many_parts_name_is_read_once(tmp_path, monkeypatch):
+    (tmp_path / "bad.obj").write_text("v 1 2 3\nf 1 2 3\n", encoding="utf-8")
+    (tmp_path / "good.obj").write_text("v 2 0 -1\nv 3.2 0 -1.4\nv 2.4 0 0.2\nf 1 2 3\n", encoding="utf-8")
+    read = []
+    monkeypatch.setattr(
+        mesh, "mesh_points", lambda content, kind: read.append(kind) or mesh_points(content, kind)
+    )
+    with pytest.raises(TableError) as caught:
+        parse_table(parts_of_meshes(["bad.obj", "good.obj"] * 50), folder=tmp_path)
+    assert len(read) == 2
+    assert sum(problem.path.endswith(".mesh") for problem in caught.value.problems) == 50
+    assert sum("overlaps" in problem.message for problem in caught.value.problems) > 50
+
+
+def test_a_table_reads_no_more_meshes_than_its_limit(tmp_path):
+    for number in range(MESHES_LIMIT + 3):
+        text = f"v {number / 4 - 4} 0 0\nv {number / 4 - 3.9} 0 0.1\nv {number / 4 - 4} 0 0.2\nf 1 2 3\n"
+        (tmp_path / f"{number}.obj").write_text(text, encoding="utf-8")
+    with pytest.raises(TableError) as caught:
+        parse_table(parts_of_meshes(f"{number}.obj" for number in range(MESHES_LIMIT + 3)), folder=tmp_path)
+    refused = [path for path, message in caught.value.problems if "too many" in message]
+    assert refused == [f"triangular_prism[{MESHES_LIMIT + more}].mesh" for more in range(3)]
 
 
 @pytest.mark.parametrize("kind", KINDS)
