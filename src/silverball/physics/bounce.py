@@ -123,3 +123,21 @@ def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
     a.vx, a.vz = capped(a.vx + push * nx, a.vz + push * nz, board.speed_cap)
     b.vx, b.vz = capped(b.vx - push * nx, b.vz - push * nz, board.speed_cap)
     return approach
+
+
+@internal
+def bounce_off_held(ball: Any, board: Any, nx: float, nz: float) -> float:
+    """Give a ball the velocity and spin after its contact with one that is held, along (nx, nz) from it.
+
+    Returns:
+        The speed of the approach [u/s].
+    """
+    approach = -(nx * ball.vx + nz * ball.vz)
+    rebound = approach * board.ball_restitution
+    if approach <= board.hit_speed:
+        rebound = max(rebound, hop_speed(board.gravity, board.hit_speed))
+    push = approach + rebound
+    if board.friction != 0.0:
+        rub_surface(ball, board, nx, nz, 0.0, 0.0, push)
+    ball.vx, ball.vz = capped(ball.vx + push * nx, ball.vz + push * nz, board.speed_cap)
+    return approach

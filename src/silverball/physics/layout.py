@@ -79,6 +79,7 @@ class Motion(IntEnum):
     SLIDING = 0  # without friction, as in the original
     ROLLING = 1
     SLIPPING = 2  # its lowest point rubs over the playfield
+    HELD = 3  # jammed, until the tick is over; no ball is at the end of a tick
 
 
 class Fault(IntEnum):

@@ -50,6 +50,20 @@ def depart(ball: Any, board: Any, offset: float) -> None:
         _take_grip(ball, board)
 
 
+@internal
+def hold(ball: Any, offset: float) -> None:
+    """Let a ball stay where its record says it is, from so late in the tick [s] until `let_go`."""
+    _begin(ball, offset)
+    ball.pull_x, ball.pull_z, ball.motion, ball.grips, ball.due = 0.0, 0.0, Motion.HELD + 0, NEVER, NEVER
+
+
+@inlined
+def let_go(ball: Any, board: Any, tick: float) -> None:
+    """Let a ball that was held move on from the end of the tick."""
+    if ball.motion == Motion.HELD:
+        depart(ball, board, tick)
+
+
 @inlined
 def turn_slip(ball: Any, board: Any) -> None:
     """Let a slipping ball's friction follow its slip again: the direction is held for a tick at most."""

@@ -39,6 +39,11 @@ JAM_EVENT_RATE = 6000.0
 counts as jammed. A ball at rest needs 50 a second, one carried by a paddle without restitution some 3000.
 Smaller: free balls are held by mistake. Larger: a pinched ball costs more time."""
 
+JAM_SHARE = 4
+"""The two balls are in one jam if as many of these events as one by this were meetings of theirs. A ball
+between the other one and a wall has a half, in a corner a third. Smaller: a ball that presses the jammed one
+goes on pressing. Larger: a ball that only lies on the jammed one is stopped with it."""
+
 JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""
 
