@@ -89,6 +89,8 @@ class Fault(IntEnum):
     NOT_FINITE = 1  # a position or speed is not a number
     OUTSIDE = 2  # a ball is beyond the borders
     TOO_FAST = 3  # a ball is faster than the cap allows
+    INSIDE = 4  # a ball is inside a part or the other ball
+    BEYOND_STOP = 5  # a paddle is beyond its stops
 
 
 class Outcome(IntEnum):
@@ -211,7 +213,14 @@ EVENT = np.dtype(
     align=True,
 )  # fmt: skip
 
-LOG = np.dtype([("count", "i8"), ("lost", "i8"), ("event", EVENT, (LOG_SIZE,))], align=True)
+LOG = np.dtype(
+    [
+        ("count", "i8"), ("lost", "i8"),
+        ("angle", "f8", (2,)), ("ball", BALL, (BALL_COUNT,)),  # as the last call left them (see outside.py)
+        ("event", EVENT, (LOG_SIZE,)),
+    ],
+    align=True,
+)  # fmt: skip
 
 
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:

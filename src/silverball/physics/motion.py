@@ -26,11 +26,12 @@ from typing import Any
 from silverball.physics.bounce import capped
 from silverball.physics.flight import flown
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.layout import GRIP, NOTHING, Ball, Motion
-from silverball.physics.tolerances import CREEP, NEVER, SEARCH_TIME
+from silverball.physics.layout import NOTHING, Ball, Motion
+from silverball.physics.tolerances import CREEP, NEVER
 
 ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
 GRIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
+LONGER = 1.0 + 1e-9  # for the rounding of a time
 
 
 @inlined
@@ -181,8 +182,8 @@ def is_on_flight(ball: Any, board: Any, tick: float) -> bool:
         and ball.vz == at.vz
         and is_lawful(ball, board)
         and ball.age == ball.ticks * tick - ball.offset
-        and 0.0 <= ball.due <= ball.age + tick + SEARCH_TIME
-        and GRIP <= ball.meets < board.collider_end - board.collider_first
+        and 0.0 <= ball.offset <= tick * LONGER
+        and ball.age >= tick - tick * LONGER
     )
 
 
@@ -192,7 +193,7 @@ def is_lawful(ball: Any, board: Any) -> bool:
     share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
     if ball.motion == Motion.SLIPPING:
         return board.press != 0.0
-    if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z:
+    if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z or ball.grips != NEVER:
         return False
     if ball.motion == Motion.ROLLING:
         return board.press != 0.0 and not is_slipping(ball, board)

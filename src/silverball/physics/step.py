@@ -32,7 +32,8 @@ from silverball.physics.layout import (
     Part,
 )
 from silverball.physics.log import record
-from silverball.physics.motion import depart, end_flight, hold, is_on_flight, land, let_go
+from silverball.physics.motion import depart, end_flight, hold, land, let_go
+from silverball.physics.outside import is_admitted, is_as_left, is_sound, leave
 from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
 
@@ -43,7 +44,7 @@ def step_world(
     raise_left: bool, raise_right: bool, shove: bool, tick: float,
 ) -> None:  # fmt: skip
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    if is_ready(world, board, tick):
+    if is_ready(world, board, colliders, grid, log, tick):
         if shove:
             shove_balls(world, board, log)
         if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
@@ -53,6 +54,7 @@ def step_world(
             play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
+        leave(world, log)
 
 
 @inlined
@@ -224,35 +226,11 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
 
 
 @inlined
-def is_ready(world: Any, board: Any, tick: float) -> bool:
-    """Whether a world can move; its balls are put on flights of their own after a change from outside."""
-    if world.fault != Fault.NONE:
-        return False
-    a, b = world.ball[0], world.ball[1]
-    if not (is_fair(a, board) and is_fair(b, board) and are_fair(world.paddle)) and not is_sound(
-        world, board
-    ):
-        return False
-    if a.id != 0 and not is_on_flight(a, board, tick):
-        depart(a, board, 0.0)
-    if b.id != 0 and not is_on_flight(b, board, tick):
-        depart(b, board, 0.0)
-    return True
-
-
-@inlined
-def is_fair(ball: Any, board: Any) -> bool:
-    """Whether a ball is where and as fast as it can be; an empty slot is."""
-    inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
-    fastest = board.speed_cap * (1.0 + 1e-9)
-    slow = ball.vx * ball.vx + ball.vz * ball.vz <= fastest * fastest
-    return inside and slow and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
-
-
-@inlined
-def are_fair(paddles: Any) -> bool:
-    """Whether both paddles stand at angles [rad] that can be."""
-    return abs(paddles[0].angle) < 10.0 and abs(paddles[1].angle) < 10.0
+def is_ready(world: Any, board: Any, colliders: Any, grid: Any, log: Any, tick: float) -> bool:
+    """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
+    return world.fault == Fault.NONE and (
+        is_as_left(world, log) or is_admitted(world, board, colliders, grid, tick)
+    )
 
 
 @inlined
@@ -263,33 +241,6 @@ def is_inside(world: Any, board: Any) -> bool:
     return (a.id == 0 or (abs(a.x) <= x and abs(a.z) <= z)) and (
         b.id == 0 or (abs(b.x) <= x and abs(b.z) <= z)
     )
-
-
-@kernel
-def is_sound(world: Any, board: Any) -> bool:
-    """Whether the balls are where and as fast as they can be; if not, the world gets a named fault."""
-    for slot in range(2):
-        ball = world.ball[slot]
-        if ball.id == 0 or is_fair(ball, board):
-            continue
-        sum_of_all = ball.x + ball.z + ball.vx + ball.vz + ball.spin_x + ball.spin_y + ball.spin_z
-        if not is_number(sum_of_all):
-            world.fault = Fault.NOT_FINITE + 0
-        elif not (abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width):
-            world.fault = Fault.OUTSIDE + 0
-        else:
-            world.fault = Fault.TOO_FAST + 0
-        return False
-    if not are_fair(world.paddle):
-        world.fault = Fault.NOT_FINITE + 0
-        return False
-    return True
-
-
-@inlined
-def is_number(x: float) -> bool:
-    """Whether x is finite: not so when it is infinite or no number at all."""
-    return abs(x) < NEVER
 
 
 @kernel
@@ -319,7 +270,7 @@ def run_worlds(
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
         log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, board, tick):
+        if ticks == 0 or not is_ready(world, board, colliders, grid, log, tick):
             continue
         step = 0
         while step < ticks and is_inside(world, board):
@@ -341,3 +292,4 @@ def run_worlds(
             step += count
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
+        leave(world, log)

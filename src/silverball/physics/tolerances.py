@@ -79,3 +79,11 @@ SKIN_SHARE = 0.5
 
 CELL_SHARE = 0.5
 """And a cell's side this share of it. Source: measured."""
+
+DEEPEST = 1e-9
+"""[u] The promise: no ball is ever deeper inside anything. A state from outside in which one is stops."""
+
+MOST_SEARCHES = 1 << 17
+"""Searches after which a flight from outside is no longer followed, and a new one begins. Flights that a
+world comes to by itself take some hundred at most. Smaller: a long flight that is restored would begin anew.
+Larger: a made-up one costs more time; these are some 10 ms."""

@@ -23,7 +23,7 @@ from silverball.physics.balls import (
     put_ball,
 )
 from silverball.physics.layout import WORLD, Fault, Outcome
-from silverball.physics.step import is_sound
+from silverball.physics.outside import is_sound
 from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
 from silverball.table import Table
 from silverball.world import state as states
