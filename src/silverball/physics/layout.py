@@ -216,7 +216,7 @@ EVENT = np.dtype(
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
-        ("angle", "f8", (2,)), ("ball", BALL, (BALL_COUNT,)),  # as the last call left them (see outside.py)
+        ("mark", "f8"),  # of the flights and angles that the last call left (see outside.py)
         ("event", EVENT, (LOG_SIZE,)),
     ],
     align=True,

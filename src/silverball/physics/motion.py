@@ -76,7 +76,14 @@ def turn_slip(ball: Any, board: Any) -> None:
 @inlined
 def _begin(ball: Any, offset: float) -> None:
     ball.from_x, ball.from_z, ball.from_vx, ball.from_vz = ball.x, ball.z, ball.vx, ball.vz
-    ball.ticks, ball.offset, ball.age, ball.due, ball.meets = 0, offset, -offset, 0.0, NOTHING
+    ball.ticks, ball.offset, ball.age = 0, offset, -offset
+    search_anew(ball)
+
+
+@inlined
+def search_anew(ball: Any) -> None:
+    """Forget what a flight is known to meet: it will be searched from its beginning."""
+    ball.due, ball.meets = 0.0, NOTHING
 
 
 @internal

@@ -1,9 +1,10 @@
 """Is a state that may come from outside one that can be, and is each ball on its flight?
 
-A record that is as the last call left it, number for number, is believed; the log keeps what that is. Any
-other one has come from outside: it was restored, copied, shoved, or somebody wrote numbers into it. Then the
-balls must be where balls can be, or the world gets a named fault, and a flight is believed only if the search
-from its beginning finds the same next contact. Else a new flight begins from where the ball is.
+What the last call left goes on; the log keeps a mark of it. Anything else has come from outside: it was
+restored, copied, shoved, or somebody wrote numbers into it. Then the balls must be where balls can be, or the
+world gets a named fault. A flight that leads to where its ball is goes on, but its next contact is searched
+for again from the flight's beginning; a search is a function of the flight alone, so a world that is restored
+comes to the same bits. A ball on no such flight begins a new one from where it is.
 """
 
 from __future__ import annotations
@@ -11,94 +12,47 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.physics.balls import clearance, part_balls
-from silverball.physics.contact import search
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import NOTHING, Fault, Motion, Part
-from silverball.physics.motion import depart, is_on_flight
-from silverball.physics.tolerances import DEEPEST, MOST_SEARCHES, NEVER
+from silverball.physics.layout import Fault, Part
+from silverball.physics.log import mark
+from silverball.physics.motion import depart, is_on_flight, search_anew
+from silverball.physics.tolerances import DEEPEST, NEVER
 
 
 @inlined
-def leave(world: Any, log: Any) -> None:
-    """Keep in the log what a call leaves."""
-    log.ball[0] = world.ball[0]
-    log.ball[1] = world.ball[1]
-    log.angle[0] = world.paddle[0].angle
-    log.angle[1] = world.paddle[1].angle
-
-
-@inlined
-def is_as_left(world: Any, log: Any) -> bool:
-    """Whether the balls and the paddles are as the last call left them."""
+def is_as_left(world: Any, board: Any, log: Any, tick: float) -> bool:
+    """Whether the balls are on the flights, and the paddles at the angles, that the last call left."""
     return (
-        world.paddle[0].angle == log.angle[0]
-        and world.paddle[1].angle == log.angle[1]
-        and is_same(world.ball[0], log.ball[0])
-        and is_same(world.ball[1], log.ball[1])
+        mark(world) == log.mark
+        and goes_on(world.ball[0], board, tick)
+        and goes_on(world.ball[1], board, tick)
     )
 
 
 @inlined
-def is_same(a: Any, b: Any) -> bool:
-    """Whether two ball records are equal in every field."""
-    return a.id == b.id and (
-        a.id == 0
-        or (
-            a.x == b.x
-            and a.z == b.z
-            and a.vx == b.vx
-            and a.vz == b.vz
-            and a.spin_x == b.spin_x
-            and a.spin_y == b.spin_y
-            and a.spin_z == b.spin_z
-            and a.from_x == b.from_x
-            and a.from_z == b.from_z
-            and a.from_vx == b.from_vx
-            and a.from_vz == b.from_vz
-            and a.pull_x == b.pull_x
-            and a.pull_z == b.pull_z
-            and a.motion == b.motion
-            and a.grips == b.grips
-            and a.ticks == b.ticks
-            and a.offset == b.offset
-            and a.age == b.age
-            and a.due == b.due
-            and a.meets == b.meets
-        )
+def goes_on(ball: Any, board: Any, tick: float) -> bool:
+    """Whether a ball is on a flight that has not come to its end yet; an empty slot is."""
+    return ball.id == 0 or (
+        ball.age <= ball.due
+        and is_on_flight(ball, board, tick)
+        and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
     )
 
 
 @internal
-def is_admitted(world: Any, board: Any, colliders: Any, grid: Any, tick: float) -> bool:
-    """Whether a state from outside can be; if so each ball is on its flight now, else the fault is named."""
+def is_admitted(world: Any, board: Any, colliders: Any, tick: float) -> bool:
+    """Whether a state from outside can be, each ball on a flight of its own; if not, the fault is named."""
     if not is_sound(world, board) or not is_clear(world, board, colliders):
         return False
     for slot in range(2):
         ball = world.ball[slot]
-        if ball.id == 0 or (
-            is_on_flight(ball, board, tick) and is_searched(board, colliders, grid, ball, tick)
-        ):
+        if ball.id == 0:
             continue
-        depart(ball, board, 0.0)
+        if is_on_flight(ball, board, tick):
+            search_anew(ball)
+        else:
+            depart(ball, board, 0.0)
     return True
-
-
-@internal
-def is_searched(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> bool:
-    """Whether the next contact in a ball's record is what the searches from its flight's beginning find.
-
-    A search is a function of the flight alone; only that of a slipping ball is not, whose flight begins anew
-    in every tick.
-    """
-    if ball.motion == Motion.SLIPPING:
-        return True
-    due, meets = ball.due, ball.meets
-    ball.due, ball.meets = 0.0, NOTHING
-    for _ in range(MOST_SEARCHES):
-        if ball.meets != NOTHING or not ball.due < due:
-            break
-        search(board, colliders, grid, ball, tick)
-    return bool(ball.due == due and ball.meets == meets)
 
 
 @kernel

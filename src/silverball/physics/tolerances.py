@@ -82,8 +82,3 @@ CELL_SHARE = 0.5
 
 DEEPEST = 1e-9
 """[u] The promise: no ball is ever deeper inside anything. A state from outside in which one is stops."""
-
-MOST_SEARCHES = 1 << 17
-"""Searches after which a flight from outside is no longer followed, and a new one begins. Flights that a
-world comes to by itself take some hundred at most. Smaller: a long flight that is restored would begin anew.
-Larger: a made-up one costs more time; these are some 10 ms."""
