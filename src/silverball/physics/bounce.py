@@ -26,7 +26,7 @@ from typing import Any
 from silverball.physics.friction import rub_balls, rub_surface
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import Contact
-from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE
+from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, LEAST_HOP
 
 
 @inlined
@@ -40,8 +40,9 @@ def hop_speed(acceleration: float, hit_speed: float) -> float:
     """Least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
 
     A hop must come back as a touch, or a ball at rest would score; so it stays below the speed of a hit.
+    Where nothing pulls it is LEAST_HOP.
     """
-    return min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed)
+    return max(min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed), LEAST_HOP)
 
 
 @inlined

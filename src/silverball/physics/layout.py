@@ -168,6 +168,7 @@ BOARD = np.dtype(
         # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
         ("skin", "f8"),  # a cell lists all parts that a ball can reach on a way of this length [u]
+        ("search_time", "f8"),  # no search for contacts looks further ahead than this [s]
         ("place_first", "i8"), ("place_end", "i8"),  # this board's rows of the places
         ("place_size", "f8"),  # side of a place's square [u]
         ("place_lowest", "f8"),  # no ball is created below this x [u]

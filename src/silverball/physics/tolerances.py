@@ -20,6 +20,11 @@ HOP = 5e-4
 Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: nobody sees it.
 Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
 
+LEAST_HOP = 1e-9
+"""[u/s] And at least this speed: where nothing pulls, a ball that has lost its speed towards a wall must not
+be left with a rounding of it, or it would meet the wall without end. Roundings reach 1e-14 u/s. Smaller: it
+would. Larger: energy grows by half its square a touch."""
+
 HOP_SHARE = 0.9
 """A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
 
@@ -73,6 +78,14 @@ SKIN = 2.0
 
 SEARCH_TIME = 0.25
 """[s] And no longer than this. Source: measured."""
+
+LIGHT = 0.1
+"""[u/s²] Under less gravity than this a search may be longer: a ball may hang about for hours, and a flight
+must not come to consist of a million searches. Smaller: it would. Larger: no harm, but other bits."""
+
+LONGEST_SEARCH = 1e4
+"""[s] No search is longer. Smaller: more searches for a ball at rest that nothing pulls. Larger: times lose
+digits."""
 
 SKIN_SHARE = 0.5
 """Where parts stand close, `skin` is this share of the mean distance between them. Source: measured."""

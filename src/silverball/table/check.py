@@ -113,7 +113,7 @@ def check_layout(layout: Layout) -> list[Problem]:
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
     problems += _way_problems(layout, paddles, ball_space)
-    if len(meetings) <= TANGLE:
+    if len(meetings) <= TANGLE and layout.board.gravity > 0.0:  # else a ball may lie anywhere
         problems += _trap_problems(layout, standing, ball_space)
     if layout.random is not None:
         problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)

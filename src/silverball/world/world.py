@@ -206,7 +206,7 @@ class World:
 
     @property
     def fault(self) -> str | None:
-        """Why the world has stopped ("not_finite", "outside", "too_fast"), or None."""
+        """Why the world has stopped, or None: the name of a `Fault`, such as "not_finite" or "inside"."""
         fault = Fault(int(self._record["fault"]))
         return None if fault == Fault.NONE else fault.name.lower()
 
