@@ -22,6 +22,7 @@ def font(size: int, bold: bool = False) -> pygame.font.Font:
         pygame.font.init()
     face = pygame.font.Font(None, max(size, 6))
     face.set_bold(bold)
+    pygame.register_quit(font.cache_clear)  # another program's pygame.quit() makes fonts useless
     return face
 
 

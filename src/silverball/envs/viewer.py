@@ -47,6 +47,7 @@ class Screen:
         self._window.set_icon(ball_icon(ICON_SIDE))
         self._clock, self._rate = pygame.Clock(), rate
         self._all.append(self)
+        pygame.register_quit(self.close)
 
     @property
     def is_closed(self) -> bool:
