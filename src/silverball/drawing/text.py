@@ -35,6 +35,7 @@ def font(size: int, bold: bool = False, file: str | None = None) -> pygame.font.
         pygame.font.init()
     face = pygame.font.Font(file, max(size, 6))
     face.set_bold(bold)
+    pygame.register_quit(font.cache_clear)  # another program's pygame.quit() makes fonts useless
     return face
 
 
