@@ -103,12 +103,15 @@ class Keyboard:
     def labels(self, names: Iterable[str]) -> dict[str, str]:
         """What stands on the keys that are meant by some names, where that is something else.
 
-        Where there is no font for it, it is the sign of a US keyboard: such keyboards bear that too.
+        Where there is no font for it, it is the sign of a US keyboard: such keyboards bear that too, unless
+        it stands on another key.
         """
         labels = {}
         for place, name in self._meanings(set(names)).items():
             label = self._bears.get(place, name)
-            label = label if can_show(label) else US_SIGNS.get(place, name)
+            if not can_show(label):
+                sign = US_SIGNS.get(place, name)
+                label = name if sign in self._bears.values() else sign
             if name not in (label, "space"):
                 labels[name] = label
         return labels

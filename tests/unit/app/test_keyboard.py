@@ -79,6 +79,14 @@ def test_a_key_that_is_chosen_is_that_key_ever_after(bears, place):
         assert board.meant(event, USED | {name}) == name
 
 
+def test_a_sign_without_a_font_is_never_called_by_the_sign_of_another_key(monkeypatch):
+    monkeypatch.setattr("silverball.app.keyboard.can_show", str.isascii)
+    hebrew = {US_PLACES[sign]: sign for sign in SIGNS} | {US_PLACES["a"]: "n", US_PLACES["n"]: "ש"}
+    assert keyboard(hebrew).labels({"a", "n"}) == {}
+    russian = {US_PLACES["a"]: "ф"}
+    assert keyboard(russian).labels({"q", "ф"}) == {"ф": "a"}
+
+
 def test_on_a_us_keyboard_every_key_is_what_it_bears():
     board = keyboard({})
     for name in USED & set(SIGNS):
