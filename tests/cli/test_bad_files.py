@@ -17,6 +17,8 @@ import pytest
 from holed import Holed, options_of
 from hostile_text import obeyed_in
 from silverball.cli.app import run
+from silverball.drawing.film import check_output
+from silverball.errors import OutputError
 from silverball.players import soak as soak_module
 from silverball.players.finding import Finding, again
 from silverball.players.soaklog import soak
@@ -171,6 +173,13 @@ def test_what_is_no_ordinary_file_is_never_written_over(refused, writer, make):
     before = what_is_there()
     assert refused(*arguments).startswith(target)
     assert what_is_there() == before
+
+
+@pytest.mark.parametrize("make", SPECIAL.values(), ids=SPECIAL)
+def test_that_it_cannot_be_written_is_said_before_a_film_is_made(make):
+    make("there.gif")
+    with pytest.raises(OutputError, match=r"there\.gif"):
+        check_output(Path("there.gif"), (".gif",), force=True)
 
 
 @pytest.mark.parametrize("name", ["-", ""])

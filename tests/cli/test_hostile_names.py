@@ -276,7 +276,7 @@ def test_files_whose_names_are_no_text_are_read_and_written(told, played: Replay
 
 
 def test_a_table_of_a_hostile_name_is_drawn(told):
-    for name in ("\0", "".join(NAMES.values())[:80], "🧙\u200d♂️"):
+    for name in ("\0", "".join(NAMES.values())[:80], "🧙\u200d♂️", NAMES["selector"], NAMES["pile"]):
         table_called(name)
         assert told("show", "--table", "mine.toml", "--out", "x.png", "--size", "100", "--force")[0] == 0
 

@@ -52,3 +52,11 @@ def test_its_vectors_run_them_side_by_side():
     observations, *_ = envs.step(np.zeros(12, np.int32))
     assert observations.shape == (12, 63)
     envs.close()
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"), [("frameskip", "frame_skip"), ("zero_copy", "always"), ("autoreset_mode", "always")]
+)
+def test_an_unknown_option_is_an_unexpected_keyword_argument(name, hint):
+    with pytest.raises(TypeError, match=f"unexpected keyword argument '{name}'.*{hint}"):
+        SilverballPufferEnv(2, table="classic", **{name: 4})

@@ -11,9 +11,11 @@ from gymnasium.vector.utils import batch_space
 
 sb3 = pytest.importorskip("stable_baselines3", reason="Stable-Baselines3 is not installed")
 
+from stable_baselines3.common.atari_wrappers import AtariWrapper  # noqa: E402
 from stable_baselines3.common.env_checker import check_env  # noqa: E402
 from stable_baselines3.common.evaluation import evaluate_policy  # noqa: E402
 from stable_baselines3.common.preprocessing import is_image_space  # noqa: E402
+from stable_baselines3.common.vec_env import SubprocVecEnv  # noqa: E402
 
 from silverball.envs import IDS, PinballVectorEnv  # noqa: E402
 from silverball.envs.sb3 import SilverballVecEnv  # noqa: E402
@@ -139,3 +141,63 @@ def test_pictures_for_people_come_from_all_environments():
     envs = SilverballVecEnv(2, seed=0, render_mode="rgb_array", **OPTIONS)
     envs.reset()
     assert [picture.shape for picture in envs.get_images()] == [(680, 330, 3)] * 2
+
+
+def test_boards_can_be_chosen_for_the_next_reset():
+    envs = SilverballVecEnv(3, seed=0, table="random", boards=4)
+    free = SilverballVecEnv(3, seed=0, table="random", boards=4)
+    free.reset(), free.reset(), free.reset()
+    drawn = [info["board"] for info in free.reset_infos]
+    envs.set_options({"board": 2})
+    envs.reset()
+    assert [info["board"] for info in envs.reset_infos] == [2, 2, 2]
+    envs.set_options([{"board": 3}, {}, {"board": 0}])
+    envs.reset()
+    assert [info["board"] for info in envs.reset_infos][::2] == [3, 0]
+    envs.reset()
+    assert [info["board"] for info in envs.reset_infos] == drawn, "it is for one reset"
+    envs.set_options({"bord": 2})
+    with pytest.raises(ValueError, match="unknown reset option 'bord'"):
+        envs.reset()
+
+
+@pytest.mark.parametrize(("name", "hint"), [("frameskip", "frame_skip"), ("autoreset_mode", "SAME_STEP")])
+def test_an_unknown_option_is_an_unexpected_keyword_argument(name, hint):
+    with pytest.raises(TypeError, match=f"unexpected keyword argument '{name}'.*{hint}"):
+        SilverballVecEnv(2, table="classic", **{name: 4})
+
+
+@pytest.mark.parametrize("actions", ["discrete", "multibinary"])
+@pytest.mark.parametrize("make", [gym.make, None], ids=["single", "vector"])
+def test_ppo_learns_with_either_kind_of_actions(actions, make):
+    options = {"table": "classic", "actions": actions}
+    envs = make("silverball/PinballClassic-v0", **options) if make else SilverballVecEnv(4, **options)
+    sb3.PPO("MlpPolicy", envs, n_steps=32, batch_size=32, n_epochs=1, device="cpu").learn(128)
+
+
+@pytest.mark.parametrize("id_", IDS)
+@pytest.mark.parametrize("balls", [1, 3])
+def test_its_wrappers_for_atari_go_around_every_environment(id_, balls):
+    pytest.importorskip("cv2", reason="OpenCV is not installed")
+    options = {"observation": "pixels", "rgb": True, "stack": 1, "balls": balls}
+    boards = {} if "Classic" in id_ else {"boards": 2}
+    env = AtariWrapper(gym.make(id_, **options, **boards))
+    observation, _ = env.reset(seed=0)
+    lives = []
+    for _ in range(600):
+        observation, _, terminated, truncated, _ = env.step(0)
+        assert observation.shape == (84, 84, 1)
+        if terminated or truncated:
+            lives.append(env.unwrapped.ale.lives())
+            env.reset()
+    assert lives[:balls] == list(range(balls))[::-1], "each ball is a life"
+
+
+def test_processes_of_its_own_import_by_the_long_name():
+    envs = SubprocVecEnv(
+        [lambda: gym.make("silverball.envs:silverball/PinballClassic-v0")] * 2, start_method="spawn"
+    )
+    try:
+        assert envs.reset().shape == (2, 63)
+    finally:
+        envs.close()

@@ -40,7 +40,7 @@ boards = st.fixed_dictionaries(
         "length": st.floats(20, 50),
         "width": st.floats(10, 50),
         "height": st.floats(0, 10),
-        "gravity": st.floats(0.1, 100),
+        "gravity": st.floats(0, 100),
         "slope": st.floats(1, 60),
         "friction": st.floats(1e-3, 2),
         "ball_radius": st.floats(0.1, 2),

@@ -39,7 +39,7 @@ def test_letters_that_a_font_refuses_are_drawn_as_their_escapes():
 
 def test_the_score_display_shows_a_box_for_what_it_has_no_dots_for():
     for name in (*NAMES.values(), "\0", NO_TEXT):
-        assert Dots().text(name, 0, 0) > 0
+        assert Dots().text(name, 0, 0) > 0, ascii(name)
 
 
 @pytest.mark.parametrize("file", ["plain.toml", f"{NO_TEXT}.toml"])

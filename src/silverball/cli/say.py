@@ -21,10 +21,4 @@ def say(*lines: str, err: bool = False) -> None:
 
 def say_json(value: Any, indent: int | None = 2) -> None:
     """Print a value as JSON, in ASCII."""
-    typer.echo(as_json(value, indent))
-
-
-def as_json(value: Any, indent: int | None = 2) -> str:
-    """A value as JSON, in ASCII."""
-    # `json` leaves the delete character as it is, the only one that is obeyed.
-    return json.dumps(value, indent=indent).replace("\x7f", "\\u007f")
+    typer.echo(json.dumps(value, indent=indent))

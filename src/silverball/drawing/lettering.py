@@ -9,7 +9,7 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.build import Build
-from silverball.drawing.text import font
+from silverball.drawing.text import font, rendered
 from silverball.plain import plain
 
 ROWS = 48  # [pixel] of the image
@@ -29,7 +29,9 @@ def lettering(name: str, build: Build) -> NDArray[np.float32]:
     if not name.strip() or depth < 0.04 * width:
         return plate
     letters = "  ".join(plain(name.upper()).split())
-    words = font(LETTERS, bold=True).render(letters, True, (255, 255, 255))
+    words = rendered(font(LETTERS, bold=True), letters, (255, 255, 255))
+    if not words.get_width():
+        return plate
     image = pygame.Surface(words.get_size(), 0, 24)
     image.blit(words, (0, 0))
     if image.get_width() > 0.7 * columns:

@@ -35,6 +35,7 @@ def font(size: int, bold: bool = False, file: str | None = None) -> pygame.font.
         pygame.font.init()
     face = pygame.font.Font(file, max(size, 6))
     face.set_bold(bold)
+    pygame.register_quit(font.cache_clear)  # another program's pygame.quit() makes fonts useless
     return face
 
 
@@ -43,10 +44,15 @@ def line(text: str, size: int, color: Color) -> pygame.Surface:
     """One line of text. The surface is shared: blit it, do not change it."""
     text = plain(text)  # some characters turn the direction round, and a font refuses others
     if size >= SMALL:
-        return font(size, file=_file_for(text)).render(text, True, color)
+        return rendered(font(size, file=_file_for(text)), text, color)
     # The font's hints push small letters unevenly onto whole pixels; drawn large and shrunk they stand well.
-    large = font(ENLARGED * size, file=_file_for(text)).render(text, True, color)
+    large = rendered(font(ENLARGED * size, file=_file_for(text)), text, color)
     return pygame.transform.smoothscale_by(large, 1.0 / ENLARGED)
+
+
+def rendered(face: pygame.font.Font, text: str, color: Color) -> pygame.Surface:
+    """A text in a font; as wide as nothing where it has only characters without any width of their own."""
+    return face.render(text if face.size(text)[0] else "", True, color)
 
 
 def font_of(character: str, size: int) -> pygame.font.Font | None:
@@ -77,8 +83,10 @@ def _has(file: str | None, character: str) -> bool:
     if character.isascii() or not character.isprintable():
         return character.isprintable()
     face = font(SMALL, file=file)
-    missing, drawn = (face.render(one, True, (0, 0, 0)) for one in (_NO_CHARACTER, character))
-    return pygame.image.tobytes(drawn, "RGBA") != pygame.image.tobytes(missing, "RGBA")
+    missing, drawn = (rendered(face, one, (0, 0, 0)) for one in (_NO_CHARACTER, character))
+    return drawn.get_width() > 0 and pygame.image.tobytes(drawn, "RGBA") != pygame.image.tobytes(
+        missing, "RGBA"
+    )
 
 
 def number(value: int, size: int, color: Color) -> list[pygame.Surface]:

@@ -12,17 +12,19 @@ PufferLib.
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from silverball.errors import MissingExtra, OutdatedExtra
+from silverball.plain import plain
 
 try:
     import gymnasium
 except ModuleNotFoundError:
     raise MissingExtra("silverball.envs", "rl") from None
-else:
-    if tuple(int(number) for number in gymnasium.__version__.split(".")[:2]) < (1, 1):  # has AutoresetMode
-        raise OutdatedExtra("silverball.envs", "Gymnasium", gymnasium.__version__, "1.1", "rl")
+# The first that has AutoresetMode. The extra asks for a later one, whose own extras leave pygame-ce alone.
+if [int(number) for number in re.findall(r"\d+", gymnasium.__version__)[:2]] < [1, 1]:
+    raise OutdatedExtra("silverball.envs", "Gymnasium", plain(gymnasium.__version__), "1.1", "rl")
 
 from silverball.envs.options import OPTIONS, Options
 from silverball.envs.single import PinballEnv

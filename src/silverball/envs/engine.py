@@ -11,7 +11,9 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import sys
 from concurrent.futures import Future
+from functools import cache
 from sys import byteorder
 from typing import Any, NoReturn
 
@@ -28,7 +30,7 @@ from silverball.envs.pool import Pool, PooledBatch, pool_of
 from silverball.envs.records import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.kernel import SETTINGS, straight
+from silverball.physics.kernel import AGENTS, SETTINGS, cache_folder, is_compiled, straight
 from silverball.physics.layout import WORLD, Part, records
 from silverball.world.threads import pool_of_threads
 
@@ -78,6 +80,7 @@ class Engine:
         pictures = max(1, self.stack * int(self.rules["copies"][0])) if self.shows_pictures else 0
         self._work = options.frame_skip + PICTURE * pictures
         self._write_addresses()
+        _tell_of_compiling()
         self.move = straight(move, self.addresses, 0, 1, 0)
         self.forget()
 
@@ -325,6 +328,16 @@ class Engine:
             "the state belongs to other boards, another tick rate or stack, or another version; "
             "restore it into an environment made with the same options"
         )
+
+
+@cache
+def _tell_of_compiling() -> None:
+    """Say why the first environment of a process takes its time, if it does."""
+    if SETTINGS.DISABLE_JIT or is_compiled(move.__name__, AGENTS):
+        return
+    how_often = "once" if cache_folder(AGENTS) else "as at every start: its cache folder cannot be written"
+    words = f"compiling the environments for this machine, {how_often}; this takes half a minute or so…"
+    print("silverball:", words, file=sys.stderr, flush=True)
 
 
 def _as_records(memory: NDArray[np.uint8], dtype: np.dtype[Any]) -> NDArray[Any]:

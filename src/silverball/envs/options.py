@@ -106,8 +106,12 @@ class Options:
         _whole("stack", self.stack, 1, MOST_STACKED)
 
     @classmethod
-    def of(cls, given: dict[str, Any]) -> Options:
+    def of(cls, given: dict[str, Any], others: tuple[str, ...] = ()) -> Options:
         """The options of these keyword arguments.
+
+        Args:
+            given: By their names.
+            others: What else the caller takes: a name that is mistyped may mean one of these.
 
         Raises:
             TypeError: There is no option of that name.
@@ -118,11 +122,12 @@ class Options:
                 continue
             # Trainers try options of other environments and look for these words (TorchRL: frameskip).
             unexpected = f"got an unexpected keyword argument {name!r}"
-            if name in OF_VECTORS:
+            if name in OF_VECTORS and name not in others:
                 raise TypeError(f"{unexpected}: it is for many environments, gymnasium.make_vec takes it")
-            near = difflib.get_close_matches(name, names, 1)
+            known = (*names, *others)
+            near = difflib.get_close_matches(name, known, 1)
             hint = f"did you mean {near[0]!r}? " if near else ""
-            raise TypeError(f"{unexpected}; {hint}The options are {', '.join(names)}")
+            raise TypeError(f"{unexpected}; {hint}The options are {', '.join(known)}")
         return cls(**given)
 
     @property
@@ -157,6 +162,13 @@ class Options:
     def steps_in(self, seconds: float | None) -> int:
         """The least number of whole steps that last so long; NEVER for None."""
         return NEVER if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))
+
+
+def refuse_options(given: dict[str, Any], names: tuple[str, ...], reason: str) -> None:
+    """Refuse options that a trainer's adapter decides, in Python's words for what a function lacks."""
+    for name in names:
+        if name in given:
+            raise TypeError(f"got an unexpected keyword argument {name!r}: {reason}")
 
 
 OPTIONS = tuple((field.name, field.default, field.metadata["text"]) for field in dataclasses.fields(Options))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from operator import index
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from silverball.envs.options import Named
 from silverball.envs.slots import CylinderSlot, Field, PrismSlot, fields
 from silverball.physics.layout import LOG, WORLD, Kind, Part, records
+from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
 from silverball.world.compile import Boards, compile_tables
@@ -50,13 +52,17 @@ class Pool(NamedTuple):
             ValueError: None has.
         """
         if self.seeds[0] < 0:
-            raise ValueError(f"board cannot be chosen: {self.tables[0].name} is the only table, got {seed!r}")
-        is_whole = isinstance(seed, (int, np.integer)) and not isinstance(seed, bool)
-        found = np.flatnonzero(self.seeds == seed) if is_whole else np.empty(0, np.int64)
+            name = plain(self.tables[0].name)
+            raise ValueError(f"board cannot be chosen: {name} is the only table, got {seed!r}")
+        try:
+            number = -1 if isinstance(seed, bool) else index(seed)
+        except TypeError:  # no whole number
+            number = -1
+        found = np.flatnonzero(self.seeds == number)
         if not len(found):
             raise ValueError(
-                f"board must be a whole number from {self.seeds[0]} to {self.seeds[-1]}, got {seed!r}; the "
-                "options boards and board_seed make others"
+                f"board must be a whole number from {self.seeds[0]} to {self.seeds[-1]}, got {seed!r}; "
+                "of a recipe the options boards and board_seed make others"
             )
         return int(found[0])
 
@@ -113,7 +119,7 @@ def _listed(tables: tuple[Table, ...]) -> Pool:
     if not tables:
         raise ValueError("the list of tables is empty, it needs at least one")
     for number, table in enumerate(tables):
-        which = f"table {number} of the list ({table.name})"
+        which = f"table {number} of the list ({plain(table.name)})"
         if table.random is not None:
             raise ValueError(f"{which} is a recipe: draw boards from it with generate_table(seed, recipe)")
         for part in ("board", "paddle"):

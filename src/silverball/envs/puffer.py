@@ -14,6 +14,7 @@ import numpy as np
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
+from silverball.envs.options import refuse_options
 from silverball.envs.vector import PinballVectorEnv
 
 try:
@@ -43,6 +44,7 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
     ) -> None:
         if options.get("observation") == "dict" or options.get("actions") == "multibinary":
             raise ValueError("PufferLib takes rows and numbers: leave observation and actions as they are")
+        refuse_options(options, ("autoreset_mode", "zero_copy"), "it is always the same for PufferLib")
         self.envs = PinballVectorEnv(num_envs, AutoresetMode.SAME_STEP, True, threads, **options)
         self.single_observation_space = self.envs.single_observation_space
         self.single_action_space = self.envs.single_action_space

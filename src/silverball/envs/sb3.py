@@ -17,6 +17,8 @@ from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
+from silverball.envs.options import refuse_options
+from silverball.envs.single import checked_reset_options
 from silverball.envs.spaces import INFO
 from silverball.envs.vector import PinballVectorEnv
 
@@ -42,6 +44,9 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         threads: How many threads a step may use; None: one for each core.
         render_mode: "rgb_array" or None.
         options: See `silverball.envs.options.OPTIONS`.
+
+    `set_options({"board": 12})`, or a list of such dicts, one for each environment, chooses the boards of the
+    next `reset`.
     """
 
     def __init__(
@@ -52,6 +57,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         render_mode: str | None = None,
         **options: Any,
     ) -> None:
+        refuse_options(options, ("autoreset_mode",), "Stable-Baselines3 knows SAME_STEP alone")
         self.envs = PinballVectorEnv(
             num_envs, AutoresetMode.SAME_STEP, threads=threads, render_mode=render_mode, **options
         )
@@ -70,7 +76,10 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         """Begin an episode in every environment; its observations."""
         seeds = [seed for seed in self._seeds if seed is not None]
         seed: Any = seeds if len(seeds) == self.num_envs else self._first_seed
-        observations, infos = self.envs.reset(seed=seed)
+        given = [checked_reset_options(one, ("board",)) for one in self._options]
+        boards: Any = [one.get("board") for one in given]
+        chosen = {"board": boards} if any(board is not None for board in boards) else None
+        observations, infos = self.envs.reset(seed=seed, options=chosen)
         self._first_seed = None
         self._reset_seeds()
         self._reset_options()

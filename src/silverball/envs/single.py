@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
-from silverball.envs.actions import as_whole, keys_to_action
+from silverball.envs.actions import as_array, as_bits, keys_to_action
 from silverball.envs.engine import HEAD, Engine
 from silverball.envs.options import Options
 from silverball.envs.records import Mode
@@ -52,7 +52,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
     """
 
     def __init__(self, render_mode: str | None = None, **options: Any) -> None:
-        self.options = Options.of(options)
+        self.options = Options.of(options, ("render_mode",))
         self.render_mode = checked_render_mode(render_mode, ("human", "rgb_array"))
         self._engine = engine = Engine(self.options, 1, Mode.DISABLED, threads=1, owns_output=True)
         self.observation_space = observation_space(self.options, engine.pool)
@@ -91,7 +91,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     @np_random.setter
     def np_random(self, generator: np.random.Generator) -> None:
-        self._np_random, self._np_random_seed, self._is_rng_set = generator, -1, True
+        self._np_random, self._np_random_seed, self._is_rng_set = checked_generator(generator), -1, True
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -258,9 +258,10 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     def _number_of(self, action: Any) -> int:
         """A multibinary action as a number."""
-        is_bits = self.options.actions == "multibinary" and np.shape(action) == self._weights.shape
-        bits = as_whole(np.asarray(action), floats=True) if is_bits else None
-        if bits is None or (bits > 1).any() or (bits < 0).any():
+        given = as_array(action)
+        is_row = self.options.actions == "multibinary" and given.shape == self._weights.shape
+        bits = as_bits(given) if is_row else None
+        if bits is None:
             self._refuse(action)
         return int(bits @ self._weights)
 
@@ -297,6 +298,13 @@ def checked_render_mode(render_mode: str | None, modes: tuple[str, ...]) -> str 
     if render_mode is not None and render_mode not in modes:
         raise ValueError(f"render_mode must be {' or '.join(map(repr, modes))} or None, got {render_mode!r}")
     return render_mode
+
+
+def checked_generator(generator: np.random.Generator) -> np.random.Generator:
+    """A generator that somebody sets, if it is one."""
+    if not isinstance(generator, np.random.Generator):
+        raise TypeError(f"np_random must be a numpy.random.Generator, got {generator!r}")
+    return generator
 
 
 def checked_reset_options(options: dict[str, Any] | None, known: tuple[str, ...]) -> dict[str, Any]:

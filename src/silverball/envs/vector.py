@@ -16,12 +16,12 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from silverball.envs.actions import as_whole
+from silverball.envs.actions import as_array, as_bits
 from silverball.envs.engine import Engine
-from silverball.envs.options import NEVER, Options
+from silverball.envs.options import NEVER, OF_VECTORS, Options
 from silverball.envs.records import Mode
 from silverball.envs.seeds import GREATEST_SEED, key_of
-from silverball.envs.single import checked_render_mode, checked_reset_options
+from silverball.envs.single import checked_generator, checked_render_mode, checked_reset_options
 from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
 from silverball.envs.spec import own_spec
 from silverball.envs.viewer import Viewer
@@ -53,7 +53,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             it every step returns new arrays.
         threads: How many threads a step may use; None: one for each core. It never changes a result.
         render_mode: "rgb_array" or None.
-        max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows.
+        max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows; None
+            or −1: `time_limit` alone counts.
         own_boards: Whether environment i always plays board i instead of one that is drawn for every episode:
             of a recipe, which must then have as many `boards`; of a list of tables in turn.
         options: See `silverball.envs.options.OPTIONS`.
@@ -86,7 +87,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         **options: Any,
     ) -> None:
         self.num_envs = checked_int("num_envs", num_envs, 1, 2**22)
-        self.options = Options.of(options)
+        self.options = Options.of(options, ("num_envs", "render_mode", "max_episode_steps", *OF_VECTORS))
         self.autoreset_mode = _checked_mode(autoreset_mode)
         self.metadata = {
             "render_modes": ["rgb_array"], "render_fps": self.options.frames_per_second,
@@ -103,7 +104,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 f"own_boards=True needs a board for each of the {self.num_envs} environments, and there are "
                 f"{boards}: say boards={self.num_envs}"
             )
-        if max_episode_steps is not None:
+        if max_episode_steps not in (None, -1):
             limit = checked_int("max_episode_steps", max_episode_steps, 1, 2**62)
             engine.rules["limit"] = min(limit, int(engine.rules["limit"][0]))
         self.single_observation_space = observation_space(self.options, engine.pool)
@@ -135,7 +136,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     @np_random.setter
     def np_random(self, generator: np.random.Generator) -> None:
-        self._np_random, self._np_random_seed = generator, -1
+        self._np_random, self._np_random_seed = checked_generator(generator), -1
         self._draws_seed[:] = True
 
     @property
@@ -154,7 +155,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         Args:
             seed: Environment i gets seed + i; or one seed each, None to go on with its own; None: all go on.
             options: ``{"reset_mask": mask}``, bool [env], begins episodes in these environments alone;
-                ``{"board": 12}``, or one for each [env], plays these boards (see `PinballEnv.reset`).
+                ``{"board": 12}``, or one for each [env], plays these boards (see `PinballEnv.reset`); None
+                among them: one is drawn.
 
         Returns:
             The observations, and the counts of events.
@@ -302,19 +304,15 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def _take(self, actions: Any) -> None:
         """Check actions and hand them over as numbers."""
-        try:
-            given = np.asarray(actions)
-        except ValueError:  # rows of different lengths
-            given = np.asarray(actions, object)
-        whole = as_whole(given, floats=self.options.actions == "multibinary")
-        if whole is None:
-            raise ValueError(f"actions must be whole numbers, got {given.dtype} of the shape {given.shape}")
-        given = whole
+        given = as_array(actions)
         buttons = len(self._weights)
         if self.options.actions == "multibinary" and given.shape == (self.num_envs, buttons):
-            if ((given >> 1) != 0).any():
-                raise ValueError(f"every bit must be 0 or 1, got {given.min()} to {given.max()}")
-            given = given @ self._weights
+            bits = as_bits(given)
+            if bits is None:
+                raise ValueError(f"every bit of the actions must be 0 or 1, got {given!r}")
+            given = bits @ self._weights
+        elif given.dtype.kind not in "iub":
+            raise ValueError(f"actions must be whole numbers, got {given.dtype} of the shape {given.shape}")
         if given.shape != (self.num_envs,):
             raise ValueError(f"actions must have the shape {self.action_space.shape}, got {given.shape}")
         # Numbers below a power of two have no other bits, and negative ones have a sign.
@@ -360,7 +358,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         each = [wanted] * self.num_envs if np.ndim(wanted) == 0 else list(wanted)
         if len(each) != self.num_envs:
             raise ValueError(f"board must be one number or {self.num_envs} of them, got {len(each)}")
-        return np.array([self._engine.pool.board_of_seed(one) for one in each], np.int64)
+        pool = self._engine.pool
+        return np.array([-1 if one is None else pool.board_of_seed(one) for one in each], np.int64)
 
     def _checked_mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
         if mask is None:

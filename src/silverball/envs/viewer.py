@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from silverball.drawing.effects import Effects
 
 SIZE = (330, 680)  # width and height [pixel]
+ICON_SIDE = 64  # [pixel]
 MOST_RENDERERS = 8  # kept at once; a board takes some megabytes
 
 
@@ -32,15 +33,21 @@ class Screen:
         NoDisplay: There is no screen, and SDL was not told to do without.
     """
 
+    _all: ClassVar[list[Screen]] = []  # that are open
+
     def __init__(self, rate: int) -> None:
         import pygame
 
+        from silverball.drawing.icon import ball_icon
         from silverball.video import NOT_A_SCREEN, open_video
 
         remedy = 'render_mode="rgb_array" needs none'
         open_video(remedy, without_display=os.environ.get("SDL_VIDEODRIVER") in NOT_A_SCREEN)
         self._window: pygame.Window | None = pygame.Window("Silverball", SIZE)
+        self._window.set_icon(ball_icon(ICON_SIDE))
         self._clock, self._rate = pygame.Clock(), rate
+        self._all.append(self)
+        pygame.register_quit(self.close)
 
     @property
     def is_closed(self) -> bool:
@@ -51,19 +58,32 @@ class Screen:
         """Show a picture, RGB [row, column, 3], once it is due."""
         import pygame
 
+        self._answer()
         if self._window is None:
             return
         pygame.surfarray.blit_array(self._window.get_surface(), picture.swapaxes(0, 1))
         self._window.flip()
         self._clock.tick(self._rate)
-        if any(event.type in (pygame.QUIT, pygame.WINDOWCLOSE) for event in pygame.event.get()):
-            self.close()
 
     def close(self) -> None:
         """Close it."""
         if self._window is not None:
+            self._all.remove(self)
             self._window.destroy()
             self._window = None
+
+    def _answer(self) -> None:
+        """Close the windows that somebody wants closed; events come to whichever window asks first."""
+        import pygame
+
+        # A program may read keys and buttons beside this. Asked for WINDOWCLOSE alone, pygame finds none.
+        left = pygame.KEYDOWN, pygame.KEYUP, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP
+        for event in pygame.event.get(exclude=left):
+            for screen in self._all.copy():
+                if event.type == pygame.QUIT or (
+                    event.type == pygame.WINDOWCLOSE and event.window == screen._window
+                ):
+                    screen.close()
 
 
 class Viewer:

@@ -14,7 +14,7 @@ from typing import Any
 from silverball.physics.bounce import capped
 from silverball.physics.kernel import internal, kernel
 from silverball.physics.layout import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
-from silverball.physics.log import record
+from silverball.physics.log import leave, mark, record
 from silverball.physics.motion import depart
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
@@ -97,12 +97,15 @@ def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[boo
 @kernel
 def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
     """A new ball at (x, z) in an empty slot of the world."""
+    is_known = mark(world) == log.mark
     world.created += 1
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = world.created
     depart(ball, board, 0.0)
+    if is_known:
+        leave(world, log)
     record(log, EventKind.CREATED + 0, ball, NOTHING + 0, world.tick, 0.0, 0.0, 0.0, 0.0)
 
 

@@ -26,7 +26,7 @@ from typing import Any
 from silverball.physics.friction import rub_balls, rub_surface
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.layout import Contact
-from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE
+from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, LEAST_HOP
 
 
 @inlined
@@ -40,8 +40,9 @@ def hop_speed(acceleration: float, hit_speed: float) -> float:
     """Least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
 
     A hop must come back as a touch, or a ball at rest would score; so it stays below the speed of a hit.
+    Where nothing pulls it is LEAST_HOP.
     """
-    return min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed)
+    return max(min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed), LEAST_HOP)
 
 
 @inlined
@@ -122,4 +123,22 @@ def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
         rub_balls(a, b, board, nx, nz, push)
     a.vx, a.vz = capped(a.vx + push * nx, a.vz + push * nz, board.speed_cap)
     b.vx, b.vz = capped(b.vx - push * nx, b.vz - push * nz, board.speed_cap)
+    return approach
+
+
+@internal
+def bounce_off_held(ball: Any, board: Any, nx: float, nz: float) -> float:
+    """Give a ball the velocity and spin after its contact with one that is held, along (nx, nz) from it.
+
+    Returns:
+        The speed of the approach [u/s].
+    """
+    approach = -(nx * ball.vx + nz * ball.vz)
+    rebound = approach * board.ball_restitution
+    if approach <= board.hit_speed:
+        rebound = max(rebound, hop_speed(board.gravity, board.hit_speed))
+    push = approach + rebound
+    if board.friction != 0.0:
+        rub_surface(ball, board, nx, nz, 0.0, 0.0, push)
+    ball.vx, ball.vz = capped(ball.vx + push * nx, ball.vz + push * nz, board.speed_cap)
     return approach

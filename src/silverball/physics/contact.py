@@ -30,7 +30,7 @@ from silverball.physics.log import record
 from silverball.physics.motion import begin_to_roll, depart, land
 from silverball.physics.paddle import flight_to_paddle, surface_velocity
 from silverball.physics.shapes import distance
-from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP, SEARCH_TIME
+from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
 @kernel
@@ -43,7 +43,7 @@ def search(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> Non
     start = ball.due
     here = flown(ball, start)
     speed = sqrt(here.vx * here.vx + here.vz * here.vz)
-    span = SEARCH_TIME
+    span = board.search_time
     if ball.motion == Motion.SLIPPING:
         span = min(span, max(ball.age + tick - start, 0.0))
     mean = speed + 0.5 * board.steepest * span  # at most

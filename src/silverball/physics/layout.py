@@ -79,6 +79,7 @@ class Motion(IntEnum):
     SLIDING = 0  # without friction, as in the original
     ROLLING = 1
     SLIPPING = 2  # its lowest point rubs over the playfield
+    HELD = 3  # jammed, until the tick is over; no ball is at the end of a tick
 
 
 class Fault(IntEnum):
@@ -88,6 +89,8 @@ class Fault(IntEnum):
     NOT_FINITE = 1  # a position or speed is not a number
     OUTSIDE = 2  # a ball is beyond the borders
     TOO_FAST = 3  # a ball is faster than the cap allows
+    INSIDE = 4  # a ball is inside a part or the other ball
+    BEYOND_STOP = 5  # a paddle is beyond its stops
 
 
 class Outcome(IntEnum):
@@ -165,6 +168,7 @@ BOARD = np.dtype(
         # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
         ("skin", "f8"),  # a cell lists all parts that a ball can reach on a way of this length [u]
+        ("search_time", "f8"),  # no search for contacts looks further ahead than this [s]
         ("place_first", "i8"), ("place_end", "i8"),  # this board's rows of the places
         ("place_size", "f8"),  # side of a place's square [u]
         ("place_lowest", "f8"),  # no ball is created below this x [u]
@@ -210,7 +214,14 @@ EVENT = np.dtype(
     align=True,
 )  # fmt: skip
 
-LOG = np.dtype([("count", "i8"), ("lost", "i8"), ("event", EVENT, (LOG_SIZE,))], align=True)
+LOG = np.dtype(
+    [
+        ("count", "i8"), ("lost", "i8"),
+        ("mark", "f8"),  # of the flights and angles that the last call left (see outside.py)
+        ("event", EVENT, (LOG_SIZE,)),
+    ],
+    align=True,
+)  # fmt: skip
 
 
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:

@@ -26,11 +26,12 @@ from typing import Any
 from silverball.physics.bounce import capped
 from silverball.physics.flight import flown
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.layout import GRIP, NOTHING, Ball, Motion
-from silverball.physics.tolerances import CREEP, NEVER, SEARCH_TIME
+from silverball.physics.layout import NOTHING, Ball, Motion
+from silverball.physics.tolerances import CREEP, NEVER
 
 ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
 GRIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
+LONGER = 1.0 + 1e-9  # for the rounding of a time
 
 
 @inlined
@@ -50,6 +51,20 @@ def depart(ball: Any, board: Any, offset: float) -> None:
         _take_grip(ball, board)
 
 
+@internal
+def hold(ball: Any, offset: float) -> None:
+    """Let a ball stay where its record says it is, from so late in the tick [s] until `let_go`."""
+    _begin(ball, offset)
+    ball.pull_x, ball.pull_z, ball.motion, ball.grips, ball.due = 0.0, 0.0, Motion.HELD + 0, NEVER, NEVER
+
+
+@inlined
+def let_go(ball: Any, board: Any, tick: float) -> None:
+    """Let a ball that was held move on from the end of the tick."""
+    if ball.motion == Motion.HELD:
+        depart(ball, board, tick)
+
+
 @inlined
 def turn_slip(ball: Any, board: Any) -> None:
     """Let a slipping ball's friction follow its slip again: the direction is held for a tick at most."""
@@ -61,7 +76,14 @@ def turn_slip(ball: Any, board: Any) -> None:
 @inlined
 def _begin(ball: Any, offset: float) -> None:
     ball.from_x, ball.from_z, ball.from_vx, ball.from_vz = ball.x, ball.z, ball.vx, ball.vz
-    ball.ticks, ball.offset, ball.age, ball.due, ball.meets = 0, offset, -offset, 0.0, NOTHING
+    ball.ticks, ball.offset, ball.age = 0, offset, -offset
+    search_anew(ball)
+
+
+@inlined
+def search_anew(ball: Any) -> None:
+    """Forget what a flight is known to meet: it will be searched from its beginning."""
+    ball.due, ball.meets = 0.0, NOTHING
 
 
 @internal
@@ -167,8 +189,8 @@ def is_on_flight(ball: Any, board: Any, tick: float) -> bool:
         and ball.vz == at.vz
         and is_lawful(ball, board)
         and ball.age == ball.ticks * tick - ball.offset
-        and 0.0 <= ball.due <= ball.age + tick + SEARCH_TIME
-        and GRIP <= ball.meets < board.collider_end - board.collider_first
+        and 0.0 <= ball.offset <= tick * LONGER
+        and ball.age >= tick - tick * LONGER
     )
 
 
@@ -178,7 +200,7 @@ def is_lawful(ball: Any, board: Any) -> bool:
     share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
     if ball.motion == Motion.SLIPPING:
         return board.press != 0.0
-    if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z:
+    if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z or ball.grips != NEVER:
         return False
     if ball.motion == Motion.ROLLING:
         return board.press != 0.0 and not is_slipping(ball, board)

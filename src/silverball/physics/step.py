@@ -15,8 +15,8 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.physics.balls import shove_balls
-from silverball.physics.bounce import exchange
-from silverball.physics.contact import first_contact, resolve
+from silverball.physics.bounce import bounce_off_held, exchange
+from silverball.physics.contact import first_contact, is_near, resolve
 from silverball.physics.flight import flight_to_ball, flown
 from silverball.physics.horizon import are_apart, free_ticks
 from silverball.physics.kernel import inlined, internal, kernel
@@ -27,14 +27,15 @@ from silverball.physics.layout import (
     Contact,
     EventKind,
     Fault,
-    Kind,
+    Motion,
     Paddle,
     Part,
 )
-from silverball.physics.log import record
-from silverball.physics.motion import depart, end_flight, is_on_flight, land
+from silverball.physics.log import leave, record
+from silverball.physics.motion import depart, end_flight, hold, land, let_go
+from silverball.physics.outside import is_admitted, is_as_left, is_sound
 from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
-from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, NEVER
+from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
 
 
 @kernel
@@ -43,7 +44,7 @@ def step_world(
     raise_left: bool, raise_right: bool, shove: bool, tick: float,
 ) -> None:  # fmt: skip
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    if is_ready(world, board, tick):
+    if is_ready(world, board, colliders, log, tick):
         if shove:
             shove_balls(world, board, log)
         if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
@@ -53,6 +54,7 @@ def step_world(
             play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
+        leave(world, log)
 
 
 @inlined
@@ -88,7 +90,7 @@ def play_tick(
     a, b = world.ball[0], world.ball[1]
     apart = are_apart(board, a, b, tick, 1.0)
     stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
-    time, busy_a, busy_b, stalled = 0.0, 0, 0, False
+    time, busy_a, busy_b, meetings, again_a, again_b = 0.0, 0, 0, 0, False, False
     jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     while True:
         limit = min(tick, stop_left, stop_right)
@@ -104,7 +106,7 @@ def play_tick(
 
         if meet.part != NOTHING:
             balls_met(world, board, log, a, b, meet)
-            busy_a, busy_b = busy_a + 1, busy_b + 1
+            busy_a, busy_b, meetings = busy_a + 1, busy_b + 1, meetings + 1
         elif meet_a.part != NOTHING and meet_a.time <= meet_b.time:
             turn = left.turn if meet_a.part == Part.LEFT_PADDLE else right.turn
             resolve(world, board, colliders, log, tally, a, meet_a, turn)
@@ -119,18 +121,17 @@ def play_tick(
             right, stop_right = at_stop(right), NEVER
 
         if busy_a >= jammed or busy_b >= jammed:
-            left = stalled_at(left, left_part, board, a, b, time)
-            right = stalled_at(right, right_part, board, a, b, time)
-            rest = (
-                tick if stalled else time
-            )  # even with the paddles still: hold the balls until the tick is over
-            halt(world, board, log, a, 2 * busy_a >= jammed, time, rest)
-            halt(world, board, log, b, 2 * busy_b >= jammed, time, rest)
+            both = JAM_SHARE * meetings >= jammed  # they press each other
+            if both or busy_a >= jammed:
+                left, right = jam(world, board, colliders, log, a, left, right, time, again_a)
+                busy_a, again_a = 0, True
+            if both or busy_b >= jammed:
+                left, right = jam(world, board, colliders, log, b, left, right, time, again_b)
+                busy_b, again_b = 0, True
+            meetings = 0
             stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
-            if stalled:
-                left, right = held(left, time), held(right, time)
-                break
-            busy_a, busy_b, stalled = 0, 0, True
+    let_go(a, board, tick)
+    let_go(b, board, tick)
     store_paddle(world.paddle[0], left, tick)
     store_paddle(world.paddle[1], right, tick)
     end_ticks(world, board, tick, 1 + 0)
@@ -149,13 +150,18 @@ def first_meeting(board: Any, a: Any, b: Any, start: float, limit: float) -> Con
 
 @internal
 def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact) -> None:
-    """Let two balls bounce off each other."""
+    """Let two balls bounce off each other; one that is held is like a wall."""
     time = contact.time
     if contact.part == PAUSE:
         return
     land(a, board, a.age + time)
     land(b, board, b.age + time)
-    speed = exchange(a, b, board, contact)
+    if a.motion == Motion.HELD:
+        speed = bounce_off_held(b, board, -contact.nx, -contact.nz)
+    elif b.motion == Motion.HELD:
+        speed = bounce_off_held(a, board, contact.nx, contact.nz)
+    else:
+        speed = exchange(a, b, board, contact)
     kind = EventKind.BALL_TOUCH + 0
     if speed > board.hit_speed:
         kind = EventKind.BALL_HIT + 0
@@ -163,39 +169,49 @@ def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact
     else:
         world.touches += 1
     record(log, kind, a, OTHER_BALL + 0, world.tick, time, contact.nx, contact.nz, speed)
-    depart(a, board, time)
-    depart(b, board, time)
+    if a.motion != Motion.HELD:
+        depart(a, board, time)
+    if b.motion != Motion.HELD:
+        depart(b, board, time)
 
 
 @internal
-def stalled_at(paddle: Paddle, c: Any, board: Any, a: Any, b: Any, time: float) -> Paddle:
-    """The paddle, stopped for the rest of the tick if one of the balls is at it."""
-    if c.kind != Kind.PADDLE or paddle.turn == 0.0:
-        return paddle
-    angle = angle_at(paddle, time)
-    at_a, at_b = flown(a, a.age + time), flown(b, b.age + time)
-    gap_a, _, _ = paddle_distance(c, angle, at_a.x, at_a.z)
-    gap_b, _, _ = paddle_distance(c, angle, at_b.x, at_b.z)
+def jam(
+    world: Any, board: Any, colliders: Any, log: Any, ball: Any, left: Paddle, right: Paddle, time: float,
+    again: bool,
+) -> tuple[Paddle, Paddle]:  # fmt: skip
+    """Stop a jammed ball dead at a time of the tick, and stall the paddles at it; both paddles.
+
+    If it is jammed again in the same tick, even with the paddles still, it is held until the tick is over.
+    """
+    if ball.id == 0 or ball.motion == Motion.HELD:
+        return left, right
+    land(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
-    if (a.id != 0 and gap_a < near) or (b.id != 0 and gap_b < near):
+    left = stalled(left, colliders[board.collider_first + Part.LEFT_PADDLE], ball, near, time, again)
+    right = stalled(right, colliders[board.collider_first + Part.RIGHT_PADDLE], ball, near, time, again)
+    ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
+    world.jams += 1
+    record(log, EventKind.JAM + 0, ball, NOTHING + 0, world.tick, time, 0.0, 0.0, 0.0)
+    if again:
+        hold(ball, time)
+    else:
+        depart(ball, board, time)
+    return left, right
+
+
+@internal
+def stalled(paddle: Paddle, c: Any, ball: Any, near: float, time: float, again: bool) -> Paddle:
+    """The paddle, stopped for the rest of the tick if a jammed ball is at it.
+
+    No paddle may run into a ball that is held; so then one that only might come to it stops too.
+    """
+    if paddle.turn == 0.0:
+        return paddle
+    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    if gap < near or (again and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)):
         return held(paddle, time)
     return paddle
-
-
-@internal
-def halt(world: Any, board: Any, log: Any, ball: Any, involved: bool, time: float, rest: float) -> None:
-    """Stop a ball dead that takes part in a jam, at a time of the tick; it moves on from the time `rest`."""
-    if ball.id == 0:
-        return
-    if involved:
-        land(ball, board, ball.age + time)
-        ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
-        world.jams += 1
-        record(log, EventKind.JAM + 0, ball, NOTHING + 0, world.tick, time, 0.0, 0.0, 0.0)
-        depart(ball, board, rest)
-    elif rest > time:
-        land(ball, board, ball.age + time)
-        depart(ball, board, rest)
 
 
 @inlined
@@ -210,35 +226,11 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
 
 
 @inlined
-def is_ready(world: Any, board: Any, tick: float) -> bool:
-    """Whether a world can move; its balls are put on flights of their own after a change from outside."""
-    if world.fault != Fault.NONE:
-        return False
-    a, b = world.ball[0], world.ball[1]
-    if not (is_fair(a, board) and is_fair(b, board) and are_fair(world.paddle)) and not is_sound(
-        world, board
-    ):
-        return False
-    if a.id != 0 and not is_on_flight(a, board, tick):
-        depart(a, board, 0.0)
-    if b.id != 0 and not is_on_flight(b, board, tick):
-        depart(b, board, 0.0)
-    return True
-
-
-@inlined
-def is_fair(ball: Any, board: Any) -> bool:
-    """Whether a ball is where and as fast as it can be; an empty slot is."""
-    inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
-    fastest = board.speed_cap * (1.0 + 1e-9)
-    slow = ball.vx * ball.vx + ball.vz * ball.vz <= fastest * fastest
-    return inside and slow and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
-
-
-@inlined
-def are_fair(paddles: Any) -> bool:
-    """Whether both paddles stand at angles [rad] that can be."""
-    return abs(paddles[0].angle) < 10.0 and abs(paddles[1].angle) < 10.0
+def is_ready(world: Any, board: Any, colliders: Any, log: Any, tick: float) -> bool:
+    """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
+    return world.fault == Fault.NONE and (
+        is_as_left(world, board, log, tick) or is_admitted(world, board, colliders, tick)
+    )
 
 
 @inlined
@@ -249,33 +241,6 @@ def is_inside(world: Any, board: Any) -> bool:
     return (a.id == 0 or (abs(a.x) <= x and abs(a.z) <= z)) and (
         b.id == 0 or (abs(b.x) <= x and abs(b.z) <= z)
     )
-
-
-@kernel
-def is_sound(world: Any, board: Any) -> bool:
-    """Whether the balls are where and as fast as they can be; if not, the world gets a named fault."""
-    for slot in range(2):
-        ball = world.ball[slot]
-        if ball.id == 0 or is_fair(ball, board):
-            continue
-        sum_of_all = ball.x + ball.z + ball.vx + ball.vz + ball.spin_x + ball.spin_y + ball.spin_z
-        if not is_number(sum_of_all):
-            world.fault = Fault.NOT_FINITE + 0
-        elif not (abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width):
-            world.fault = Fault.OUTSIDE + 0
-        else:
-            world.fault = Fault.TOO_FAST + 0
-        return False
-    if not are_fair(world.paddle):
-        world.fault = Fault.NOT_FINITE + 0
-        return False
-    return True
-
-
-@inlined
-def is_number(x: float) -> bool:
-    """Whether x is finite: not so when it is infinite or no number at all."""
-    return abs(x) < NEVER
 
 
 @kernel
@@ -308,7 +273,7 @@ def run_worlds(
         board = boards[board_of[index]]
         if begun == 0:
             log.count, log.lost = 0, 0
-        if ticks == begun or not is_ready(world, board, tick):
+        if ticks == begun or not is_ready(world, board, colliders, log, tick):
             continue
         step = begun
         while step < ticks and is_inside(world, board):
@@ -330,3 +295,4 @@ def run_worlds(
             step += count
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
+        leave(world, log)

@@ -20,6 +20,11 @@ HOP = 5e-4
 Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: nobody sees it.
 Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
 
+LEAST_HOP = 1e-9
+"""[u/s] And at least this speed: where nothing pulls, a ball that has lost its speed towards a wall must not
+be left with a rounding of it, or it would meet the wall without end. Roundings reach 1e-14 u/s. Smaller: it
+would. Larger: energy grows by half its square a touch."""
+
 HOP_SHARE = 0.9
 """A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
 
@@ -38,6 +43,11 @@ JAM_EVENT_RATE = 6000.0
 """Events of one ball in one tick, and the more of them for every second of the tick [1/s], after which it
 counts as jammed. A ball at rest needs 50 a second, one carried by a paddle without restitution some 3000.
 Smaller: free balls are held by mistake. Larger: a pinched ball costs more time."""
+
+JAM_SHARE = 4
+"""The two balls are in one jam if as many of these events as one by this were meetings of theirs. A ball
+between the other one and a wall has a half, in a corner a third. Smaller: a ball that presses the jammed one
+goes on pressing. Larger: a ball that only lies on the jammed one is stopped with it."""
 
 JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""
@@ -69,8 +79,19 @@ SKIN = 2.0
 SEARCH_TIME = 0.25
 """[s] And no longer than this. Source: measured."""
 
+LIGHT = 0.1
+"""[u/s²] Under less gravity than this a search may be longer: a ball may hang about for hours, and a flight
+must not come to consist of a million searches. Smaller: it would. Larger: no harm, but other bits."""
+
+LONGEST_SEARCH = 1e4
+"""[s] No search is longer. Smaller: more searches for a ball at rest that nothing pulls. Larger: times lose
+digits."""
+
 SKIN_SHARE = 0.5
 """Where parts stand close, `skin` is this share of the mean distance between them. Source: measured."""
 
 CELL_SHARE = 0.5
 """And a cell's side this share of it. Source: measured."""
+
+DEEPEST = 1e-9
+"""[u] The promise: no ball is ever deeper inside anything. A state from outside in which one is stops."""

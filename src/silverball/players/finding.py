@@ -21,7 +21,7 @@ from silverball.errors import StateError
 from silverball.game.replay_reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.layout import BALL_COUNT, NOTHING, Motion
-from silverball.physics.step import is_sound
+from silverball.physics.outside import is_sound
 from silverball.players.jsonfile import STRICT, Amount, Count, file_text, made_from
 from silverball.players.soak import KINDS, Options, Place, Soaked, soaked_round
 from silverball.players.watch import Found, watched_tick

@@ -182,7 +182,9 @@ def plan_worlds(
         logs[index].count = LOG_SIZE  # full: nothing is written down
         copies[2 * index] = worlds[index]
         root = copies[2 * index]
-        if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(root, board, length):
+        if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(
+            root, board, colliders, logs[index], length
+        ):
             dry = (world.tick - memory.scored_tick) * tick
             left, right = decide(
                 plans, copies, index, board, colliders, grid, logs[index], tallies[index], memory, beat,

@@ -295,7 +295,7 @@ def watched_tick(
     if watch.found == Found.NOTHING:
         look_at_contacts(world, true_board, true_colliders, log, watch, before, tick)
         look_at_ways(world, true_board, true_colliders, site, marks, log, watch, was_a, was_b, before, tick)
-    if not hostile:
+    if not hostile and board.gravity > 0.0:  # where nothing pulls, a ball may stay for ever
         look_at_haunts(world, watch, tick)
 
 

@@ -112,7 +112,8 @@ def check_layout(layout: Layout) -> list[Problem]:
     problems += _way_problems(layout, paddles, ball_space)
     crowd = _crowd_problems(standing, layout.board)
     problems += crowd
-    if len(meetings) <= TANGLE and not crowd:
+    may_lie_anywhere = layout.board.gravity == 0.0
+    if len(meetings) <= TANGLE and not crowd and not may_lie_anywhere:
         problems += _trap_problems(layout, standing, ball_space)
     if layout.random is not None:
         problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)

@@ -77,15 +77,15 @@ class Board(_Model):
     """[u] along z: the board spans z = −width/2 … width/2."""
     height: Annotated[float, Quantity(0.0, 10.0, "u")] = 1.0
     """[u] the y at which everything happens."""
-    gravity: Annotated[float, Quantity(0.1, 100.0, "u/s²")] = 10.0
-    """[u/s²] in the board, towards −x, of a sliding ball."""
+    gravity: Annotated[float, Quantity(0.0, 100.0, "u/s²")] = 10.0
+    """[u/s²] in the board, towards −x, of a sliding ball; at 0 nothing pulls, and a ball may never drain."""
     slope: Annotated[float, Quantity(1.0, 60.0, "deg")] = 6.5
     """[deg] of the board, which sets the force onto it, gravity / tan(slope); only rolling needs it."""
     friction: Annotated[float, Quantity(0.0, 2.0)] = 0.0
     """Coefficient of friction wherever a ball touches something; 0.2 is steel on lacquer."""
     rolling: Annotated[bool, Field(strict=True)] = False
-    """Whether the playfield rubs too, so that balls slip and roll on it; needs friction above 0. Without,
-    balls slide over it."""
+    """Whether the playfield rubs too, so that balls slip and roll on it; needs friction above 0. Without, or
+    without gravity, which presses them onto it, balls slide over it."""
     ball_radius: Annotated[float, Quantity(0.1, 2.0, "u")] = 0.25
     """[u] radius of every ball."""
     ball_restitution: _Restitution = 0.95

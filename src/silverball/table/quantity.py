@@ -2,7 +2,7 @@
 
 The rules are small objects that stand in the annotations of `parts.py`::
 
-    gravity: Annotated[float, Quantity(0.1, 100.0, "u/s²")] = 10.0
+    gravity: Annotated[float, Quantity(0.0, 100.0, "u/s²")] = 10.0
 
 Each takes what TOML gives (or a Python caller), returns the canonical Python value (float, int,
 tuple) and refuses everything else with the range, the unit and the value it got. A boolean is no

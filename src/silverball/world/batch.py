@@ -183,7 +183,8 @@ class WorldBatch:
         The record i of the snapshot goes into the i-th world of the index, a single record into all of them:
         ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches have the same random
         generator, so the same actions lead to the same future; ``batch.state["seed"] = ...`` parts them. Logs
-        of these worlds are emptied, tallies stay. On any error nothing has changed.
+        of these worlds are emptied, tallies stay. On any error nothing has changed. A record that somebody
+        has made impossible stops its world with a named fault in the next step.
 
         Args:
             snapshot: What `save` of this or another batch returned.

@@ -19,12 +19,21 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.grid import fill_grid
 from silverball.physics.layout import BOARD, COLLIDER, Kind, Part, records
-from silverball.physics.tolerances import CELL_SHARE, GRID_CELL, SKIN, SKIN_SHARE
+from silverball.physics.tolerances import (
+    CELL_SHARE,
+    GRID_CELL,
+    LIGHT,
+    LONGEST_SEARCH,
+    SEARCH_TIME,
+    SKIN,
+    SKIN_SHARE,
+)
 from silverball.physics.trigonometry import sine_cosine
 from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
 
 SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
 GRID_ROOM = 1024  # numbers for a board's grid at first; most need fewer
+TINY = 1e-300  # what a divisor is at least
 FAR = 1e9  # [u] where the paddle lies that a table does not have: out of every ball's reach
 
 
@@ -59,7 +68,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         parts, part_names = _colliders(table)
         cells, size = ball_places(table)
         b = table.board
-        row["pull_x"], row["pull_z"] = -b.gravity, 0.0
+        row["pull_x"], row["pull_z"] = 0.0 - b.gravity, 0.0  # not −0.0
         for name in (
             "ball_radius",
             "ball_restitution",
@@ -106,13 +115,12 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
 
 def _set_friction(row: Any, board: Board) -> None:
     """The friction of a board, and the greatest acceleration that a flight on it can have."""
-    pull = math.sqrt(row["pull_x"] ** 2 + row["pull_z"] ** 2)
     row["friction"] = board.friction
     if board.rolling and board.friction > 0.0:
         sine, cosine = sine_cosine(math.radians(board.slope))
         row["press"] = board.gravity * cosine / sine
-    row["gravity"] = pull
-    row["steepest"] = pull + board.friction * row["press"]
+    row["gravity"] = board.gravity
+    row["steepest"] = board.gravity + board.friction * row["press"]
 
 
 def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
@@ -123,6 +131,7 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
         shapes = row["collider_end"] - row["collider_first"] - Part.FIRST_SHAPE
         spacing = math.sqrt(4.0 * row["half_length"] * row["half_width"] / max(shapes, 1))
         row["grid_first"], row["skin"] = used, min(SKIN, SKIN_SHARE * spacing)
+        row["search_time"] = _search_time(row)
         row["grid_scale"] = 1.0 / min(GRID_CELL, spacing * CELL_SHARE)
         row["grid_rows"] = math.ceil(2 * row["half_length"] * row["grid_scale"])
         row["grid_columns"] = math.ceil(2 * row["half_width"] * row["grid_scale"])
@@ -132,6 +141,13 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
             fill_grid(row, collider, grid)
         used += need
     return np.ascontiguousarray(grid[:used])
+
+
+def _search_time(board: Any) -> float:
+    """How long a search may be [s]; where hardly anything pulls, until a ball from rest has gone the skin."""
+    if board["gravity"] >= LIGHT:
+        return SEARCH_TIME
+    return min(math.sqrt(board["skin"] / max(board["steepest"], TINY)), LONGEST_SEARCH)
 
 
 def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:

@@ -23,7 +23,7 @@ from silverball.physics.balls import (
     put_ball,
 )
 from silverball.physics.layout import WORLD, Fault, Outcome
-from silverball.physics.step import is_sound
+from silverball.physics.outside import is_sound
 from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
 from silverball.table import Table
 from silverball.world import state as states
@@ -213,7 +213,7 @@ class World:
 
     @property
     def fault(self) -> str | None:
-        """Why the world has stopped ("not_finite", "outside", "too_fast"), or None."""
+        """Why the world has stopped, or None: the name of a `Fault`, such as "not_finite" or "inside"."""
         fault = Fault(int(self._record["fault"]))
         return None if fault == Fault.NONE else fault.name.lower()
 

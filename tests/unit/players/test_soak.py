@@ -15,7 +15,15 @@ from silverball.physics.layout import Part
 from silverball.players.drive import QUIET
 from silverball.players.hostile import hostile_table
 from silverball.players.soak import Soaked, play_round, soaked_round
-from silverball.players.watch import DEPTH, STUCK_AFTER, Found, Was, depth_of_meeting, greatest_sag
+from silverball.players.watch import (
+    DEPTH,
+    STUCK_AFTER,
+    Found,
+    Was,
+    depth_of_meeting,
+    greatest_sag,
+    look_at_places,
+)
 from silverball.table import (
     Cylinder,
     SlantWall,
@@ -47,6 +55,16 @@ def found(soaked: Soaked) -> Found:
     return Found(int(soaked.watches["found"][0]))
 
 
+def looked_at(soaked: Soaked) -> Found:
+    """What the watch sees before the solver does, which would name the fault of a ball that is put into
+    something."""
+    true, grounds = soaked.true, soaked.grounds
+    look_at_places(
+        soaked.batch.state[0], true.board[0], true.collider, grounds.site[0], grounds.mark, soaked.watches[0]
+    )
+    return found(soaked)
+
+
 # What the watch sees
 
 
@@ -72,15 +90,18 @@ def test_a_ball_that_is_moved_somewhere_between_two_ticks_is_reported_at_once(wh
     soaked.run(1)
     assert found(soaked) == Found.NOTHING
     soaked.batch.state["ball"]["x"][0, slot], soaked.batch.state["ball"]["z"][0, slot] = where
+    if kind == Found.PENETRATION:
+        assert looked_at(soaked) == kind
     soaked.run(1)
     assert found(soaked) == kind
     assert soaked.watches["slot"][0] == (slot if kind in (Found.ESCAPE, Found.PENETRATION) else 0)
 
 
 def test_a_ball_that_is_put_into_the_other_one_is_reported() -> None:
-    soaked = still(BOARD, (7.0, 0.0, 0.0, 0.0), (7.0, 0.4, 0.0, 0.0))
+    soaked = still(BOARD, (7.0, 0.0, 0.0, 0.0), (7.0, 1.0, 0.0, 0.0))
     soaked.run(1)
-    assert found(soaked) == Found.PENETRATION
+    soaked.batch.state["ball"]["z"][0, 1] = 0.4
+    assert looked_at(soaked) == Found.PENETRATION
     assert soaked.watches["depth"][0] == pytest.approx(0.1, abs=1e-12)
 
 

@@ -112,7 +112,7 @@ numbers = st.floats(-9.0, 9.0)
 @given(
     st.lists(st.tuples(numbers, numbers, st.floats(0.05, 10.0)), max_size=4),
     st.text(max_size=80).filter(lambda text: text.isprintable() or "\n" in text),
-    st.floats(0.1, 100.0),
+    st.floats(0.0, 100.0),
 )
 def test_a_dumped_table_loads_as_an_equal_one_with_an_equal_digest(circles, name, gravity):
     import tomllib
@@ -208,7 +208,7 @@ def test_eight_different_mistakes_are_all_reported_with_their_paths(tmp_path):
         ("[board]\nrolling = 1", "board.rolling", "must be true or false, got 1"),
         ("[board]\nmax_balls = 3", "board.max_balls", "must be 1 to 2 balls, got 3"),
         ("[board]\nmax_balls = true", "board.max_balls", "got true"),
-        ("[board]\ngravity = nan", "board.gravity", "must be 0.1 to 100 u/s²"),
+        ("[board]\ngravity = nan", "board.gravity", "must be 0 to 100 u/s²"),
         ("[[paddle]]\npivot = [-7, -2]", "paddle[0].side", "must be given"),
         ("[[paddle]]\nside = 'up'\npivot = [-7, 0]", "paddle[0].side", "'left' or 'right'"),
         ("[[cylinder]]\ncenter = [1, 2, 3]\nradius = 1", "cylinder[0].center", "[x, z]"),
