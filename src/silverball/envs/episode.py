@@ -82,7 +82,7 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
             press(at, rules, index)
         run_worlds(
             the.worlds(at), the.boards(at), the.board_of(at), the.colliders(at), the.grid(at), the.logs(at),
-            the.tallies(at), the.held(at), start, stop, 0, rules.ticks, rules.tick,
+            the.tallies(at), the.held(at), start, stop, rules.ticks, rules.tick,
         )  # fmt: skip
         for index in range(start, stop):
             reward, ends = settle(at, rules, index)

@@ -246,9 +246,9 @@ def is_inside(world: Any, board: Any) -> bool:
 @kernel
 def run_worlds(
     worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, logs: Any, tallies: Any,
-    actions: Any, first: int, end: int, begun: int, ticks: int, tick: float,
+    actions: Any, first: int, end: int, ticks: int, tick: float,
 ) -> None:  # fmt: skip
-    """Move the worlds first … end − 1 on by a number of ticks, or by those of them that are left.
+    """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
         worlds: WORLD records [world].
@@ -256,29 +256,30 @@ def run_worlds(
         board_of: The board of each world [world].
         colliders: COLLIDER records of all boards.
         grid: The grids of all boards.
-        logs: LOG records [world]; emptied before the first tick.
+        logs: LOG records [world]; emptied first.
         tallies: Hits of each part [world, part], added to.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
-        begun: How many of the ticks have been played by calls before this one, with the same arguments but
-            for `ticks`.
-        ticks: How many ticks altogether.
+        ticks: How many ticks; below zero: so many more, as if the call before this one went on. Logs are
+            then not emptied, and with one row there is no jitter.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
+    goes_on = ticks < 0
+    ticks = abs(ticks)
     for index in range(first, end):
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
-        if begun == 0:
+        if not goes_on:
             log.count, log.lost = 0, 0
-        if ticks == begun or not is_ready(world, board, colliders, log, tick):
+        if ticks == 0 or not is_ready(world, board, colliders, log, tick):
             continue
-        step = begun
+        step = 0
         while step < ticks and is_inside(world, board):
             row = 0 if is_held else step
-            if actions[row, index, 2] and (step == 0 or not is_held):
+            if actions[row, index, 2] and (not is_held or (step == 0 and not goes_on)):
                 shove_balls(world, board, log)
             free = free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, ticks - step)
             if free == 0:

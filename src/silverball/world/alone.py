@@ -71,24 +71,24 @@ class Alone:
             tallies.shape[1],
         )
         row["tick"] = tick
-        self._step: Callable[[Any, int, int, int], int] = self._first_step
+        self._step: Callable[[Any, int, int], int] = self._first_step
 
     def __reduce__(self) -> Any:
         """Refuse to be copied: the addresses are those of the original's arrays."""
         raise TypeError("Alone holds addresses and cannot be copied; copy the World that owns it")
 
-    def step(self, buttons: int, begun: int, ticks: int) -> int:
-        """Move the world on with these buttons held, by the ticks that are left; the world's fault."""
+    def step(self, buttons: int, ticks: int) -> int:
+        """Move the world on with these buttons held, for ticks as `run_worlds` takes them; its fault."""
         if SETTINGS.DISABLE_JIT:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
-            cast(Any, run_worlds)(*self._arrays, 0, 1, begun, ticks, self._tick)
+            cast(Any, run_worlds)(*self._arrays, 0, 1, ticks, self._tick)
             return int(self._arrays[0][0]["fault"])
-        return self._step(self._addresses, buttons, begun, ticks)
+        return self._step(self._addresses, buttons, ticks)
 
-    def _first_step(self, addresses: NDArray[Any], buttons: int, begun: int, ticks: int) -> int:
+    def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
         """Make the step; it is compiled now, and no earlier."""
-        self._step = step = straight(step_alone, addresses, buttons, begun, ticks)
-        fault: int = step(addresses, buttons, begun, ticks)
+        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        fault: int = step(addresses, buttons, ticks)
         return fault
 
 
@@ -123,7 +123,7 @@ array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_arr
 
 
 @kernel
-def step_alone(addresses: Any, buttons: int, begun: int, ticks: int) -> int:
+def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
     """Move the world on that lies at these addresses (see `ADDRESSES`), as `run_worlds` does; its fault."""
     at = addresses[0]
     worlds = array_at(at.world, (1,), WORLD)
@@ -142,7 +142,6 @@ def step_alone(addresses: Any, buttons: int, begun: int, ticks: int) -> int:
         action,
         0,
         1,
-        begun,
         ticks,
         at.tick,
     )

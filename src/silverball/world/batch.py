@@ -116,16 +116,25 @@ class WorldBatch:
 
     def run(self, held: NDArray[np.bool_], ticks: int) -> None:
         """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
-        boards, piece = self.boards, max(1, PIECE_WORK * self.threads // self.count)
-        for begun in range(0, max(ticks, 1), piece):
-            end_tick = min(begun + piece, ticks)
-            self.on_threads(
-                lambda first, end, begun=begun, end_tick=end_tick: run_worlds(  # type: ignore[misc]
-                    self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
-                    self.tallies, held, first, end, begun, end_tick, 1.0 / self.tick_rate,
-                ),
-                self.count * (end_tick - begun),
-            )  # fmt: skip
+        if ticks > 1 and ticks > (piece := PIECE_WORK * self.threads // self.count or 1):
+            self._run_pieces(held, ticks, piece)
+            return
+        boards = self.boards
+        self.on_threads(
+            lambda first, end: run_worlds(
+                self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
+                self.tallies, held, first, end, ticks, 1.0 / self.tick_rate,
+            ),
+            self.count * abs(ticks),
+        )  # fmt: skip
+
+    def _run_pieces(self, held: NDArray[np.bool_], ticks: int, piece: int) -> None:
+        for begun in range(0, ticks, piece):
+            end = min(begun + piece, ticks)
+            rows = held if len(held) == 1 else held[begun:end]
+            if len(rows) < len(held) and len(rows) == 1:
+                rows = rows.repeat(2, axis=0)  # a single row would be one that is held, without its jitter
+            self.run(rows, end - begun if begun == 0 else begun - end)
 
     def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
         """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays.

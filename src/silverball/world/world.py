@@ -106,12 +106,10 @@ class World:
             ValueError: The number of ticks is not a whole number of at least 0.
         """
         buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
-        begun = 0
         if ticks.__class__ is not int or not 0 <= ticks <= PIECE_TICKS:
             ticks = checked_int("ticks", ticks, 0, 2**40)
-            while ticks - begun > PIECE_TICKS and not self._alone.step(buttons, begun, begun + PIECE_TICKS):
-                begun += PIECE_TICKS
-        if self._alone.step(buttons, begun, ticks):
+            ticks = self._play_pieces(buttons, ticks)
+        if self._alone.step(buttons, ticks):
             self._raise_fault()
 
     def create_ball(
@@ -256,6 +254,13 @@ class World:
     def grid(self) -> NDArray[np.int32]:
         """The grid of the board, which a kernel needs that plays copies of the record on."""
         return self._batch.boards.grid
+
+    def _play_pieces(self, buttons: int, ticks: int) -> int:
+        """Play all but the last piece of a step; what is left to be played, as `run_worlds` wants it."""
+        sign = 1
+        while ticks > PIECE_TICKS and not self._alone.step(buttons, sign * PIECE_TICKS):
+            ticks, sign = ticks - PIECE_TICKS, -1
+        return sign * ticks
 
     # --- helpers
     # -------------------------------------------------------------------------------------------------
