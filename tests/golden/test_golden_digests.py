@@ -31,7 +31,7 @@ def test_a_scene_ends_in_its_golden_digest(scene: Scene, ends):
 def test_the_scenes_meet_everything_there_is_to_meet(ends):
     """A digest guards only what happens in its game."""
     counters = [name for name in WORLD.names if name.endswith("_hits")]
-    counters += ["touches", "drained", "draws"]
+    counters += ["touches", "drained", "draws", "jams"]
     total = {name: sum(int(world.records[0][name]) for world in ends.values()) for name in counters}
     assert all(total.values()), total
     assert not any(world.fault for world in ends.values())
