@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 import time
 
 import numpy as np
 import pytest
 from PIL import Image
+
+from commandline import started
 
 NO_DISPLAY = {
     **{key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")},
@@ -135,22 +135,9 @@ def test_a_gif_too_large_to_make_is_refused(silverball, tmp_path):
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("ending", ["gif", "mp4"])
 def test_an_interruption_leaves_no_half_file(tmp_path, ending, sent):
-    command = [
-        sys.executable,
-        "-m",
-        "silverball",
-        "demo",
-        "--out",
-        f"film.{ending}",
-        "--seconds",
-        "60",
-        "--player",
-        "reflex",
-    ]
-    process = subprocess.Popen(
-        command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-    limit = time.monotonic() + 60.0
+    options = ("--out", f"film.{ending}", "--seconds", "60", "--player", "reflex")
+    process = started("demo", *options, cwd=tmp_path)
+    limit = time.monotonic() + 300.0  # a first use compiles
     while not list(tmp_path.iterdir()) and time.monotonic() < limit:
         time.sleep(0.02)
     assert list(tmp_path.iterdir()), "the film was never begun"

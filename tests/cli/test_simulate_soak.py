@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import signal
-import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
 
+from commandline import started
 from holed import Holed
 from silverball.cli.app import run
 from silverball.players import soak as soak_module
@@ -69,9 +68,8 @@ def test_a_finding_ends_in_exit_code_1_and_can_be_done_again(tmp_path, monkeypat
 def test_ctrl_c_costs_at_most_a_round(silverball, tmp_path):
     path = tmp_path / "soak.json"
     options = ["simulate", "--soak", "--worlds", "2", "--progress", str(path)]
-    command = [sys.executable, "-m", "silverball", *options, "--frames", "1000000000000"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    limit = time.monotonic() + 60.0
+    process = started(*options, "--frames", "1000000000000")
+    limit = time.monotonic() + 300.0  # a first use compiles
     while not path.exists() and time.monotonic() < limit:
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)

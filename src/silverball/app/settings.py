@@ -6,9 +6,23 @@ every value that still makes sense and the default for the rest, so that a bad v
 
 from __future__ import annotations
 
+from enum import Enum
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, InstanceOf, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    InstanceOf,
+    ValidationError,
+    model_validator,
+)
+
+
+def _text(value: Any) -> Any:
+    """The text of an enum's member: Pydantic 2.7 does not take the one for the other, as later ones do."""
+    return value.value if isinstance(value, Enum) else value
 
 
 class Settings(BaseModel):
@@ -33,7 +47,7 @@ class Settings(BaseModel):
     """The table that was chosen last for arcade games: a built-in name or a path."""
     free_table: InstanceOf[str] = "original"
     """The same for free play, which begins with the original."""
-    mode: Literal["arcade", "free"] = "arcade"
+    mode: Annotated[Literal["arcade", "free"], BeforeValidator(_text)] = "arcade"
     """The game that was chosen last."""
     initials: Annotated[str, Field(pattern=r"^[A-Z0-9 .\-]{3}$")] = "AAA"
     """Entered last, offered again."""

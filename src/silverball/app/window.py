@@ -135,7 +135,7 @@ class Window:
             modes = (Mode.ARCADE, Mode.FREE) if mode is None else (mode,)
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
-            settings = settings.changed(mode=mode.value)  # Pydantic 2.7 takes no enum's member for its text
+            settings = settings.changed(mode=mode)
         library = Library(self.store, self._folder, given)
         try:
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))

@@ -10,6 +10,7 @@ import weakref
 
 import pytest
 
+from commandline import hear_ctrl_c
 from silverball.cli import signals
 
 SCRIPT = """
@@ -33,7 +34,7 @@ def ended(command: str, before: str = "") -> tuple[int, str, str]:
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT.format(before=before, command=body)],
         capture_output=True, text=True, timeout=60, check=False,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        preexec_fn=hear_ctrl_c if sys.platform != "win32" else None,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr
 
