@@ -18,7 +18,7 @@ import numpy as np
 
 from boards import CLASSIC, RANDOM, full_table
 from silverball.errors import BoardFull, NoRoom
-from silverball.table import Table, generate_table
+from silverball.table import SlantWall, Table, generate_table
 from silverball.world import World, WorldBatch
 
 BEAT = 15
@@ -64,6 +64,11 @@ def rolling(seed: int) -> Table:
     return table.model_copy(update={"board": rough})
 
 
+def jamming() -> Table:
+    """A bar above the paddles, under which they press balls."""
+    return full_table(SlantWall(start=(-6.0, -1.5), end=(-6.2, 1.5)))
+
+
 SCENES = (
     Scene("classic", classic, seed=1),
     Scene("random board 7", lambda: generated(7), seed=2),
@@ -74,6 +79,9 @@ SCENES = (
     Scene("rough parts", lambda: full_table(friction=0.2), seed=11),
     Scene("rolling", lambda: full_table(friction=0.2, rolling=True), seed=12),
     Scene("too smooth to roll", lambda: full_table(friction=0.02, rolling=True), seed=13),
+    Scene("jams", jamming, seed=17),
+    Scene("weightless", lambda: full_table(gravity=0.0), seed=15),
+    Scene("weightless and rough", lambda: full_table(gravity=0.0, friction=0.2, rolling=True), seed=16),
     Scene("slow ticks", classic, seed=7, tick_rate=10, ticks=300),
     Scene("classic as in the window", classic, seed=8, tick_rate=240, ticks=4800),
     Scene("random board 9 as in the window", lambda: generated(9), seed=9, tick_rate=240, ticks=4800),

@@ -296,7 +296,7 @@ def test_options_that_are_none_are_refused_in_words():
             envs.step(actions)
     bits = PinballVectorEnv(2, table="classic", actions="multibinary")
     bits.reset(seed=0)
-    with pytest.raises(ValueError, match="every bit must be 0 or 1, got 0 to 2"):
+    with pytest.raises(ValueError, match=r"every bit of the actions must be 0 or 1, got .*\b2\b"):
         bits.step([[0, 1], [2, 0]])
     with pytest.raises(ValueError, match=r"actions must have the shape \(2, 2\), got \(2, 3\)"):
         bits.step(np.zeros((2, 3), int))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from golden.make_digests import FILE, REMEDY, Golden, changed, read, renew
+from golden.make_digests import FILE, REMEDY, Golden, changed, digest, read, renew
 from scenes import SCENES, Scene, played
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.layout import WORLD
@@ -14,7 +14,8 @@ GOLDEN = read()
 
 def test_the_golden_digests_are_those_of_these_scenes_and_this_version():
     assert GOLDEN.physics_version == PHYSICS_VERSION, REMEDY
-    assert list(GOLDEN.digests) == [scene.name for scene in SCENES], REMEDY
+    assert list(GOLDEN.digests) == list(GOLDEN.since) == [scene.name for scene in SCENES], REMEDY
+    assert max(GOLDEN.since.values()) <= PHYSICS_VERSION
 
 
 @pytest.fixture(scope="module")
@@ -25,28 +26,30 @@ def ends():
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_a_scene_ends_in_its_golden_digest(scene: Scene, ends):
-    assert ends[scene.name].digest() == GOLDEN.digests.get(scene.name), REMEDY
+    world = ends[scene.name]
+    assert digest(world, GOLDEN.since.get(scene.name, 0)) == GOLDEN.digests.get(scene.name), REMEDY
+    assert digest(world, PHYSICS_VERSION) == world.digest()
 
 
 def test_the_scenes_meet_everything_there_is_to_meet(ends):
     """A digest guards only what happens in its game."""
     counters = [name for name in WORLD.names if name.endswith("_hits")]
-    counters += ["touches", "drained", "draws"]
+    counters += ["touches", "drained", "draws", "jams"]
     total = {name: sum(int(world.records[0][name]) for world in ends.values()) for name in counters}
     assert all(total.values()), total
     assert not any(world.fault for world in ends.values())
 
 
-OLD = Golden(3, {"a": "1", "b": "2"})
+OLD = Golden(3, {"a": "1", "b": "2"}, {"a": 2, "b": 3})
 
 
 @pytest.mark.parametrize(
     ("new", "done"),
     [
-        (Golden(3, {"a": "1", "b": "2"}), "0 changed, 0 added, 0 gone"),
-        (Golden(3, {"a": "1", "b": "2", "c": "3"}), "0 changed, 1 added, 0 gone"),
-        (Golden(3, {"a": "1"}), "0 changed, 0 added, 1 gone"),
-        (Golden(4, {"a": "1", "b": "9"}), "1 changed, 0 added, 0 gone"),
+        (Golden(3, {"a": "1", "b": "2"}, {"a": 2, "b": 3}), "0 changed, 0 added, 0 gone"),
+        (Golden(3, {"a": "1", "b": "2", "c": "3"}, {"a": 2, "b": 3, "c": 3}), "0 changed, 1 added, 0 gone"),
+        (Golden(3, {"a": "1"}, {"a": 2}), "0 changed, 0 added, 1 gone"),
+        (Golden(4, {"a": "1", "b": "9"}, {"a": 2, "b": 4}), "1 changed, 0 added, 0 gone"),
     ],
 )
 def test_digests_are_written_anew(tmp_path, new: Golden, done: str):

@@ -309,7 +309,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if self.options.actions == "multibinary" and given.shape == (self.num_envs, buttons):
             bits = as_bits(given)
             if bits is None:
-                raise ValueError(f"every bit of the actions must be 0 or 1, got {given!r}")
+                wrong = next(bit for bit in given.flat if bit not in (0, 1))
+                raise ValueError(f"every bit of the actions must be 0 or 1, got {wrong!r}")
             given = bits @ self._weights
         elif given.dtype.kind not in "iub":
             raise ValueError(f"actions must be whole numbers, got {given.dtype} of the shape {given.shape}")

@@ -10,4 +10,4 @@ windows or players; it imports numpy and numba, and platformdirs for the place o
 `PHYSICS_VERSION` is raised whenever the same table, seed and inputs would give other bits than before.
 """
 
-PHYSICS_VERSION = 2
+PHYSICS_VERSION = 3
