@@ -1,10 +1,13 @@
-"""How the tests start the command line as a program that can be stopped."""
+"""How the tests call the command line: in this process, or as a program that can be stopped."""
 
 from __future__ import annotations
 
+import contextlib
+import io
 import signal
 import subprocess
 import sys
+import traceback
 from typing import Any
 
 
@@ -21,3 +24,22 @@ def started(*arguments: str, **options: Any) -> subprocess.Popen[str]:
         [sys.executable, "-m", "silverball", *arguments],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options,
     )  # fmt: skip
+
+
+def ran(*arguments: str, cwd: Any = None) -> subprocess.CompletedProcess[str]:
+    """`silverball` with these arguments, in this process: it saves a second each time."""
+    from silverball.cli.app import run
+
+    out, errors = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
+    with contextlib.ExitStack() as stack:
+        stack.enter_context(contextlib.redirect_stdout(out))
+        stack.enter_context(contextlib.redirect_stderr(errors))
+        if cwd is not None:
+            stack.enter_context(contextlib.chdir(cwd))
+        try:
+            code = run(list(arguments))
+        except Exception:
+            traceback.print_exc()
+            code = 1
+    printed, said = (stream.buffer.getvalue().decode() for stream in (out, errors))  # type: ignore[attr-defined]
+    return subprocess.CompletedProcess(arguments, code, printed, said)

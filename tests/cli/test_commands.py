@@ -61,11 +61,11 @@ def test_simulate_prints_everything_that_happened_and_nothing_went_wrong(silverb
     assert report["simulated_seconds_per_second"] > 1
 
 
-def test_simulate_gives_the_same_digest_in_a_new_process_and_another_for_another_seed(silverball):
+def test_simulate_gives_the_same_digest_in_a_new_process_and_another_for_another_seed(new_process):
     arguments = "simulate --table random --seed 3 --seconds 10 --player random --json".split()
-    digests = {json.loads(silverball(*arguments).stdout)["digest"] for _ in range(2)}
+    digests = {json.loads(new_process(*arguments).stdout)["digest"] for _ in range(2)}
     assert len(digests) == 1
-    other = json.loads(silverball(*arguments, "--seed", "4").stdout)
+    other = json.loads(new_process(*arguments, "--seed", "4").stdout)
     assert other["digest"] not in digests
 
 
