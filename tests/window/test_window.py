@@ -134,9 +134,12 @@ def test_a_long_seed_can_be_read_in_full_with_the_keys(open_window, monkeypatch)
 
 def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
     from silverball.app.startup import compiling_words
-    from silverball.physics import kernel
+    from silverball.physics import codecache, kernel
 
     assert "once" in compiling_words()
+    with monkeypatch.context() as patch:
+        patch.setattr(codecache.Damage, "words", "damaged")
+        assert "damaged" in compiling_words()
     monkeypatch.setattr(kernel, "cache_folder", lambda *_: None)
     assert "every start" in compiling_words()
     assert "once" not in compiling_words()

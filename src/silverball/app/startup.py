@@ -73,8 +73,11 @@ class Startup:
 
 def compiling_words() -> str:
     """What to tell while the physics is compiled; asked only then, for it loads the compiler."""
+    from silverball.physics.codecache import Damage
     from silverball.physics.kernel import cache_folder
 
+    if Damage.words:
+        return "some compiled code was damaged: compiling it anew; this takes some seconds…"
     if cache_folder() is None:
         return "compiling the physics, as at every start: its cache folder cannot be written…"
     return "compiling the physics for this machine, once; this takes some seconds…"
