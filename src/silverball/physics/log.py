@@ -26,7 +26,7 @@ def record(
     event.speed = speed
 
 
-@inlined
+@internal
 def leave(world: Any, log: Any) -> None:
     """Keep in the log what a call leaves."""
     log.mark = mark(world)
@@ -34,9 +34,14 @@ def leave(world: Any, log: Any) -> None:
 
 @inlined
 def mark(world: Any) -> float:
-    """A number that tells flights, what they lead to, and angles from others, if nobody seeks one like it."""
-    a, b = world.ball[0], world.ball[1]
-    first = (2.0 * a.from_x + 3.0 * a.from_z) + (5.0 * a.from_vx + 7.0 * a.from_vz)
-    second = (11.0 * b.from_x + 13.0 * b.from_z) + (17.0 * b.from_vx + 19.0 * b.from_vz)
-    next_ones = (a.due + a.meets) + (23.0 * b.due + 29.0 * b.meets)
-    return (first + second) + (next_ones + (31.0 * world.paddle[0].angle + 37.0 * world.paddle[1].angle))
+    """A number that no other flights, contacts to come and angles have, if nobody seeks some that do."""
+    angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
+    return mark_of(world.ball[0]) + mark_of(world.ball[1]) + angles
+
+
+@inlined
+def mark_of(ball: Any) -> float:
+    """The share of one ball."""
+    begin = (ball.from_x + ball.from_z) + (ball.from_vx + ball.from_vz)
+    pull = (ball.pull_x + ball.pull_z) + (ball.offset + ball.motion)
+    return begin + pull + (ball.due + ball.meets)

@@ -179,27 +179,26 @@ def end_flight(ball: Any, board: Any, tick: float, count: int) -> None:
 
 
 @inlined
-def is_on_flight(ball: Any, board: Any, tick: float) -> bool:
-    """Whether a ball's record holds the flight that led it here: not so after a change from outside."""
+def leads_here(ball: Any, tick: float) -> bool:
+    """Whether the flight in a ball's record leads to where it is: not so after a change from outside."""
     at = flown(ball, ball.age)
     return (
         ball.x == at.x
         and ball.z == at.z
         and ball.vx == at.vx
         and ball.vz == at.vz
-        and is_lawful(ball, board)
         and ball.age == ball.ticks * tick - ball.offset
-        and 0.0 <= ball.offset <= tick * LONGER
-        and ball.age >= tick - tick * LONGER
     )
 
 
 @internal
-def is_lawful(ball: Any, board: Any) -> bool:
-    """Whether a ball moves as its board lets balls move."""
-    share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
+def is_lawful(ball: Any, board: Any, tick: float) -> bool:
+    """Whether a ball moves as its board lets balls move, on a flight that began before this tick."""
+    if not (0.0 <= ball.offset <= tick * LONGER and ball.age >= tick - tick * LONGER):
+        return False
     if ball.motion == Motion.SLIPPING:
         return board.press != 0.0
+    share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
     if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z or ball.grips != NEVER:
         return False
     if ball.motion == Motion.ROLLING:

@@ -11,11 +11,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from silverball.physics.balls import clearance, part_balls
+from silverball.physics.balls import part_balls
+from silverball.physics.contact import is_near
+from silverball.physics.grid import cell_of
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.layout import Fault, Part
 from silverball.physics.log import mark
-from silverball.physics.motion import depart, is_on_flight, search_anew
+from silverball.physics.motion import depart, is_lawful, leads_here, search_anew
+from silverball.physics.paddle import paddle_distance
+from silverball.physics.shapes import distance
 from silverball.physics.tolerances import DEEPEST, NEVER
 
 
@@ -34,29 +38,30 @@ def goes_on(ball: Any, board: Any, tick: float) -> bool:
     """Whether a ball is on a flight that has not come to its end yet; an empty slot is."""
     return ball.id == 0 or (
         ball.age <= ball.due
-        and is_on_flight(ball, board, tick)
+        and leads_here(ball, tick)
         and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
+        and (board.press == 0.0 or is_lawful(ball, board, tick))  # its spin may be another one
     )
 
 
 @internal
-def is_admitted(world: Any, board: Any, colliders: Any, tick: float) -> bool:
+def is_admitted(world: Any, board: Any, colliders: Any, grid: Any, tick: float) -> bool:
     """Whether a state from outside can be, each ball on a flight of its own; if not, the fault is named."""
-    if not is_sound(world, board) or not is_clear(world, board, colliders):
+    if not is_sound(world, board) or not is_clear(world, board, colliders, grid):
         return False
     for slot in range(2):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        if is_on_flight(ball, board, tick):
+        if leads_here(ball, tick) and is_lawful(ball, board, tick):
             search_anew(ball)
         else:
             depart(ball, board, 0.0)
     return True
 
 
-@kernel
-def is_clear(world: Any, board: Any, colliders: Any) -> bool:
+@internal
+def is_clear(world: Any, board: Any, colliders: Any, grid: Any) -> bool:
     """Whether the paddles are within their stops and no ball is inside anything; if not, it is a named fault.
 
     Two balls that overlap are parted, if there is room.
@@ -70,11 +75,30 @@ def is_clear(world: Any, board: Any, colliders: Any) -> bool:
     for slot in range(2):
         ball = world.ball[slot]
         if ball.id != 0:
-            gap, _ = clearance(world, board, colliders, ball.x, ball.z)
-            is_free = is_free and gap >= -DEEPEST
+            is_free = is_free and is_in_no_part(world, board, colliders, grid, ball.x, ball.z)
     if not is_free:
         world.fault = Fault.INSIDE + 0
-    return is_free
+    return bool(is_free)
+
+
+@internal
+def is_in_no_part(world: Any, board: Any, colliders: Any, grid: Any, x: float, z: float) -> bool:
+    """Whether a ball at (x, z) is inside no part, paddles as they stand."""
+    if min(z - board.low_z, board.high_z - z, board.top_x - x) < -DEEPEST:
+        return False
+    least = board.ball_radius - DEEPEST
+    cell = cell_of(board, x, z)
+    for entry in range(grid[cell], grid[cell + 1]):
+        gap, _, _ = distance(colliders[board.collider_first + grid[entry]], x, z)
+        if gap < least:
+            return False
+    for side in range(2):
+        c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
+        if is_near(x, z, c.x, c.z, c.reach + board.ball_radius):
+            gap, _, _ = paddle_distance(c, world.paddle[side].angle, x, z)
+            if gap < least:
+                return False
+    return True
 
 
 @kernel

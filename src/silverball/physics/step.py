@@ -44,7 +44,7 @@ def step_world(
     raise_left: bool, raise_right: bool, shove: bool, tick: float,
 ) -> None:  # fmt: skip
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    if is_ready(world, board, colliders, log, tick):
+    if is_ready(world, board, colliders, grid, log, tick):
         if shove:
             shove_balls(world, board, log)
         if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
@@ -225,12 +225,12 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
     record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, turn
 
 
-@inlined
-def is_ready(world: Any, board: Any, colliders: Any, log: Any, tick: float) -> bool:
+@internal
+def is_ready(world: Any, board: Any, colliders: Any, grid: Any, log: Any, tick: float) -> bool:
     """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
-    return world.fault == Fault.NONE and (
-        is_as_left(world, board, log, tick) or is_admitted(world, board, colliders, tick)
-    )
+    if world.fault != Fault.NONE:
+        return False
+    return is_as_left(world, board, log, tick) or is_admitted(world, board, colliders, grid, tick)
 
 
 @inlined
@@ -274,7 +274,7 @@ def run_worlds(
         board = boards[board_of[index]]
         if not goes_on:
             log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, board, colliders, log, tick):
+        if ticks == 0 or not is_ready(world, board, colliders, grid, log, tick):
             continue
         step = 0
         while step < ticks and is_inside(world, board):

@@ -183,7 +183,7 @@ def plan_worlds(
         copies[2 * index] = worlds[index]
         root = copies[2 * index]
         if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(
-            root, board, colliders, logs[index], length
+            root, board, colliders, grid, logs[index], length
         ):
             dry = (world.tick - memory.scored_tick) * tick
             left, right = decide(
