@@ -16,8 +16,10 @@ import time
 
 from silverball.errors import SilverballError
 from silverball.game.game import Game
-from silverball.game.news import Mode
-from silverball.game.replay import Replay, ReplayPlayer, verify
+from silverball.game.replay.format import Replay
+from silverball.game.replay.player import ReplayPlayer
+from silverball.game.replay.verify import verify
+from silverball.game.view import Mode
 from silverball.players import make_player
 
 

@@ -14,8 +14,8 @@ import gymnasium
 import numpy as np
 
 from silverball.envs import IDS
-from silverball.players.beats import deciding
-from silverball.players.press import PlayerKind
+from silverball.players.batch_policies import deciding
+from silverball.players.simple import PlayerKind
 
 
 def mean_return(id_: str, episodes: int) -> tuple[float, float]:

@@ -48,7 +48,7 @@ def main() -> None:
     import pygame
 
     from silverball.app.window import Window
-    from silverball.game.news import Mode
+    from silverball.game.view import Mode
     from silverball.players import make_player
 
     with tempfile.TemporaryDirectory() as folder:

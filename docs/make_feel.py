@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from silverball.cli.feel import lines_of, report_of
-from silverball.players.feel import Feel, measure
-from silverball.players.feelgames import CELLS, TICK_RATE
-from silverball.players.feelshots import Aim, Shots
+from silverball.metrics.feel import Feel, measure
+from silverball.metrics.game_traces import CELLS, TICK_RATE
+from silverball.metrics.shots import Aim, Shots
 from silverball.table import Table, load_table
 
 FOLDER = Path(__file__).parent

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import silverball as sb
-from silverball.physics.layout import Motion
+from silverball.physics.records import Motion
 from silverball.table import Board, Table
 
 PICTURE = Path(__file__).with_name("rolling.png")

@@ -21,9 +21,9 @@ from stable_baselines3.common.vec_env import VecEnvWrapper, VecNormalize
 
 from silverball.envs import PinballVectorEnv
 from silverball.envs.sb3 import SilverballVecEnv
+from silverball.metrics.ball_time import time_balls
 from silverball.players import PlayerKind
-from silverball.players.ball_time import time_balls
-from silverball.players.sight import COLUMNS, MIRRORED, SEEN, see
+from silverball.players.features import COLUMNS, MIRRORED, SEEN, see
 from silverball.players.trained import DECISIONS, Policy
 from silverball.world import WorldBatch
 
@@ -34,7 +34,7 @@ LONGEST = 300.0  # [s] that a ball is played at most
 
 
 class Seen(VecEnvWrapper):
-    """Shows what `players/sight.py` makes of an observation; balls on the right are seen in the mirror."""
+    """Shows what `players/features.py` makes of an observation; balls on the right are seen in the mirror."""
 
     def __init__(self, envs):
         super().__init__(envs, Box(-10.0, 10.0, (SEEN,), np.float32))

@@ -20,7 +20,7 @@ from silverball.table import (
     table_digest,
 )
 from silverball.world import Event, World
-from silverball.world.state import pack
+from silverball.world.saved_world import pack
 
 LEFT = Paddle(side="left", pivot=(-7.2, -2.5))
 RIGHT = Paddle(side="right", pivot=(-7.2, 2.5))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from silverball.app.catalog import Library
 from silverball.app.controls import Action, Held
-from silverball.app.library import Library
 from silverball.app.program import Program
 from silverball.app.settings import Settings
-from silverball.game.news import Phase
-from silverball.game.store import Store
+from silverball.game.scores.store import Store
+from silverball.game.view import Phase
 from silverball.table import Board, Cylinder, Table
 
 NOTHING = Held((False, False), (False, False))

@@ -5,8 +5,8 @@ Compile-time data of the solver alone are spoilt; the watch has its own.
 
 from __future__ import annotations
 
-from silverball.physics.layout import Part
-from silverball.players.soak import Options
+from silverball.physics.records import Part
+from silverball.soak.rounds import Options
 from silverball.table import load_table
 from silverball.world import WorldBatch
 

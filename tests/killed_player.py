@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from silverball.game.store import Store
+from silverball.game.scores.store import Store
 
 MOST_TICKS = 240  # of a game: a second of play
 LIST = ("arcade", "Classic", "d" * 64)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from silverball.drawing.dotfonts import BOLD, HUGE, NORMAL, Font
-from silverball.drawing.dots import Dots
+from silverball.drawing.dotmatrix.canvas import Dots
+from silverball.drawing.dotmatrix.fonts import BOLD, HUGE, NORMAL, Font
 
 
 def reads(dots: Dots, text: str, fonts: tuple[Font, ...] = (HUGE, BOLD, NORMAL)) -> bool:

@@ -64,13 +64,13 @@ if TYPE_CHECKING:
         table_names as table_names,
     )
     from silverball.world import (
-        Ball as Ball,
+        BallState as BallState,
     )
     from silverball.world import (
         Event as Event,
     )
     from silverball.world import (
-        Paddle as Paddle,
+        PaddleState as PaddleState,
     )
     from silverball.world import (
         Snapshot as Snapshot,
@@ -90,7 +90,7 @@ _HOME = {
         "StateError", "TableError", "UnknownTable",
     ),
     "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
-    "silverball.world": ("Ball", "Event", "Paddle", "Snapshot", "World", "WorldBatch"),
+    "silverball.world": ("BallState", "Event", "PaddleState", "Snapshot", "World", "WorldBatch"),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}
 

@@ -6,8 +6,10 @@ import json
 
 import pytest
 
-from silverball.benchmarks.envs import contest, contestants, report
-from silverball.benchmarks.envs.contestants import Contestant
+from silverball.benchmarks.envs import environments as contestants
+from silverball.benchmarks.envs import measure as contest
+from silverball.benchmarks.envs import table as report
+from silverball.benchmarks.envs.environments import Contestant
 from silverball.cli.app import run
 
 

@@ -8,7 +8,9 @@ import json
 
 import pytest
 
-from silverball.benchmarks.peers import contest, contestants, report
+from silverball.benchmarks.peers import comparison as contest
+from silverball.benchmarks.peers import engines as contestants
+from silverball.benchmarks.peers import report
 from silverball.benchmarks.peers.accuracy import BOUNCES
 from silverball.cli.app import run
 from silverball.table import load_table

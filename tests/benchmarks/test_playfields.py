@@ -7,9 +7,9 @@ import math
 import pytest
 
 from silverball.benchmarks.peers import energy, play, tables
-from silverball.benchmarks.peers.contestants import FINE, OWN, PEERS, Entry
 from silverball.benchmarks.peers.engine import Stepping
-from silverball.benchmarks.peers.watch import Watcher, watch
+from silverball.benchmarks.peers.engines import FINE, OWN, PEERS, Entry
+from silverball.benchmarks.peers.penetration import Watcher, watch
 from silverball.table import Table, load_table
 from silverball.table.parts import Board
 

@@ -9,8 +9,8 @@ import pytest
 
 from silverball.benchmarks.peers import play, tables
 from silverball.benchmarks.peers.engine import Playfield, Stepping
+from silverball.benchmarks.peers.penetration import Watcher, do_cross, watch
 from silverball.benchmarks.peers.silverball_table import SilverballPlayfield
-from silverball.benchmarks.peers.watch import Watcher, do_cross, watch
 from silverball.table import load_table
 
 CLASSIC = load_table("classic")

@@ -17,11 +17,11 @@ import pytest
 from holed import Holed, options_of
 from hostile_text import obeyed_in
 from silverball.cli.app import run
-from silverball.drawing.film import check_output
 from silverball.errors import OutputError
-from silverball.players import soak as soak_module
-from silverball.players.finding import Finding, again
-from silverball.players.soaklog import soak
+from silverball.export.film import check_output
+from silverball.soak import rounds as soak_module
+from silverball.soak.campaign import soak
+from silverball.soak.finding import Finding, again
 from silverball.table import dump_table, load_table
 
 SOAK = ("simulate", "--soak", "--worlds", "1", "--frames", "1")
@@ -198,7 +198,7 @@ def test_a_pipe_says_what_to_do(refused):
 LIMITED = """
 import resource, sys
 resource.setrlimit(resource.RLIMIT_CPU, (100, 100))
-import silverball.cli.app, silverball.players.soaklog, silverball.players.finding, silverball.game.replay
+import silverball.cli.app, silverball.soak.campaign, silverball.soak.finding, silverball.game.replay
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 for arguments in sys.argv[1:]:
     assert silverball.cli.app.run(arguments.split()) == 2

@@ -21,10 +21,10 @@ import pytest
 
 from silverball.cli.app import run
 from silverball.game.game import TICK_RATE, Game
-from silverball.game.replay import Replay
-from silverball.game.replay_lines import read, written
-from silverball.game.replay_reader import checksum
-from silverball.game.store import FILE, Store
+from silverball.game.replay.format import Replay
+from silverball.game.replay.lines import read, written
+from silverball.game.replay.reader import checksum
+from silverball.game.scores.store import FILE, Store
 from silverball.table import Table, dump_table, generate_table, load_table, table_digest
 
 SEED = 5

@@ -15,9 +15,9 @@ from silverball.cli import app as cli
 from silverball.cli.app import run
 from silverball.errors import SilverballError, StateError, TableError
 from silverball.game.game import Game
-from silverball.game.news import Mode
-from silverball.game.replay import Replay
-from silverball.game.replay_reader import checksum
+from silverball.game.replay.format import Replay
+from silverball.game.replay.reader import checksum
+from silverball.game.view import Mode
 from silverball.physics import PHYSICS_VERSION
 from silverball.plain import plain
 from silverball.table import dump_table, load_table, parse_table

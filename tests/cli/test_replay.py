@@ -10,8 +10,8 @@ import pytest
 from PIL import Image, ImageSequence
 
 from silverball.game.game import Game
-from silverball.game.news import Mode
-from silverball.game.replay import Replay
+from silverball.game.replay.format import Replay
+from silverball.game.view import Mode
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +150,7 @@ def test_a_film_from_beyond_the_end_is_refused(silverball, good: str, tmp_path: 
 
 
 def test_last_is_the_game_that_was_played_last(silverball, played: Game, tmp_path: Path, monkeypatch):
-    store = pytest.importorskip("silverball.game.store")
+    store = pytest.importorskip("silverball.game.scores.store")
     monkeypatch.setenv("SILVERBALL_DATA", str(tmp_path))
     result = silverball("replay", "last", "--verify")
     assert (result.returncode, "no last game" in result.stderr) == (2, True)

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from holder import ALONE, held
-from silverball.game.store import FILE, Store
+from silverball.game.scores.store import FILE, Store
 from silverball.table import load_table, table_digest
 
 

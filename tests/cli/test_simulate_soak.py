@@ -12,7 +12,7 @@ import pytest
 from commandline import started
 from holed import Holed
 from silverball.cli.app import run
-from silverball.players import soak as soak_module
+from silverball.soak import rounds as soak_module
 
 SMALL = ["simulate", "--soak", "--worlds", "2", "--frames", "1"]  # one round: 2 worlds, 600 s
 

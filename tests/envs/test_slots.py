@@ -10,7 +10,7 @@ import pytest
 
 from silverball.envs import GROUPS, PinballEnv
 from silverball.envs.slots import BALLS, GAME, LAYOUT, PADDLES, fields, slot_table
-from silverball.physics.layout import BALL_COUNT
+from silverball.physics.records import BALL_COUNT
 from silverball.table import generate_table, load_table
 from silverball.world import World
 

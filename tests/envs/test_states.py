@@ -11,7 +11,7 @@ import pytest
 
 from silverball.envs import PinballEnv, PinballVectorEnv
 from silverball.envs.engine import MARK
-from silverball.envs.records import SCENE
+from silverball.envs.state import SCENE
 from silverball.errors import StateError
 
 OPTIONS = [

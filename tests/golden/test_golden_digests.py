@@ -7,7 +7,7 @@ import pytest
 from golden.make_digests import FILE, REMEDY, Golden, changed, digest, read, renew
 from scenes import SCENES, Scene, played
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.layout import WORLD
+from silverball.physics.records import WORLD
 
 GOLDEN = read()
 

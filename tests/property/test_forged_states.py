@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from boards import edited, full_table, launched
 from silverball.errors import FaultError, StateError
 from silverball.physics.audit import deepest
-from silverball.physics.layout import BALL
+from silverball.physics.records import BALL
 from silverball.table import Table
 from silverball.world import Snapshot, World, WorldBatch
 

@@ -12,8 +12,8 @@ import pytest
 from boards import LEFT, RIGHT, table_of
 from silverball.errors import BoardFull, NoRoom
 from silverball.physics.audit import deepest
-from silverball.physics.layout import Motion
-from silverball.players.hostile import hostile_table
+from silverball.physics.records import Motion
+from silverball.soak.hostile import hostile_table
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism
 from silverball.world import World
 

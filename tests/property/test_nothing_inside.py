@@ -11,8 +11,8 @@ import pytest
 
 from boards import full_table
 from silverball.physics.audit import deepest, part_gap
-from silverball.physics.layout import EventKind, Kind, Part
-from silverball.players.hostile import hostile_table
+from silverball.physics.records import EventKind, Kind, Part
+from silverball.soak.hostile import hostile_table
 from silverball.table import Table, generate_table
 from silverball.world import WorldBatch
 

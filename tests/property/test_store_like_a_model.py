@@ -16,7 +16,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, precondition, rule
 
-from silverball.game.store import FILE, PLACES, Store
+from silverball.game.scores.store import FILE, PLACES, Store
 
 MEMORY = "/dev/shm"  # a disk that need not be waited for, where there is one
 MODES, TABLES = ("arcade", "free"), ("digest a", "digest b")

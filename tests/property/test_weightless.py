@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from boards import CLASSIC, edited, full_table, launched, place, speed_of, table_of
 from silverball.physics.audit import deepest
 from silverball.physics.tolerances import LEAST_HOP
-from silverball.players.hostile import hostile_table
+from silverball.soak.hostile import hostile_table
 from silverball.table import Cylinder, SlantWall, Table, check_table, generate_table
 from silverball.world import World, WorldBatch
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from boards import PADDLES, table_of
 from silverball.world import World, WorldBatch
-from silverball.world.state import pack
+from silverball.world.saved_world import pack
 
 
 def test_no_stroke_ends_beyond_its_stop_however_it_is_cut() -> None:

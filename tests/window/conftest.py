@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from silverball.app.window import Window
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 from silverball.table import Table
 
 FRAME = 1 / 60  # [s]
@@ -97,7 +97,7 @@ def sketches(request, monkeypatch) -> None:
 def no_rehearsal(request, monkeypatch) -> None:
     """Only tests marked `rehearsed` wait for players that need compiled code of their own."""
     if "rehearsed" not in request.keywords:
-        monkeypatch.setattr("silverball.app.rehearsal.Rehearsal._work", lambda self: None)
+        monkeypatch.setattr("silverball.app.player_warmup.Rehearsal._work", lambda self: None)
 
 
 @pytest.fixture

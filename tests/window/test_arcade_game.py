@@ -6,9 +6,10 @@ import pygame
 import pytest
 from machines import leaky
 
-from silverball.game.news import Mode, Phase
-from silverball.game.replay import Replay, verify
-from silverball.game.store import Store
+from silverball.game.replay.format import Replay
+from silverball.game.replay.verify import verify
+from silverball.game.scores.store import Store
+from silverball.game.view import Mode, Phase
 from silverball.players import PlayerKind
 
 

@@ -7,9 +7,9 @@ from machines import leaky
 from test_arcade_game import play_all_balls
 
 from holder import held
-from silverball.app.keeping import SAVED, WAITS
-from silverball.game.news import Mode
-from silverball.game.store import FILE, Store
+from silverball.app.game_archive import SAVED, WAITS
+from silverball.game.scores.store import FILE, Store
+from silverball.game.view import Mode
 
 
 def test_a_score_that_waits_is_saved_while_the_window_is_open(open_window, tmp_path):

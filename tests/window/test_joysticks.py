@@ -9,8 +9,8 @@ from joysticks import GAMEPAD, UNKNOWN, VirtualJoystick
 from reading import reads
 from silverball.app.menus import ACTIONS
 from silverball.app.settings import Settings
-from silverball.drawing.dotfonts import BOLD, NORMAL
-from silverball.game.news import Mode
+from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
+from silverball.game.view import Mode
 
 LEFT_SHOULDER, RIGHT_SHOULDER, SOUTH = 9, 10, 0  # of SDL's virtual gamepad
 

@@ -7,7 +7,7 @@ import math
 import pygame
 import pytest
 
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 
 TICK = 1 / 240  # [s]
 

@@ -21,7 +21,7 @@ from silverball.app.controls import Action
 from silverball.app.menus import ACTIONS
 from silverball.app.window import Window
 from silverball.drawing.text import can_show
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 
 PROGRAMS = ("Xvfb", "xdotool", "setxkbmap", "xkbcomp")
 pytestmark = pytest.mark.skipif(
@@ -87,7 +87,7 @@ def typist(tmp_path_factory) -> Iterator[Typist]:
         patch.setenv("SDL_AUDIODRIVER", "dummy")
         patch.setenv("DISPLAY", display)
         patch.setattr("silverball.drawing.background.Background._work", lambda self: None)
-        patch.setattr("silverball.app.rehearsal.Rehearsal._work", lambda self: None)
+        patch.setattr("silverball.app.player_warmup.Rehearsal._work", lambda self: None)
         window = Window("classic", 7, height=400, mode=Mode.FREE, folder=tmp_path_factory.mktemp("data"))
         typist = Typist(window, display)
         typist.until(lambda: window.is_ready, 300.0)

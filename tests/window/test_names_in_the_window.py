@@ -9,10 +9,10 @@ import pytest
 from hostile_text import NAMES, NO_TEXT, obeyed_in, toml_string
 from silverball.app.messages import Messages
 from silverball.app.overlay import draw_message
-from silverball.drawing.dots import Dots
+from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.text import line, wrapped
-from silverball.game.news import Mode
-from silverball.game.store import Store
+from silverball.game.scores.store import Store
+from silverball.game.view import Mode
 from silverball.plain import plain
 from silverball.table import dump_table, load_table, table_digest
 

@@ -19,9 +19,10 @@ from machines import leaky
 from xserver import x_server
 
 from silverball.app.program import OVER_SECONDS
-from silverball.game.news import Mode
-from silverball.game.replay import Replay, verify
-from silverball.game.store import Store
+from silverball.game.replay.format import Replay
+from silverball.game.replay.verify import verify
+from silverball.game.scores.store import Store
+from silverball.game.view import Mode
 from silverball.table import save_table
 
 pytestmark = pytest.mark.skipif(

@@ -10,9 +10,10 @@ import pytest
 from silverball.app.screen import Screen
 from silverball.app.window import Window
 from silverball.errors import NoDisplay
-from silverball.game.news import Mode
-from silverball.game.replay import Replay, verify
-from silverball.game.store import Store
+from silverball.game.replay.format import Replay
+from silverball.game.replay.verify import verify
+from silverball.game.scores.store import Store
+from silverball.game.view import Mode
 
 
 def pixels(player):
@@ -134,7 +135,8 @@ def test_a_long_seed_can_be_read_in_full_with_the_keys(open_window, monkeypatch)
 
 def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
     from silverball.app.startup import compiling_words
-    from silverball.physics import codecache, kernel
+    from silverball.physics import code_cache as codecache
+    from silverball.physics import kernel
 
     assert "once" in compiling_words()
     with monkeypatch.context() as patch:

@@ -4,11 +4,11 @@ settings.py  what a player can choose
 controls.py  which key and which gamepad button (gamepad.py) asks for what, and what is held
 keyboard.py  which key that is on the layout in use
 program.py   what is going on, and what a button means: games begin, pause, end
-             stages.py   play, a replay, or the program playing by itself
-             orders.py   what the commands of the menus bring about
-             keeping.py  what is kept of a game, and when
-             library.py  which tables and scores can be chosen
-menus/       the pages of the score display; display.py what it shows during a game
+             sessions.py   play, a replay, or the program playing by itself
+             command_handlers.py   what the commands of the menus bring about
+             game_archive.py  what is kept of a game, and when
+             catalog.py  which tables and scores can be chosen
+menus/       the pages of the score display; score_display.py what it shows during a game
 sound/       from recipes to what is heard
 clock.py     real time into ticks; latency.py, framerate.py what is measured of it
 startup.py   loading the physics while the table is already on screen

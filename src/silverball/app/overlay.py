@@ -11,9 +11,9 @@ from functools import lru_cache
 import pygame
 
 from silverball.app.controls import Action, Controls
-from silverball.app.layout import column, in_columns, key_cap, panel, plate, row
 from silverball.app.menus import ACTIONS, capital
 from silverball.app.scoring import Rule
+from silverball.app.widgets import column, in_columns, key_cap, panel, plate, row
 from silverball.drawing import palette
 from silverball.drawing.text import line, wrapped
 

@@ -19,7 +19,7 @@ from silverball.drawing.renderer import rgb_surface
 from silverball.table import Board, Table
 
 if TYPE_CHECKING:
-    from silverball.drawing.dots import Dots
+    from silverball.drawing.dotmatrix.canvas import Dots
     from silverball.world import Event
 
 SETTLED = 0.25  # [s] for which a size has stood

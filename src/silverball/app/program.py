@@ -12,26 +12,26 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from silverball.app.catalog import file_in_words, trouble_of, trouble_words
+from silverball.app.command_handlers import execute
 from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Held
-from silverball.app.display import Display
-from silverball.app.keeping import Ended, Keeper
-from silverball.app.library import file_in_words, trouble_of, trouble_words
+from silverball.app.demo_players import BEST, DemoPlayers
+from silverball.app.game_archive import Ended, GameArchive
 from silverball.app.menus import Button, Menus, ReplayFace
-from silverball.app.orders import carry_out
-from silverball.app.performers import BEST, Cast
+from silverball.app.progress_bar import Progress, draw_line, draw_page
+from silverball.app.score_display import Display
+from silverball.app.sessions import DemoSession, GameSession, ReplaySession, Session, why_no_tick
 from silverball.app.settings import Settings
-from silverball.app.stages import Playing, Showing, Stage, Watching, why_no_tick
-from silverball.app.waiting import Progress, draw_line, draw_page
 from silverball.errors import BoardFull, NoRoom, SilverballError
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 from silverball.plain import plain
 from silverball.table import Table
 
 if TYPE_CHECKING:
-    from silverball.app.library import Key, Library
-    from silverball.drawing.dots import Dots
-    from silverball.game.replay import Replay
-    from silverball.game.store import Store
+    from silverball.app.catalog import Catalog, Key
+    from silverball.drawing.dotmatrix.canvas import Dots
+    from silverball.game.replay.format import Replay
+    from silverball.game.scores.store import Store
 
 SEEDS = 1_000_000  # a new board's seed is below it: short enough to tell a friend
 WAIT = "one moment, please: the physics is being made ready"
@@ -74,13 +74,13 @@ class Program:
         self,
         store: Store,
         settings: Settings,
-        library: Library,
+        library: Catalog,
         seed: int | None = None,
         say: Callable[[str], None] = lambda text: None,
         themes: Sequence[str] = ("neon",),
     ) -> None:
         self.settings = settings
-        self.stage: Stage | None = None
+        self.stage: Session | None = None
         self.is_ready = self.is_over = False
         self.progress: Progress | None = None
         self.is_held = False
@@ -89,8 +89,8 @@ class Program:
         self.menus.know(has_last_game=store.last_game() is not None)
         self.display = Display()
         self.store, self.say = store, say
-        self.keeper = Keeper(store, library)
-        self.cast = Cast()
+        self.keeper = GameArchive(store, library)
+        self.cast = DemoPlayers()
         self._library = library
         self._now = 0.0
         self._speed = AS_PLAYED
@@ -116,31 +116,31 @@ class Program:
     @property
     def is_playing(self) -> bool:
         """Whether somebody's paddles move now."""
-        return isinstance(self.stage, Playing) and not self.menus.is_open and not self.stage.has_ended
+        return isinstance(self.stage, GameSession) and not self.menus.is_open and not self.stage.has_ended
 
     @property
     def is_moving(self) -> bool:
         """Whether time goes on on the board."""
         if self.stage is None or self.stage.has_ended:
             return False
-        if isinstance(self.stage, Playing):
+        if isinstance(self.stage, GameSession):
             return not self.menus.is_open
         return not self.is_held
 
     @property
     def is_paused(self) -> bool:
         """Whether a game waits for its player."""
-        return isinstance(self.stage, Playing) and self.menus.is_open and not self.stage.has_ended
+        return isinstance(self.stage, GameSession) and self.menus.is_open and not self.stage.has_ended
 
     @property
     def has_game(self) -> bool:
         """Whether a game is played, paused or not, and not over."""
-        return isinstance(self.stage, Playing) and not self.stage.has_ended
+        return isinstance(self.stage, GameSession) and not self.stage.has_ended
 
     @property
     def mode(self) -> Mode:
         """The game that is played, or the one that is chosen."""
-        return self.stage.game.mode if isinstance(self.stage, Playing) else Mode(self.settings.mode)
+        return self.stage.game.mode if isinstance(self.stage, GameSession) else Mode(self.settings.mode)
 
     @property
     def is_heard(self) -> bool:
@@ -176,15 +176,15 @@ class Program:
         """
         self._now = seconds
         self._try_to_save(seconds)
-        carry_out(self.menus.tick(seconds), self)
+        execute(self.menus.tick(seconds), self)
         self._look_at_files()
         stage = self.stage
-        if isinstance(stage, Playing) and stage.has_ended:
+        if isinstance(stage, GameSession) and stage.has_ended:
             self._after_the_end(stage)
-        if isinstance(stage, Showing) and self.cast.follow(stage):
+        if isinstance(stage, DemoSession) and self.cast.follow(stage):
             self._announce()
         # A replay is played a little ahead, so that a jump is quick.
-        if isinstance(stage, Watching) and self._goes_on(lambda: stage.player.prepare(480)):
+        if isinstance(stage, ReplaySession) and self._goes_on(lambda: stage.player.prepare(480)):
             self.menus.show_replay(self._replay_face(stage))
 
     def _try_to_save(self, seconds: float) -> None:
@@ -217,7 +217,7 @@ class Program:
     def jump(self, seconds: float) -> None:
         """Go back or ahead in the replay that is watched."""
         stage = self.stage
-        if isinstance(stage, Watching):
+        if isinstance(stage, ReplaySession):
             target = stage.player.tick + round(seconds * stage.player.replay.tick_rate)
             self._goes_on(lambda: stage.player.seek(target))
 
@@ -247,13 +247,13 @@ class Program:
                 self.press_menu(MENU_BUTTONS[action])
             elif self.menus.page == "attract":
                 self.press_menu(Button.BACK)  # any button will do
-            elif action is Action.NEW_BOARD and isinstance(self.stage, Playing):
+            elif action is Action.NEW_BOARD and isinstance(self.stage, GameSession):
                 self._new_board(again)
             elif action is Action.JITTER and self.is_paused:
                 self.say("the game is paused")
         elif self.stage is None:
             self._press_while_waiting(action)
-        elif isinstance(self.stage, Playing):
+        elif isinstance(self.stage, GameSession):
             self._press_in_play(action, again, self.stage)
         else:
             self._stop_watching()  # the program plays; whoever touches anything wants the menu
@@ -265,11 +265,11 @@ class Program:
 
     def press_menu(self, button: Button) -> None:
         """A button of the menus went down."""
-        carry_out(self.menus.press(button), self)
+        execute(self.menus.press(button), self)
 
     def capture(self, name: str, kind: str | None = None) -> None:
         """The key or button that the menus have asked for, and whose name that is."""
-        carry_out(self.menus.capture(name, kind), self)
+        execute(self.menus.capture(name, kind), self)
 
     def lose_focus(self) -> None:
         """The window no longer hears the keys: a game with a ball on the board waits."""
@@ -296,7 +296,7 @@ class Program:
         else:
             self.say(WAIT)
 
-    def _press_in_play(self, action: Action, again: bool, stage: Playing) -> None:
+    def _press_in_play(self, action: Action, again: bool, stage: GameSession) -> None:
         if stage.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
             if self._ended_at is not None:  # its score is kept
                 self._ended_at = self._now - OVER_SECONDS  # seen enough
@@ -311,7 +311,7 @@ class Program:
         elif action in PADDLES and all(paddle.side != str(action) for paddle in self.table.paddle):
             self.say(f"this table has no {action} paddle")
 
-    def _bring_ball(self, stage: Playing) -> None:
+    def _bring_ball(self, stage: GameSession) -> None:
         question = stage.bring_ball(self._key_of(Action.CREATE))
         if question:
             self.display.say(question, at_once=True)
@@ -330,7 +330,7 @@ class Program:
     def change_speed(self, step: int) -> None:
         """Slower (-1) or faster (+1), by one step."""
         self._speed = min(max(self._speed + step, 0), self._fastest)
-        if isinstance(self.stage, Playing):
+        if isinstance(self.stage, GameSession):
             self.say("as fast as ever" if self.speed == 1.0 else f"{self.speed:g} of the speed")
         if self.speed < 1.0:
             self._no_longer_counts()
@@ -338,14 +338,14 @@ class Program:
     @property
     def _fastest(self) -> int:
         """The place in SPEEDS beyond which nothing is made faster."""
-        if isinstance(self.stage, Playing):
+        if isinstance(self.stage, GameSession):
             return AS_PLAYED
-        most = self.cast.playing.fastest if isinstance(self.stage, Showing) else SPEEDS[-1]
+        most = self.cast.playing.fastest if isinstance(self.stage, DemoSession) else SPEEDS[-1]
         return max(place for place, speed in enumerate(SPEEDS) if speed <= most)
 
     def _no_longer_counts(self) -> None:
         stage = self.stage
-        if self._counts and isinstance(stage, Playing) and stage.game.mode is Mode.ARCADE:
+        if self._counts and isinstance(stage, GameSession) and stage.game.mode is Mode.ARCADE:
             self._counts = False
             self.say("slowed down, this game no longer counts for the scores")
 
@@ -375,14 +375,14 @@ class Program:
     def keep_last_game(self) -> None:
         """Keep the replay of the game that is played, if anything was played."""
         stage = self.stage
-        if isinstance(stage, Playing) and self._ended_at is None:
+        if isinstance(stage, GameSession) and self._ended_at is None:
             if stage.has_ended:
                 self._after_the_end(stage)
                 return
             self.keeper.last_game(stage.game)
             self.menus.know(has_last_game=self.store.last_game() is not None)
 
-    def give_up(self, stage: Playing) -> None:
+    def give_up(self, stage: GameSession) -> None:
         """The player ends a game: it can be watched, but its score is not for the scores."""
         stage.game.end()
         self.keeper.last_game(stage.game)
@@ -390,7 +390,7 @@ class Program:
 
     def keep_file(self, what: str) -> Path | None:
         """Keep the replay of the game that is played as a file; where it is, None if it cannot be written."""
-        return self.keeper.file(self.stage.game, what) if isinstance(self.stage, Playing) else None
+        return self.keeper.file(self.stage.game, what) if isinstance(self.stage, GameSession) else None
 
     def _when_ready(self, do: Callable[[], None]) -> None:
         if self.is_ready:
@@ -427,9 +427,9 @@ class Program:
         self._is_fresh = False
         self._played = self.recipe  # its file may say something else before the game is over
         self._key = self._library.key(self.recipe)
-        self._start(Playing(Game(self.table, self.seed, mode)))
+        self._start(GameSession(Game(self.table, self.seed, mode)))
 
-    def _start(self, stage: Stage) -> None:
+    def _start(self, stage: Session) -> None:
         self.stage = stage
         self.display = Display(self._key_of(Action.CREATE), is_calm=self.settings.effects == "less")
         self._speed, self.is_held, self._is_shown_off = AS_PLAYED, False, False
@@ -484,7 +484,7 @@ class Program:
         is_choosing = self.menus.is_open and not self.is_paused
         if self._library.look(whole=is_choosing) and is_choosing:
             self.menus.know(tables=self._library.entries())
-        if isinstance(self.stage, Watching | Showing):
+        if isinstance(self.stage, ReplaySession | DemoSession):
             return  # when that is over, the file is read in any case
         reading = self._library.news()
         if reading is None or reading.table == self.recipe:
@@ -503,7 +503,7 @@ class Program:
                 f"{trouble_words(self.settings.table, reading.problem)}. {key} plays the table as it was"
             )
 
-    def _after_the_end(self, stage: Playing) -> None:
+    def _after_the_end(self, stage: GameSession) -> None:
         """Keep a game that is over at once, and show what comes after it when it has been seen."""
         if self._ended_at is None:
             self.ended = self.keeper.ended(
@@ -517,12 +517,12 @@ class Program:
             self.menus.open_over(stage.game.score, self.ended.rank)
 
     def _show_replay(self, replay: Replay) -> None:
-        from silverball.game.replay import ReplayPlayer
+        from silverball.game.replay.player import ReplayPlayer
 
         self.keep_last_game()
         self.recipe = self.table = replay.table
         self.seed = replay.seed
-        stage = Watching(ReplayPlayer(replay))
+        stage = ReplaySession(ReplayPlayer(replay))
         self._start(stage)
         self.menus.open_transport(self._replay_face(stage))
 
@@ -535,7 +535,7 @@ class Program:
         if wants_board and not self._look_at(self.settings.table, None) and not nobody_there:
             self.menus.reopen()
             return
-        self._start(Showing(self.table, self.seed, self.cast.begin(player)))
+        self._start(DemoSession(self.table, self.seed, self.cast.begin(player)))
         self._is_shown_off = nobody_there
         self._announce()
 
@@ -546,18 +546,18 @@ class Program:
         self.menus.know(performer=self.cast.playing)
 
     def _stop_watching(self) -> None:
-        if isinstance(self.stage, Watching):
+        if isinstance(self.stage, ReplaySession):
             self.end_watching()
         self.stage = None
         self.menus.reopen()
 
-    def _replay_face(self, stage: Watching) -> ReplayFace:
+    def _replay_face(self, stage: ReplaySession) -> ReplayFace:
         player, rate = stage.player, stage.player.replay.tick_rate
         return ReplayFace(player.tick / rate, player.ticks / rate, self.speed, self.is_held, "REPLAY")
 
     def watch_text(self, text: str, source: str) -> None:
         """Show a replay, or tell why it cannot be played."""
-        from silverball.game.replay import Replay
+        from silverball.game.replay.format import Replay
 
         try:
             self.watch(Replay.from_text(text, source))

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from silverball.game import tilt
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 from silverball.table import Arcade, Table
 
 KINDS = ("cylinder", "triangular prism", "slant wall", "paddle")

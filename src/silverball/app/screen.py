@@ -10,7 +10,7 @@ import pygame
 from silverball.app import sdl
 from silverball.app.pointer import Pointer
 from silverball.drawing.icon import ball_icon
-from silverball.video import open_video
+from silverball.video_driver import open_video
 
 DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take
 TITLE_BAR = 48  # [pixel] of it that the title bar alone may take

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from silverball.app.waiting import Progress
+from silverball.app.progress_bar import Progress
 
 if TYPE_CHECKING:
     from silverball.table import Table
@@ -73,7 +73,7 @@ class Startup:
 
 def compiling_words() -> str:
     """What to tell while the physics is compiled; asked only then, for it loads the compiler."""
-    from silverball.physics.codecache import Damage
+    from silverball.physics.code_cache import Damage
     from silverball.physics.kernel import cache_folder
 
     if Damage.words:

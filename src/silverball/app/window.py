@@ -16,36 +16,36 @@ from typing import TYPE_CHECKING
 import pygame
 
 from silverball.app import overlay
+from silverball.app.catalog import Catalog
 from silverball.app.clock import TickClock
 from silverball.app.controls import Action
 from silverball.app.debug import DebugView
 from silverball.app.framerate import FrameTimes
 from silverball.app.latency import LatencyMeter
-from silverball.app.library import Library
 from silverball.app.listener import Listener
 from silverball.app.menus import capital
 from silverball.app.messages import Messages
 from silverball.app.picture import Picture, fitted
+from silverball.app.player_warmup import Rehearsal
 from silverball.app.program import Program
-from silverball.app.rehearsal import Rehearsal
 from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
-from silverball.app.stages import Stage
 from silverball.app.startup import Startup, compiling_words
 from silverball.drawing import Moment, best_size
 from silverball.drawing.themes import THEMES
 from silverball.errors import SilverballError, TableError
-from silverball.game.folder import data_folder
-from silverball.game.news import Mode
-from silverball.game.store import Store
+from silverball.game.scores.store import Store
+from silverball.game.user_folder import data_folder
+from silverball.game.view import Mode
 from silverball.plain import plain
 from silverball.table import Table
 
 if TYPE_CHECKING:
-    from silverball.game.replay import Replay
+    from silverball.app.sessions import Session
+    from silverball.game.replay.format import Replay
 
 TICK_RATE = 240
 LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor more
@@ -113,7 +113,7 @@ class Window:
         self.debug = DebugView()
         self.listener = Listener(self.program, self._screen, self.sounds, self.messages, self.latency)
         self._settings = settings
-        self._stage: Stage | None = None
+        self._stage: Session | None = None
         self._before: Moment | None = None  # one tick before the present one
         self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
         self._moved_at = 0.0  # at the last picture of a stage that had not ended
@@ -136,7 +136,7 @@ class Window:
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
             settings = settings.changed(mode=mode)
-        library = Library(self.store, self._folder, given)
+        library = Catalog(self.store, self._folder, given)
         try:
             return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
         except TableError as error:

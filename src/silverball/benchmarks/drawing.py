@@ -15,8 +15,8 @@ from typing import Any
 
 from silverball.benchmarks.marks import Figure
 from silverball.drawing import Moment, Renderer, best_size
+from silverball.drawing.picture_cache import Store
 from silverball.drawing.renderer import rgb_surface
-from silverball.drawing.store import Store
 from silverball.table import Table, generate_table, load_table
 from silverball.world import World
 
@@ -29,7 +29,7 @@ SEEDS = (11, 12)
 
 def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
     """Measure all of it; `advance` is told what comes next. Bakings are timed once."""
-    from silverball.drawing.compiling import compile_all
+    from silverball.drawing.warm_up import compile_all
 
     advance("loading compiled code")
     compile_all()

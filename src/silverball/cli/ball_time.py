@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
+    from silverball.metrics.ball_time import BallTimes
     from silverball.players import PlayerKind
-    from silverball.players.ball_time import BallTimes
     from silverball.table import Table
 
 
@@ -21,8 +21,8 @@ def time_of_balls(
 
     from silverball.cli.console import compiling, errors
     from silverball.cli.simulate import boards_of
+    from silverball.metrics.ball_time import time_balls
     from silverball.players import PlayerKind
-    from silverball.players.ball_time import time_balls
     from silverball.world import WorldBatch
 
     with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "press_all"):

@@ -140,7 +140,8 @@ def show_envs(rounds: int, out: list[str], as_json: bool) -> None:
     """Measure and show the rates of the environments, beside others that are installed."""
     from rich.progress import Progress
 
-    from silverball.benchmarks.envs import contest, report
+    from silverball.benchmarks.envs import measure as contest
+    from silverball.benchmarks.envs import table as report
     from silverball.cli.console import errors
     from silverball.wholefile import write_whole
 
@@ -170,7 +171,7 @@ def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], a
     """Let all engines that are installed play the same tables, and show what came of it."""
     from rich.progress import Progress
 
-    from silverball.benchmarks.peers.contestants import PEERS, present_peers
+    from silverball.benchmarks.peers.engines import PEERS, present_peers
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
     from silverball.table import load_table
@@ -184,7 +185,8 @@ def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], a
         if engine not in engines:
             errors.print(engine.missing)
     with compiling():
-        from silverball.benchmarks.peers import contest, plot, report
+        from silverball.benchmarks.peers import comparison as contest
+        from silverball.benchmarks.peers import plot, report
 
         if any(path.suffix == ".png" for path in paths):
             plot.require_matplotlib()

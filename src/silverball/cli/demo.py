@@ -45,10 +45,10 @@ def make_demo(
 ) -> None:
     """Make a film, or a picture, of the program playing; say where it is."""
     from silverball.cli.console import compiling
-    from silverball.cli.filming import ENDINGS, film_size, shoot
     from silverball.cli.look import baking, theme_named
+    from silverball.cli.recording import ENDINGS, film_size, shoot
     from silverball.drawing import Renderer
-    from silverball.drawing.film import check_output
+    from silverball.export.film import check_output
     from silverball.players import make_player
     from silverball.table import generate_table, load_table
 
@@ -62,11 +62,11 @@ def make_demo(
     picture_size = film_size(out, board, seconds, size)
     kernel, about = ("plan_worlds", "half a minute") if player == "planner" else ("run_worlds", "ten seconds")
     with compiling(kernel, about):
-        from silverball.app.stages import Showing
+        from silverball.app.sessions import DemoSession
         from silverball.app.startup import warm_up
 
         warm_up(board)
-        stage = Showing(board, seed, hands)
+        stage = DemoSession(board, seed, hands)
         hands.press(stage.game.world)
     with baking() as progress:
         renderer = Renderer(board, picture_size, theme=look, board_seed=board_seed, progress=progress)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
-    from silverball.players.feel import Feel
+    from silverball.metrics.feel import Feel
 
 # What each figure is called for people, its unit or format, in the order in which they are printed.
 ROWS = {
@@ -45,7 +45,7 @@ def run_feel(table: str, seed: int, games: int, as_json: bool) -> None:
 
     loaded = load_table(table)
     with compiling("play_balls"):
-        from silverball.players.feel import measure
+        from silverball.metrics.feel import measure
 
         measure(load_table("classic"), 1, players=("idle",))
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
@@ -66,7 +66,7 @@ def run_feel(table: str, seed: int, games: int, as_json: bool) -> None:
 
 def report_of(feel: Feel) -> dict[str, Any]:
     """The figures as JSON holds them: [value, low, high] each, null where there is none."""
-    from silverball.players.feel import hot_cells, shots_as_dict
+    from silverball.metrics.feel import hot_cells, shots_as_dict
 
     players = {
         name: {

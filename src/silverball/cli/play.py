@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import typer
 
 from silverball.errors import NoDisplay
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 
 if TYPE_CHECKING:
-    from silverball.game.replay import Replay
+    from silverball.game.replay.format import Replay
 
 DEMO_SECONDS = 20.0
 

@@ -12,7 +12,8 @@ from silverball.cli.say import say, say_json
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
-    from silverball.game.replay import Replay, Verdict
+    from silverball.game.replay.format import Replay
+    from silverball.game.replay.verify import Verdict
 
 LAST = "last"
 DIFFERS = 1  # the exit code for a replay that does not lead to what it says
@@ -73,7 +74,7 @@ def load(file: str) -> Replay:
     from silverball.cli.console import compiling
 
     with compiling():
-        from silverball.game.replay import Replay
+        from silverball.game.replay.format import Replay
 
     if file != LAST:
         return Replay.load(file)
@@ -85,7 +86,7 @@ def load(file: str) -> Replay:
 
 def last_game() -> str | None:
     """The replay of the game that was played last, if there is one."""
-    from silverball.game.store import Store
+    from silverball.game.scores.store import Store
 
     with Store() as store:
         return store.last_game()
@@ -118,7 +119,7 @@ def verified(game: Replay) -> Verdict:
     from rich.progress import Progress
 
     from silverball.cli.console import errors
-    from silverball.game.replay import verify
+    from silverball.game.replay.verify import verify
 
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         task = bar.add_task("playing", total=game.ticks)
@@ -128,7 +129,7 @@ def verified(game: Replay) -> Verdict:
 def compared(game: Replay, other: Replay) -> Verdict:
     """Play two replays side by side."""
     from silverball.cli.console import errors
-    from silverball.game.replay import compare
+    from silverball.game.replay.verify import compare
 
     with errors.status("playing both …"):
         return compare(game, other)
@@ -157,12 +158,12 @@ def make_film(
     Raises:
         SilverballError: The part is empty, or the file cannot be written.
     """
-    from silverball.app.stages import Watching
-    from silverball.cli.filming import ENDINGS, film_size, shoot
+    from silverball.app.sessions import ReplaySession
     from silverball.cli.look import baking, theme_named
+    from silverball.cli.recording import ENDINGS, film_size, shoot
     from silverball.drawing import Renderer
-    from silverball.drawing.film import check_output
-    from silverball.game.replay import ReplayPlayer
+    from silverball.export.film import check_output
+    from silverball.game.replay.player import ReplayPlayer
 
     check_output(out, ENDINGS, force=force)
     if start >= game.seconds:
@@ -172,7 +173,7 @@ def make_film(
         renderer = Renderer(
             game.table, film_size(out, game.table, length, size), theme=theme_named(theme), progress=progress
         )
-    stage = Watching(ReplayPlayer(game))
+    stage = ReplaySession(ReplayPlayer(game))
     stage.player.seek(round(start * game.tick_rate))
     shoot(out, stage, renderer, length, quiet=quiet)
     renderer.close()

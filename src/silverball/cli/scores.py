@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 from silverball.plain import plain
 
 if TYPE_CHECKING:
-    from silverball.game.proof import Proof
-    from silverball.game.store import Score, ScoreList, Store
+    from silverball.game.scores.proof import Proof
+    from silverball.game.scores.store import Score, ScoreList, Store
 
 NAME_LENGTH = 60  # characters of a name that are printed
 
@@ -41,7 +41,7 @@ def scores(
     """
     from silverball.cli.console import errors
     from silverball.errors import SilverballError
-    from silverball.game.store import Store
+    from silverball.game.scores.store import Store
 
     refuse_what_does_not_fit(ctx)
     with Store() as store:
@@ -138,7 +138,7 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, P
     from silverball.cli.console import compiling, errors
 
     with compiling():
-        from silverball.game.proof import Counted, prove
+        from silverball.game.scores.proof import Counted, prove
     every = [(score, one.id) for one in store.lists() for score in store.scores(list_id=one.id, limit=-1)]
     numbers = {one.id for one in lists}
     seeds = {(score.seed, score.mode) for score, number in every if number in numbers}
@@ -216,7 +216,7 @@ def print_list(
     from rich.table import Table
     from rich.text import Text
 
-    from silverball.game.proof import is_built_in
+    from silverball.game.scores.proof import is_built_in
 
     words = [name(one.table_name), name(one.mode)]
     words += ["built-in"] * is_built_in(one.table_digest)

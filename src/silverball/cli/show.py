@@ -24,7 +24,7 @@ def show(
     """
     from silverball.cli.look import baking, theme_named
     from silverball.drawing import Moment, Renderer, best_size
-    from silverball.drawing.film import check_output, write_picture
+    from silverball.export.film import check_output, write_picture
     from silverball.table import generate_table, load_table
 
     look = theme_named(theme)

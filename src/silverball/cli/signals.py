@@ -3,7 +3,7 @@
 Python calls a handler between any two instructions of the main thread. If it raised while a module is being
 imported, an object destroyed or a thread begun, the exception would be swallowed, become a traceback, or
 leave something half made. So the handler looks at what the thread is doing and, if need be, comes again a
-little later. (What is compiled is compiled in another thread, see `physics/aside.py`.)
+little later. (What is compiled is compiled in another thread, see `physics/compile_thread.py`.)
 
 Only the standard library is imported here, and nothing else before the handlers are set.
 """
@@ -114,7 +114,7 @@ def _leave(code: int) -> None:
     if not any(thread.daemon for thread in threading.enumerate()):
         sys.exit(code)
     # A thread may be in the compiler, for many seconds more; Python must not be taken down under it.
-    aside = sys.modules.get("silverball.physics.aside")
+    aside = sys.modules.get("silverball.physics.compile_thread")
     if aside is not None and hasattr(aside, "wait_for_the_compiler"):
         atexit.unregister(aside.wait_for_the_compiler)
     atexit._run_exitfuncs()

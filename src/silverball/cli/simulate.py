@@ -102,7 +102,7 @@ def simulate(
         print_ball_times(time_of_balls(loaded, table, seed, seconds, kind, worlds, tick_rate), as_json)
         return
     with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "play_worlds"):
-        from silverball.players.games import play
+        from silverball.players.rollout import play
         from silverball.world import WorldBatch
 
         play(WorldBatch("classic"), kind, 0.0, 0, audit)
@@ -166,7 +166,7 @@ def boards_of(loaded: Table, seed: int, worlds: int, bar: Progress) -> list[Tabl
 
 def digest_of(batch: Any) -> str:
     """One hash of the states of all worlds."""
-    from silverball.world.state import digest
+    from silverball.world.saved_world import digest
 
     return digest(batch.state)
 

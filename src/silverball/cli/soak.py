@@ -21,13 +21,13 @@ def run_soak(
     from rich.progress import Progress
 
     from silverball.cli.console import compiling, errors
-    from silverball.game.folder import data_folder
+    from silverball.game.user_folder import data_folder
     from silverball.table import load_table
 
     recipe = load_table(table)
     with compiling("soak_worlds"):
-        from silverball.players.soak import Options, Soaked
-        from silverball.players.soaklog import begun, log_name, soak
+        from silverball.soak.campaign import begun, log_name, soak
+        from silverball.soak.rounds import Options, Soaked
 
         options = Options(recipe, seed, worlds, tick_rate, hostile)
         path = progress or data_folder() / "soak" / log_name(options)
@@ -88,8 +88,8 @@ def soak_again(path: Path, as_json: bool) -> NoReturn:
     from silverball.cli.console import compiling
 
     with compiling("watched_tick"):
-        from silverball.players.finding import Finding, again
-        from silverball.players.watch import Found
+        from silverball.soak.checks import Found
+        from silverball.soak.finding import Finding, again
 
         finding = Finding.load(path)
         try:

@@ -1,11 +1,12 @@
 """What a table looks like: a moment of play in, a picture out. There is no window in here.
 
-    camera.py, build.py, themes.py   where everything lies, how tall it is, which colours it has
+    camera.py, dimensions.py, themes.py   where everything lies, how tall it is, which colours it has
     scene.py                         the table as arrays, beside the shapes that the physics collides with
     kernels/                         rays, surfaces and light, compiled
-    still.py, paddles.py             pictures of what stands still, and of paddles at every angle
-    workshop.py, studio.py           who bakes, and what comes from the store instead (store.py, pictures.py)
-    sketch.py, background.py         a picture at once, and a better one soon (compiling.py)
+    bake_table.py, bake_paddles.py             pictures of what stands still, and of paddles at every angle
+    bake_threads.py, picture_provider.py           who bakes, and what comes from the store instead
+    (store.py, pictures.py)
+    sketch.py, background.py         a picture at once, and a better one soon (warm_up.py)
     compose.py, effects.py           one moment, put together
     renderer.py                      the face of it all
 

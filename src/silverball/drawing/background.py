@@ -11,9 +11,9 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
+from silverball.background_process import Compiler
 from silverball.drawing.camera import Camera
-from silverball.drawing.compiler import Compiler
-from silverball.drawing.store import Store
+from silverball.drawing.picture_cache import Store
 from silverball.drawing.themes import Theme
 from silverball.table import Table
 
@@ -64,13 +64,13 @@ class Background:
         self._stop.set()
 
     def _work(self) -> None:
-        from silverball.drawing.workshop import StoppedError, Workshop, stand_back
+        from silverball.drawing.bake_threads import StoppedError, Workshop, stand_back
 
         stand_back()
         if not self._compile():
             return
         from silverball.drawing.compose import Composer
-        from silverball.drawing.studio import Studio
+        from silverball.drawing.picture_provider import Studio
 
         workshop = Workshop(stop=self._stop, is_behind=True)
         try:
@@ -89,11 +89,11 @@ class Background:
 
     def _compile(self) -> bool:
         """Whether compiled code is there, after it has been made if need be."""
-        from silverball.drawing.compiling import is_compiled
+        from silverball.drawing.warm_up import is_compiled
 
         if is_compiled():
             return True
         return _compiler.finish(self._stop, COMPILE_SECONDS) and is_compiled()
 
 
-_compiler = Compiler("silverball.drawing.compiling")  # one for all renderers
+_compiler = Compiler("silverball.drawing.warm_up")  # one for all renderers

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import pygame
 
-from silverball.drawing.build import Build
+from silverball.drawing.dimensions import Build
 from silverball.table import Board
 
 TILT = math.radians(38.0)  # of the view from straight down

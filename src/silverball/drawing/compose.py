@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pygame
 
+from silverball.drawing.bake_table import without_obstacles
 from silverball.drawing.camera import Camera
 from silverball.drawing.effects import Effects, Spot
 from silverball.drawing.kernels.chrome import cast_shadow, draw_ball
@@ -21,7 +22,6 @@ from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.pictures import PaddleSprite, Still
 from silverball.drawing.scene import make_scene
 from silverball.drawing.sketch import Pen, sketch_paddle
-from silverball.drawing.still import without_obstacles
 from silverball.drawing.themes import Color, Theme
 from silverball.table import Paddle, Table
 

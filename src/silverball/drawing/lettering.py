@@ -8,7 +8,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from silverball.drawing.build import Build
+from silverball.drawing.dimensions import Build
 from silverball.drawing.text import font, rendered
 from silverball.plain import plain
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.store import Store, key_of
+from silverball.drawing.picture_cache import Store, key_of
 from silverball.drawing.themes import Theme
 from silverball.table import Table
 

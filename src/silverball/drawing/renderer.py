@@ -15,19 +15,19 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.dots import Dots
+from silverball.drawing.dotmatrix.canvas import Dots
+from silverball.drawing.dotmatrix.score_panel import ScorePanel
 from silverball.drawing.effects import Effects
 from silverball.drawing.moment import Moment
+from silverball.drawing.picture_cache import Store
 from silverball.drawing.pictures import load_still, still_key
-from silverball.drawing.scorepanel import ScorePanel
 from silverball.drawing.sketch import Pen, sketch, sketch_ball, sketch_paddle
-from silverball.drawing.store import Store
 from silverball.drawing.themes import THEMES, Theme
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.background import Background
-    from silverball.drawing.studio import Studio
+    from silverball.drawing.picture_provider import Studio
     from silverball.world import Event
 
 
@@ -155,9 +155,9 @@ class Renderer:
             self._painter = self._background.painter
 
     def _baked(self, progress: Callable[[float], None]) -> Painter:
+        from silverball.drawing.bake_threads import Workshop
         from silverball.drawing.compose import Composer
-        from silverball.drawing.studio import Studio
-        from silverball.drawing.workshop import Workshop
+        from silverball.drawing.picture_provider import Studio
 
         studio = Studio(self.table, self.camera, self.theme, self._store, Workshop(progress=progress))
         self._studio = studio

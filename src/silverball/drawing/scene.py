@@ -1,6 +1,6 @@
 """What does the marcher see of a table? Its parts as arrays: the physics' own shapes, and how they look.
 
-A scene holds the very records that balls collide with (`COLLIDER` of physics/layout.py), in the same order
+A scene holds the very records that balls collide with (`COLLIDER` of physics/records.py), in the same order
 and with the same numbers, beside each one its `LOOK`: what it is built as, how tall, which colour. Colours
 are linear light here, not the screen's values.
 """
@@ -14,14 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.build import Build
 from silverball.drawing.camera import Camera
 from silverball.drawing.corner import corner_behind
+from silverball.drawing.dimensions import Build
 from silverball.drawing.kernels.cells import list_cells
 from silverball.drawing.kernels.stage import CELL, HALO, LIGHT, LOOK, MOST_CELLS, NEAR, STAGE, Form, Scene
 from silverball.drawing.lettering import lettering
 from silverball.drawing.themes import Color, Theme, in_turn
-from silverball.physics.layout import COLLIDER, Kind, Part, records
+from silverball.physics.records import COLLIDER, Kind, Part, records
 from silverball.table import Table
 from silverball.world.compile import compile_tables
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.envs import IDS
+from silverball.envs.board_pool import pool_of
 from silverball.envs.options import BUTTONS, OPTIONS, POINT, Options
-from silverball.envs.pool import pool_of
 from silverball.envs.single import PinballEnv
 from silverball.envs.slots import slot_table
 from silverball.envs.spaces import INFO, picture_shape

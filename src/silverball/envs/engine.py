@@ -1,7 +1,8 @@
 """How do Python's environments and the compiled step come together? An engine owns all arrays of both.
 
 A single environment is an engine of one, a vector environment an engine of many; there is no second path.
-The addresses of the arrays are written down once (see world/alone.py), so that a step is one short call, or
+The addresses of the arrays are written down once (see world/single_step.py), so that a step is one short
+call, or
 one for each slice of environments on threads.
 
 An engine of one keeps all that changes in one run of bytes, so that saving it is copying them.
@@ -20,18 +21,18 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.arrays import ADDRESSES, ARRAYS
+from silverball.envs.board_pool import Pool, PooledBatch, pool_of
+from silverball.envs.buffers import WRITTEN, Outputs
 from silverball.envs.episode import move
 from silverball.envs.options import Options
-from silverball.envs.outputs import WRITTEN, Outputs
 from silverball.envs.pictures import Pictures, pictures_of
 from silverball.envs.pixels import draw_finals
-from silverball.envs.pool import Pool, PooledBatch, pool_of
-from silverball.envs.records import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
+from silverball.envs.pointers import ADDRESSES, ARRAYS
+from silverball.envs.state import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, cache_folder, is_compiled, straight
-from silverball.physics.layout import WORLD, Part, records
+from silverball.physics.records import WORLD, Part, records
 from silverball.world.threads import pool_of_threads
 
 FORMAT = 3  # of saved states

@@ -12,11 +12,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from silverball.envs import arrays as the
-from silverball.envs.arrays import SMALL_FLOAT, copy_bytes
+from silverball.envs import pointers as the
 from silverball.envs.options import POINT
 from silverball.envs.pixels import SCENE_SIZE, film_step, show_again, show_first, wind
-from silverball.envs.records import COUNTS, EPISODE, End, Mode, Task
+from silverball.envs.pointers import SMALL_FLOAT, copy_bytes
 from silverball.envs.slots import (
     BALLS,
     GAME,
@@ -26,12 +25,13 @@ from silverball.envs.slots import (
     GameSlot,
     PaddleSlot,
 )
+from silverball.envs.state import COUNTS, EPISODE, End, Mode, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, kernel, pasted
-from silverball.physics.layout import BALL_COUNT, WORLD, Fault, Outcome
 from silverball.physics.random import WORD, threefry
+from silverball.physics.records import BALL_COUNT, WORLD, Fault, Outcome
 from silverball.physics.step import run_worlds
-from silverball.world.alone import INT, array_at
+from silverball.world.single_step import INT, array_at
 
 BLOCK = 64  # worlds that are moved before they are looked at: their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.envs import colors
+from silverball.envs.board_pool import Pool
 from silverball.envs.pixels import ANGLES, FINE, cover
-from silverball.envs.pool import Pool
-from silverball.envs.records import FILM
-from silverball.physics.layout import Kind, Part, records
+from silverball.envs.state import FILM
+from silverball.physics.records import Kind, Part, records
 from silverball.table.geometry import offsets, paddle_cores
 
 SAMPLES = 4  # along each axis of a pixel

@@ -16,13 +16,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from silverball.envs import arrays as the
-from silverball.envs.arrays import BYTE, copy_bytes
-from silverball.envs.records import LIT_BITS, SCENE
+from silverball.envs import pointers as the
+from silverball.envs.pointers import BYTE, copy_bytes
+from silverball.envs.state import LIT_BITS, SCENE
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import BALL_COUNT, EventKind, Kind, Part
+from silverball.physics.records import BALL_COUNT, EventKind, Kind, Part
 from silverball.physics.shapes import distance
-from silverball.world.alone import array_at
+from silverball.world.single_step import array_at
 
 FINE = 8  # places of a ball within a pixel, along each axis, that have a sprite of their own
 SCENE_SIZE = SCENE.itemsize

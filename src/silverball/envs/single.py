@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from silverball.envs.actions import as_array, as_bits, keys_to_action
 from silverball.envs.engine import HEAD, Engine
 from silverball.envs.options import Options
-from silverball.envs.records import Mode
 from silverball.envs.seeds import GREATEST_SEED, key_of
 from silverball.envs.spaces import action_space, observation_space, shown_one
 from silverball.envs.spec import own_spec
+from silverball.envs.state import Mode
 from silverball.envs.viewer import Screen, Viewer
 from silverball.errors import StateError
 

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from silverball.physics.layout import BALL_COUNT
+from silverball.physics.records import BALL_COUNT
 
 
 class BallSlot(IntEnum):

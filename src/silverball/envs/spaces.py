@@ -8,10 +8,10 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from silverball.envs.board_pool import Pool
 from silverball.envs.options import Options
-from silverball.envs.pool import Pool
-from silverball.envs.records import COUNTS
 from silverball.envs.slots import bounds
+from silverball.envs.state import COUNTS
 
 INFO = (*COUNTS, "board", "stalled")
 """The keys of `info`, in the order of the rows of an engine's counts."""

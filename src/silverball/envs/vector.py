@@ -19,11 +19,11 @@ from numpy.typing import ArrayLike, NDArray
 from silverball.envs.actions import as_array, as_bits
 from silverball.envs.engine import Engine
 from silverball.envs.options import NEVER, OF_VECTORS, Options
-from silverball.envs.records import Mode
 from silverball.envs.seeds import GREATEST_SEED, key_of
 from silverball.envs.single import checked_generator, checked_render_mode, checked_reset_options
 from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
 from silverball.envs.spec import own_spec
+from silverball.envs.state import Mode
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
 from silverball.world import WorldBatch

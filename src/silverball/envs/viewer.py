@@ -39,7 +39,7 @@ class Screen:
         import pygame
 
         from silverball.drawing.icon import ball_icon
-        from silverball.video import NOT_A_SCREEN, open_video
+        from silverball.video_driver import NOT_A_SCREEN, open_video
 
         remedy = 'render_mode="rgb_array" needs none'
         open_video(remedy, without_display=os.environ.get("SDL_VIDEODRIVER") in NOT_A_SCREEN)

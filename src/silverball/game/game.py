@@ -17,12 +17,12 @@ import numpy as np
 
 from silverball.errors import FaultError, NoRoom, SilverballError, StateError
 from silverball.game import rules, stuck
-from silverball.game.news import Face, Mode, News, NewsKind, Phase
-from silverball.game.replay_digest import full_digest, short_digests
-from silverball.game.replay_file import Replay
-from silverball.game.replay_record import Recorder
-from silverball.game.saved import pack_game, unpack_game
-from silverball.physics.layout import WORLD
+from silverball.game.replay.digest import full_digest, short_digests
+from silverball.game.replay.format import Replay
+from silverball.game.replay.recorder import Recorder
+from silverball.game.saved_game import pack_game, unpack_game
+from silverball.game.view import GameEvent, GameEventKind, GameView, Mode, Phase
+from silverball.physics.records import WORLD
 from silverball.world import World
 
 if TYPE_CHECKING:
@@ -82,10 +82,10 @@ class Game:
         self.world = World(table, seed, tick_rate)
         self.mode = Mode(mode)
         self.fault: str | None = None
-        self._laws = rules.Laws.of(self.world.table, self.mode, self.world.tick_rate)
+        self._laws = rules.RuleConfig.of(self.world.table, self.mode, self.world.tick_rate)
         self._points = rules.points_by_part(self.world.table)
         self._scores = any(self._points.values())
-        self._now = rules.Standing()
+        self._now = rules.RuleState()
         self._waits = False  # whether a ball is to be put back: read in every tick, so kept beside
         self._watch = stuck.Watch()
         self._left = self._right = False
@@ -107,7 +107,7 @@ class Game:
         self._recorder = Recorder(self.world.tick_rate) if record else None
         self._stopped = False
         self._events: deque[Event] = deque(maxlen=KEPT)
-        self._news: deque[News] = deque([News(NewsKind.BALL_READY, 0, 1)], maxlen=KEPT)
+        self._news: deque[GameEvent] = deque([GameEvent(GameEventKind.BALL_READY, 0, 1)], maxlen=KEPT)
 
     def __repr__(self) -> str:
         return f"<Game {self.mode} on {self.world.table.name!r}: {self.phase}, score {self.score}>"
@@ -187,12 +187,12 @@ class Game:
     # -------------------------------------------------------------------------------------------
 
     @property
-    def face(self) -> Face:
+    def face(self) -> GameView:
         """What there is to show."""
         now, laws, tick = self._now, self._laws, self.tick
         phase = self.phase
         left = max((ball.safe_until - tick for ball in now.balls), default=0)
-        return Face(
+        return GameView(
             mode=self.mode,
             phase=phase,
             score=now.score,
@@ -260,7 +260,7 @@ class Game:
         self._events.clear()
         return events
 
-    def take_news(self) -> list[News]:
+    def take_news(self) -> list[GameEvent]:
         """What there is to tell since this was last asked."""
         news = list(self._news)
         self._news.clear()
@@ -459,7 +459,7 @@ class Game:
         ):
             self._machine = True
             self._watch = stuck.shoved(self._watch, tick)
-            self._news.append(News(NewsKind.UN_STUCK, tick))
+            self._news.append(GameEvent(GameEventKind.UN_STUCK, tick))
 
     def _end_second(self, tick: int) -> None:
         self._next_second = tick + self.tick_rate

@@ -1,7 +1,8 @@
 """What does a game make of what happens? Pure functions from an event to points, balls left and news.
 
-A `Standing` is all that the rules remember, `Laws` are the table's numbers in ticks. Every function takes
-both, with the tick, and gives the next standing and the news; nothing here has a state of its own or knows
+A `RuleState` is all that the rules remember, `RuleConfig` are the table's numbers in ticks. Every function
+takes both, with the tick, and gives the next standing and the news; nothing here has a state of its own or
+knows
 of a world. Ticks are counted from the game's beginning; the events of a tick carry its number, and what the
 player or the machine does comes before the tick of its number.
 """
@@ -11,7 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 from silverball.game import tilt
-from silverball.game.news import Mode, News, NewsKind
+from silverball.game.view import GameEvent, GameEventKind, Mode
 
 if TYPE_CHECKING:
     from silverball.table import Table
@@ -22,7 +23,7 @@ RULES_VERSION = 1
 NO_COMBOS = -1  # ticks within which hits make a combo where none do
 
 
-class Laws(NamedTuple):
+class RuleConfig(NamedTuple):
     """The rules of one game in ticks; see `silverball.table.Arcade` for their meaning.
 
     Attributes:
@@ -101,7 +102,7 @@ class InPlay(NamedTuple):
     saves: int
 
 
-class Standing(NamedTuple):
+class RuleState(NamedTuple):
     """All that the rules remember of a game.
 
     Attributes:
@@ -136,10 +137,10 @@ class Standing(NamedTuple):
         return tuple(ball for ball in self.balls if ball.id == 0)
 
 
-Outcome = tuple[Standing, tuple[News, ...]]
+Outcome = tuple[RuleState, tuple[GameEvent, ...]]
 
 
-def refusal(laws: Laws, now: Standing) -> str:
+def refusal(laws: RuleConfig, now: RuleState) -> str:
     """Why the player cannot bring a ball now, as a sentence; empty if nothing in the rules forbids it."""
     if now.over:
         return "the game is over; begin a new one to play on"
@@ -152,16 +153,16 @@ def refusal(laws: Laws, now: Standing) -> str:
     return ""
 
 
-def started(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
+def started(laws: RuleConfig, now: RuleState, tick: int, ball: int) -> Outcome:
     """The player has brought a ball, which has this id in the world; only one that comes alone is saved."""
     saves = laws.saves if not now.balls else 0
     mine = InPlay(ball, now.used + 1, tick + laws.save_ticks if saves else 0, saves)
     after = now._replace(used=now.used + 1, balls=(*now.balls, mine), quiet_since=tick)
     doubles = laws.double > 1 and len(after.balls) > 1
-    return after, (News(NewsKind.DOUBLE_ON, tick, laws.double),) if doubles else ()
+    return after, (GameEvent(GameEventKind.DOUBLE_ON, tick, laws.double),) if doubles else ()
 
 
-def put_back(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
+def put_back(laws: RuleConfig, now: RuleState, tick: int, ball: int) -> Outcome:
     """The first of the waiting balls is on the board again, under this id."""
     back = now.waiting[0]
     safe = tick + laws.save_ticks if back.saves else 0
@@ -170,7 +171,7 @@ def put_back(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
     return now._replace(balls=tuple(balls), quiet_since=tick), ()
 
 
-def hit(laws: Laws, now: Standing, tick: int, points: int, part: str) -> Outcome:
+def hit(laws: RuleConfig, now: RuleState, tick: int, points: int, part: str) -> Outcome:
     """A ball has hit a part that is worth points."""
     now = now._replace(quiet_since=tick)
     if now.tilted:
@@ -178,25 +179,25 @@ def hit(laws: Laws, now: Standing, tick: int, points: int, part: str) -> Outcome
     combo = running_combo(laws, now, tick) + 1 if laws.combo_ticks >= 0 else 0
     now = now._replace(combo=combo, combo_tick=tick)
     worth = points * multiplier(laws, now, tick)
-    news: tuple[News, ...] = (News(NewsKind.SCORED, tick, worth, part),)
+    news: tuple[GameEvent, ...] = (GameEvent(GameEventKind.SCORED, tick, worth, part),)
     if combo > 1:
-        news += (News(NewsKind.COMBO, tick, combo, part),)
+        news += (GameEvent(GameEventKind.COMBO, tick, combo, part),)
     return now._replace(score=now.score + worth), news
 
 
-def running_combo(laws: Laws, now: Standing, tick: int) -> int:
+def running_combo(laws: RuleConfig, now: RuleState, tick: int) -> int:
     """Hits in a row so far, 0 if the time for the next one is over."""
     return now.combo if tick - now.combo_tick <= laws.combo_ticks else 0
 
 
-def multiplier(laws: Laws, now: Standing, tick: int) -> int:
+def multiplier(laws: RuleConfig, now: RuleState, tick: int) -> int:
     """By which points are multiplied: the factor of the combo, and that of two balls."""
     combo = running_combo(laws, now, tick)
     factor = min(1 + max(combo - 1, 0) // laws.combo_step, laws.combo_limit)
     return factor * (laws.double if len(now.balls) > 1 else 1)
 
 
-def drained(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
+def drained(laws: RuleConfig, now: RuleState, tick: int, ball: int) -> Outcome:
     """A ball has left through the gutter."""
     gone = next((one for one in now.balls if one.id == ball), None)
     if gone is None:
@@ -204,21 +205,21 @@ def drained(laws: Laws, now: Standing, tick: int, ball: int) -> Outcome:
     others = tuple(one for one in now.balls if one is not gone)
     if gone.saves and tick < gone.safe_until and not now.tilted:
         waits = gone._replace(id=0, saves=gone.saves - 1, safe_until=0)
-        saved = (News(NewsKind.BALL_SAVED, tick, gone.number),)
+        saved = (GameEvent(GameEventKind.BALL_SAVED, tick, gone.number),)
         return now._replace(balls=(*others, waits)), saved
-    news: tuple[News, ...] = (News(NewsKind.BALL_LOST, tick, gone.number),)
+    news: tuple[GameEvent, ...] = (GameEvent(GameEventKind.BALL_LOST, tick, gone.number),)
     if laws.double > 1 and len(now.balls) > 1 and len(others) <= 1:
-        news += (News(NewsKind.DOUBLE_OFF, tick),)
+        news += (GameEvent(GameEventKind.DOUBLE_OFF, tick),)
     now = now._replace(balls=others)
     if others:
         return now, news
     now = now._replace(tilted=False, warnings=0, combo=0)
     if laws.balls and now.used >= laws.balls:
-        return now._replace(over=True), (*news, News(NewsKind.OVER, tick, now.score))
-    return now, (*news, News(NewsKind.BALL_READY, tick, now.used + 1))
+        return now._replace(over=True), (*news, GameEvent(GameEventKind.OVER, tick, now.score))
+    return now, (*news, GameEvent(GameEventKind.BALL_READY, tick, now.used + 1))
 
 
-def shoved(laws: Laws, now: Standing, tick: int) -> Outcome:
+def shoved(laws: RuleConfig, now: RuleState, tick: int) -> Outcome:
     """The player shoves the table; in free play that costs nothing."""
     if laws.mode is Mode.FREE or now.tilted:
         return now, ()
@@ -226,18 +227,18 @@ def shoved(laws: Laws, now: Standing, tick: int) -> Outcome:
     verdict = tilt.judged(swing, now.warnings, laws.tilt_warning, laws.tilt_limit, laws.warnings)
     now = now._replace(swing=swing, swing_tick=tick)
     if verdict is tilt.Verdict.TILT:
-        return now._replace(tilted=True, combo=0), (News(NewsKind.TILT, tick),)
+        return now._replace(tilted=True, combo=0), (GameEvent(GameEventKind.TILT, tick),)
     if verdict is tilt.Verdict.WARNING:
         now = now._replace(warnings=now.warnings + 1)
-        return now, (News(NewsKind.WARNING, tick, now.warnings),)
+        return now, (GameEvent(GameEventKind.WARNING, tick, now.warnings),)
     return now, ()
 
 
-def ended(now: Standing, tick: int) -> Outcome:
+def ended(now: RuleState, tick: int) -> Outcome:
     """The game ends here, whoever wants it."""
     if now.over:
         return now, ()
-    return now._replace(over=True), (News(NewsKind.OVER, tick, now.score),)
+    return now._replace(over=True), (GameEvent(GameEventKind.OVER, tick, now.score),)
 
 
 def points_by_part(table: Table) -> dict[str, int]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from silverball.game.rules import Laws
+    from silverball.game.rules import RuleConfig
 
 LOOKS = 4  # a second
 STILL_DISTANCE = 0.03  # [u] a ball that stays within it lies still; it hops by less than 0.001 u
@@ -59,13 +59,13 @@ def looked(watch: Watch, balls: Iterable[tuple[int, float, float]], tick: int) -
     return watch._replace(rests=tuple(rests))
 
 
-def still_ball(watch: Watch, laws: Laws, tick: int) -> bool:
+def still_ball(watch: Watch, laws: RuleConfig, tick: int) -> bool:
     """Whether a ball lies still for as long as a table lets it."""
     return any(tick - rest.since >= laws.un_stick for rest in watch.rests)
 
 
 def wants_shove(
-    watch: Watch, laws: Laws, tick: int, *, held: bool, reach: float, quiet_since: int | None
+    watch: Watch, laws: RuleConfig, tick: int, *, held: bool, reach: float, quiet_since: int | None
 ) -> bool:
     """Whether the machine shoves now.
 

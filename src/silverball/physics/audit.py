@@ -12,7 +12,7 @@ from math import cos, hypot, inf, sin, sqrt
 from typing import Any
 
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.layout import BALL_COUNT, Kind, Part
+from silverball.physics.records import BALL_COUNT, Kind, Part
 
 
 @kernel

@@ -12,12 +12,12 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.bounce import capped
+from silverball.physics.event_log import leave, mark, record
 from silverball.physics.kernel import internal, kernel
-from silverball.physics.layout import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
-from silverball.physics.log import leave, mark, record
 from silverball.physics.motion import depart
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
+from silverball.physics.records import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
 from silverball.physics.trigonometry import sine_cosine

@@ -25,7 +25,7 @@ from typing import Any
 
 from silverball.physics.friction import rub_balls, rub_surface
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.layout import Contact
+from silverball.physics.records import Contact
 from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, LEAST_HOP
 
 

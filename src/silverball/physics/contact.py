@@ -10,10 +10,13 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.bounce import bounce
+from silverball.physics.event_log import record
 from silverball.physics.flight import flight_to_shape, flown, time_to_border
 from silverball.physics.grid import cell_of
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import (
+from silverball.physics.motion import begin_to_roll, depart, land
+from silverball.physics.paddle import flight_to_paddle, surface_velocity
+from silverball.physics.records import (
     GRIP,
     GUTTER,
     NOTHING,
@@ -26,9 +29,6 @@ from silverball.physics.layout import (
     Paddle,
     Part,
 )
-from silverball.physics.log import record
-from silverball.physics.motion import begin_to_roll, depart, land
-from silverball.physics.paddle import flight_to_paddle, surface_velocity
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 

@@ -23,7 +23,7 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import NOTHING, OTHER_BALL, PAUSE, Ball, Contact
+from silverball.physics.records import NOTHING, OTHER_BALL, PAUSE, Ball, Contact
 from silverball.physics.shapes import distance, point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, POLISH_TIME
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.layout import Part
+from silverball.physics.records import Part
 from silverball.physics.shapes import distance
 
 

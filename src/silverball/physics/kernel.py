@@ -12,7 +12,7 @@ Options, and why:
 * ``no_cpython_wrapper=True``, for what only kernels call: it cannot be called from Python, and needs no code
   that unpacks arguments; it saves some 10 % of the compilation.
 * the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
-  code after a change of a callee in *another* file, and it trusts its files (see `codecache.py`). Compiled
+  code after a change of a callee in *another* file, and it trusts its files (see `code_cache.py`). Compiled
   code is therefore kept in a folder of the user's cache directory that is named after a hash of the sources
   of all packages that hold kernels, and of what else machine code depends on. The drawing has a folder of its
   own: nothing that plays calls it, so a change of a colour need not compile the physics anew.
@@ -34,14 +34,15 @@ import numba
 import numba.core.config
 from numba.core.registry import CPUDispatcher
 
-from silverball.physics.aside import aside
-from silverball.physics.codecache import INDEX, CodeCache, code_of, discard, remove, sweep
+from silverball.physics.code_cache import INDEX, CodeCache, code_of, discard, remove, sweep
+from silverball.physics.compile_thread import aside
 
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
+STUDY = (*PLAY, "metrics", "soak")
 DRAWING = ("physics", "drawing/kernels")
 AGENTS = (*PLAY, "envs")
-KERNEL_PACKAGES = (*AGENTS, "drawing")  # a kernel elsewhere must be added here; a test sees to it
+KERNEL_PACKAGES = (*STUDY, "envs", "drawing")  # a kernel elsewhere must be added here; a test sees to it
 LAST_SHARE = 0.2  # of the time of a first start: what the last kernels take; measured
 KEEP_SECONDS = 30 * 24 * 3600.0
 _kernels: list[Any] = []  # all of this process
@@ -114,7 +115,7 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     """The folder for compiled code of exactly these sources; None where no folder can be written.
 
     Args:
-        packages: Whose sources the code is made of: `PLAY`, `DRAWING` or `AGENTS`.
+        packages: Whose sources the code is made of: `PLAY`, `STUDY`, `DRAWING` or `AGENTS`.
     """
     import platformdirs
 
@@ -176,7 +177,7 @@ def forget_old_code() -> None:
     folder = cache_folder()
     if folder is None:
         return
-    keep = (folder, cache_folder(DRAWING), cache_folder(AGENTS))
+    keep = (folder, *map(cache_folder, (STUDY, DRAWING, AGENTS)))
     for other in folder.parent.iterdir():
         if other not in keep and time.time() - other.stat().st_mtime > KEEP_SECONDS:
             shutil.rmtree(other, ignore_errors=True)
@@ -206,4 +207,6 @@ def _packages_of(module: str) -> tuple[str, ...]:
     """The packages whose sources the code of a module's kernels is made of."""
     if module.startswith("silverball.drawing."):
         return DRAWING
+    if module.startswith(("silverball.metrics.", "silverball.soak.")):
+        return STUDY
     return AGENTS if module.startswith("silverball.envs.") else PLAY

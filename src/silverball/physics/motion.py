@@ -26,7 +26,7 @@ from typing import Any
 from silverball.physics.bounce import capped
 from silverball.physics.flight import flown
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.layout import NOTHING, Ball, Motion
+from silverball.physics.records import NOTHING, Ball, Motion
 from silverball.physics.tolerances import CREEP, NEVER
 
 ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball

@@ -16,7 +16,7 @@ from typing import Any
 
 from silverball.physics.flight import flown, lasts, polished, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import PAUSE, Contact, Paddle
+from silverball.physics.records import PAUSE, Contact, Paddle
 from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, LEAST_ADVANCE_GAP, NEVER
 from silverball.physics.trigonometry import sine_cosine

@@ -11,7 +11,7 @@ from math import sqrt
 from typing import Any
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import Kind
+from silverball.physics.records import Kind
 
 
 @inlined

@@ -17,10 +17,12 @@ from typing import Any
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_off_held, exchange
 from silverball.physics.contact import first_contact, is_near, resolve
+from silverball.physics.event_log import leave, record
 from silverball.physics.flight import flight_to_ball, flown
-from silverball.physics.horizon import are_apart, free_ticks
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import (
+from silverball.physics.motion import depart, end_flight, hold, land, let_go
+from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
+from silverball.physics.records import (
     NOTHING,
     OTHER_BALL,
     PAUSE,
@@ -31,11 +33,9 @@ from silverball.physics.layout import (
     Paddle,
     Part,
 )
-from silverball.physics.log import leave, record
-from silverball.physics.motion import depart, end_flight, hold, land, let_go
-from silverball.physics.outside import is_admitted, is_as_left, is_sound
-from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
+from silverball.physics.skip_ahead import are_apart, free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
+from silverball.physics.validation import is_admitted, is_as_left, is_sound
 
 
 @kernel

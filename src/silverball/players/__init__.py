@@ -1,11 +1,7 @@
 """Who presses the buttons? Simple players, the planner, which looks ahead, and one that was trained.
 
-`make_player(name)` gives one for a single `World`; `silverball.players.games.play` runs any of them over many
-worlds, `silverball.players.ball_time.time_balls` measures how long they keep a ball.
-
-The soak, which presses at random to break the solver, lives here too: `hostile.py` makes its boards,
-`drive.py` presses, `watch.py` looks, `soak.py` runs the rounds, `soaklog.py` and `finding.py` keep what was
-found.
+`make_player(name)` makes one for a single `World`; `players.rollout.play` runs any of them over many worlds,
+`metrics.ball_time.time_balls` measures how long they keep a ball.
 """
 
 from __future__ import annotations
@@ -13,9 +9,9 @@ from __future__ import annotations
 import difflib
 
 from silverball.errors import SilverballError
-from silverball.players.press import Hands, Player, PlayerKind
+from silverball.players.simple import KernelPlayer, Player, PlayerKind
 
-__all__ = ["PLAYERS", "Hands", "Player", "PlayerKind", "make_player", "player_kind"]
+__all__ = ["PLAYERS", "KernelPlayer", "Player", "PlayerKind", "make_player", "player_kind"]
 
 PLAYERS = tuple(kind.name.lower() for kind in PlayerKind)
 """The names of all players."""
@@ -34,7 +30,7 @@ def player_kind(name: str) -> PlayerKind:
     raise SilverballError(f"no player is called {name!r}, there are {', '.join(PLAYERS)}{hint}")
 
 
-def make_player(name: str) -> Hands:
+def make_player(name: str) -> Player:
     """A player for a single world.
 
     Args:
@@ -51,4 +47,4 @@ def make_player(name: str) -> Hands:
         from silverball.players.planner import Planner
 
         return Planner()
-    return Player(kind)
+    return KernelPlayer(kind)

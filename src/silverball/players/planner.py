@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.horizon import free_ticks
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.layout import BOARD, LOG, LOG_SIZE, WORLD, Part, records
+from silverball.physics.records import BOARD, LOG, LOG_SIZE, WORLD, Part, records
+from silverball.physics.skip_ahead import free_ticks
 from silverball.physics.step import end_ticks, is_inside, is_ready, play_tick, turn_paddles
 from silverball.players.plan import (
     PLAN,
@@ -31,7 +31,7 @@ from silverball.players.plan import (
     vary_plan,
     wants_new_plan,
 )
-from silverball.players.press import PlayerKind, pressed
+from silverball.players.simple import PlayerKind, pressed
 from silverball.world import World, WorldBatch
 
 DECISIONS = 60  # a second

@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import SilverballError
-from silverball.physics.layout import Part
-from silverball.players.press import PlayerKind
-from silverball.players.sight import MIRRORED, SEEN, Rows, look, see
+from silverball.physics.records import Part
+from silverball.players.features import MIRRORED, SEEN, Rows, look, see
+from silverball.players.simple import PlayerKind
 from silverball.world import World, WorldBatch
 
 SCALE = 4096  # steps of 1 in which weights and values are rounded

@@ -38,8 +38,8 @@ from silverball.table.parts import (
     Table,
     TriangularPrism,
 )
+from silverball.table.placement_rules import recipe_problems
 from silverball.table.reach import PASSAGE, Space, creation_floor, space
-from silverball.table.rules import recipe_problems
 from silverball.table.sweep import CLEARANCE, touches_border, touches_paddle, touches_shape
 from silverball.table.traps import level_faces, pockets
 

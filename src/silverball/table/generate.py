@@ -10,7 +10,7 @@ from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
 from silverball.table.file import load_table
 from silverball.table.parts import Table
-from silverball.table.placing import board_of
+from silverball.table.placement import board_of
 from silverball.table.quantity import shown
 
 

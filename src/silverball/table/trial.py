@@ -10,7 +10,7 @@ from __future__ import annotations
 from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
 from silverball.table.parts import Table
-from silverball.table.placing import BOARDS, LAYOUTS, board_of
+from silverball.table.placement import BOARDS, LAYOUTS, board_of
 
 SEEDS = 8  # that must each make a board
 FEW_SEEDS = 2  # where a board costs up to a second

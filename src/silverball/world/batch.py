@@ -17,10 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.layout import LOG, WORLD, Fault, Outcome, Part, records
+from silverball.physics.records import LOG, WORLD, Fault, Outcome, Part, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
-from silverball.world import state as states
+from silverball.world import saved_world as states
 from silverball.world.compile import Boards, compile_tables
 from silverball.world.snapshot import Index, Snapshot, put_back, taken
 from silverball.world.threads import cores, run_on_threads

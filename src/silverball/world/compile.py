@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from silverball.errors import Problem, TableError
 from silverball.physics.grid import fill_grid
-from silverball.physics.layout import BOARD, COLLIDER, Kind, Part, records
+from silverball.physics.records import BOARD, COLLIDER, Kind, Part, records
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,

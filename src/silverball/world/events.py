@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from silverball.physics.layout import GUTTER, NOTHING, OTHER_BALL, EventKind
+from silverball.physics.records import GUTTER, NOTHING, OTHER_BALL, EventKind
 
 KIND_NAMES = {kind.value: kind.name.lower() for kind in EventKind}
 SPECIAL_PARTS = {NOTHING: "", GUTTER: "gutter", OTHER_BALL: "ball"}
@@ -15,7 +15,7 @@ SPECIAL_PARTS = {NOTHING: "", GUTTER: "gutter", OTHER_BALL: "ball"}
 Vector = tuple[float, float, float]
 
 
-class Ball(NamedTuple):
+class BallState(NamedTuple):
     """A ball on the board.
 
     Attributes:
@@ -31,7 +31,7 @@ class Ball(NamedTuple):
     spin: Vector
 
 
-class Paddle(NamedTuple):
+class PaddleState(NamedTuple):
     """A paddle; left and right report mirrored values, so that lifting is positive on both sides.
 
     Attributes:
@@ -68,10 +68,10 @@ class Event(NamedTuple):
     speed: float
 
 
-def read_balls(world: Any, height: float) -> tuple[Ball, ...]:
+def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
     """The balls of a WORLD record, in the order of its slots."""
     return tuple(
-        Ball(
+        BallState(
             id_,
             (x, height, z),
             (vx, 0.0, vz),
@@ -82,9 +82,9 @@ def read_balls(world: Any, height: float) -> tuple[Ball, ...]:
     )
 
 
-def read_paddles(world: Any) -> tuple[Paddle, Paddle]:
+def read_paddles(world: Any) -> tuple[PaddleState, PaddleState]:
     """The left and the right paddle of a WORLD record."""
-    left, right = (Paddle(angle, turn) for angle, _, turn in world["paddle"].tolist())
+    left, right = (PaddleState(angle, turn) for angle, _, turn in world["paddle"].tolist())
     return left, right
 
 

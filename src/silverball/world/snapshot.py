@@ -22,8 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.layout import WORLD, records
-from silverball.world import state as states
+from silverball.physics.records import WORLD, records
+from silverball.world import saved_world as states
 
 MAGIC = b"SILVERSN"
 HEADER = struct.Struct("<8sqqqqq")  # magic, format, physics version, tick rate, tables, records

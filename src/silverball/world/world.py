@@ -22,14 +22,14 @@ from silverball.physics.balls import (
     part_balls,
     put_ball,
 )
-from silverball.physics.layout import WORLD, Fault, Outcome
-from silverball.physics.outside import is_sound
+from silverball.physics.records import WORLD, Fault, Outcome
 from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
+from silverball.physics.validation import is_sound
 from silverball.table import Table
-from silverball.world import state as states
-from silverball.world.alone import JITTER, LEFT, RIGHT, Alone
+from silverball.world import saved_world as states
 from silverball.world.batch import WorldBatch, checked_int
-from silverball.world.events import Ball, Event, Paddle, read_balls, read_events, read_paddles
+from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
+from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
 
 MEASURES = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 PIECE_TICKS = 2**12  # of a long step: Python hears of Ctrl-C between two pieces, which take some milliseconds
@@ -64,7 +64,7 @@ class World:
         self._names = self._batch.boards.names[0]
         self._height = self.table.board.height
         batch = self._batch
-        self._alone = Alone(
+        self._alone = SingleStepper(
             batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
         )
         self._static = (self._board, self._batch.boards.collider)
@@ -114,7 +114,7 @@ class World:
 
     def create_ball(
         self, position: Sequence[float] | None = None, velocity: Sequence[float] = (0.0, 0.0)
-    ) -> Ball:
+    ) -> BallState:
         """Put one more ball on the board.
 
         Args:
@@ -150,12 +150,12 @@ class World:
     # -------------------------------------------------------------------------------------------
 
     @property
-    def balls(self) -> tuple[Ball, ...]:
+    def balls(self) -> tuple[BallState, ...]:
         """The balls on the board."""
         return read_balls(self._record, self._height)
 
     @property
-    def paddles(self) -> tuple[Paddle, Paddle]:
+    def paddles(self) -> tuple[PaddleState, PaddleState]:
         """The left and the right paddle."""
         return read_paddles(self._record)
 
@@ -269,7 +269,7 @@ class World:
         """The smallest gap [u] between a ball centred at (x, z) and any part, paddles as they stand now."""
         return float(clearance(self._record, *self._static, x, z)[0])
 
-    def _newest(self) -> Ball:
+    def _newest(self) -> BallState:
         return max(self.balls, key=lambda ball: ball.id)
 
     def _raise_full(self) -> None:
@@ -288,7 +288,7 @@ class World:
             self.save(),
         )
 
-    def _put_ball(self, position: Sequence[float], velocity: Sequence[float]) -> Ball:
+    def _put_ball(self, position: Sequence[float], velocity: Sequence[float]) -> BallState:
         x, z = _pair("position", position, self._height)
         vx, vz = _pair("velocity", velocity, 0.0)
         cap = self.table.board.speed_cap

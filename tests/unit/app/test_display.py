@@ -6,11 +6,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reading import reads
-from silverball.app.display import SEEN_AT_LEAST, Display
-from silverball.drawing.dotfonts import BOLD, HUGE
-from silverball.game.news import Face, Mode, News, NewsKind, Phase
+from silverball.app.score_display import SEEN_AT_LEAST, Display
+from silverball.drawing.dotmatrix.fonts import BOLD, HUGE
+from silverball.game.view import GameEvent, GameEventKind, GameView, Mode, Phase
 
-FACE = Face(
+FACE = GameView(
     mode=Mode.ARCADE,
     phase=Phase.PLAY,
     score=120,
@@ -26,7 +26,13 @@ FACE = Face(
 )
 
 
-def film(face: Face, news: tuple[News, ...] = (), seconds: float = 4.0, rate: int = 15, high_score: int = 0):
+def film(
+    face: GameView,
+    news: tuple[GameEvent, ...] = (),
+    seconds: float = 4.0,
+    rate: int = 15,
+    high_score: int = 0,
+):
     """The pictures of some seconds after news."""
     display = Display()
     display.frame(face, 0.0)
@@ -34,8 +40,8 @@ def film(face: Face, news: tuple[News, ...] = (), seconds: float = 4.0, rate: in
     return [display.frame(face, 10.0 + tick / rate, high_score) for tick in range(round(seconds * rate))]
 
 
-def news(kind: NewsKind, value: int = 0) -> tuple[News, ...]:
-    return (News(kind, 1, value),)
+def news(kind: GameEventKind, value: int = 0) -> tuple[GameEvent, ...]:
+    return (GameEvent(kind, 1, value),)
 
 
 def test_the_score_is_large_and_the_ball_is_told():
@@ -100,14 +106,14 @@ def test_ball_save_blinks_while_it_lasts():
 @pytest.mark.parametrize(
     ("told", "says"),
     [
-        (news(NewsKind.BALL_SAVED), "BALL SAVED"),
-        (news(NewsKind.DOUBLE_ON), "DOUBLE POINTS"),
-        (news(NewsKind.COMBO, 3), "COMBO 3"),
-        (news(NewsKind.COMBO, 5), "COMBO 5"),
-        (news(NewsKind.WARNING, 1), "WARNING!"),
-        (news(NewsKind.BALL_LOST, 2), "BALL 2 LOST"),
-        (news(NewsKind.SCORED, 250), "+250"),
-        (news(NewsKind.UN_STUCK), "A SHOVE FOR A STILL BALL"),
+        (news(GameEventKind.BALL_SAVED), "BALL SAVED"),
+        (news(GameEventKind.DOUBLE_ON), "DOUBLE POINTS"),
+        (news(GameEventKind.COMBO, 3), "COMBO 3"),
+        (news(GameEventKind.COMBO, 5), "COMBO 5"),
+        (news(GameEventKind.WARNING, 1), "WARNING!"),
+        (news(GameEventKind.BALL_LOST, 2), "BALL 2 LOST"),
+        (news(GameEventKind.SCORED, 250), "+250"),
+        (news(GameEventKind.UN_STUCK), "A SHOVE FOR A STILL BALL"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
@@ -118,7 +124,7 @@ def test_news_are_told_beside_the_score(told, says):
 
 
 def test_tilt_fills_the_display_and_the_score_comes_back_between():
-    frames = film(FACE._replace(tilted=True), news(NewsKind.TILT), seconds=3.0)
+    frames = film(FACE._replace(tilted=True), news(GameEventKind.TILT), seconds=3.0)
     filled = [dots for dots in frames if not reads(dots, "120")]
     assert filled
     assert max((dots.pixels > 0).mean() for dots in filled) > 0.5
@@ -182,7 +188,7 @@ def test_messages_follow_each_other_and_long_ones_scroll_to_their_end():
 def test_a_message_hides_neither_the_score_nor_what_stands_above_it(face, says):
     display = Display()
     display.frame(face, 0.0)
-    display.tell(news(NewsKind.BALL_SAVED) if says == "BALL SAVED" else ())
+    display.tell(news(GameEventKind.BALL_SAVED) if says == "BALL SAVED" else ())
     display.say("THE BOARD IS KEPT")
     frames = [display.frame(face, 5.0 + tick / 10) for tick in range(20)]
     seen = [dots for dots in frames if reads(dots, "120")]
@@ -193,7 +199,7 @@ def test_a_message_hides_neither_the_score_nor_what_stands_above_it(face, says):
 def test_a_calm_display_never_hides_the_score_and_never_flashes():
     display = Display(is_calm=True)
     display.frame(FACE, 0.0)
-    display.tell((*news(NewsKind.DOUBLE_ON), *news(NewsKind.BALL_SAVED)))
+    display.tell((*news(GameEventKind.DOUBLE_ON), *news(GameEventKind.BALL_SAVED)))
     faces = [FACE] * 60 + [FACE._replace(tilted=True)] * 60
     frames = [display.frame(face, 5.0 + tick / 15, 50) for tick, face in enumerate(faces)]
     assert all(reads(dots, "120") for dots in frames)
@@ -217,9 +223,9 @@ def test_of_many_messages_the_newest_are_told():
 def test_more_important_news_interrupt_and_less_important_ones_wait():
     display = Display()
     display.frame(FACE, 0.0)
-    display.tell(news(NewsKind.COMBO, 3))
+    display.tell(news(GameEventKind.COMBO, 3))
     display.frame(FACE, 1.0)
-    display.tell((*news(NewsKind.BALL_SAVED), *news(NewsKind.WARNING, 1)))
+    display.tell((*news(GameEventKind.BALL_SAVED), *news(GameEventKind.WARNING, 1)))
     frames = [display.frame(FACE, 1.1 + tick / 10) for tick in range(60)]
     saved = [reads(dots, "BALL SAVED") for dots in frames]
     warned = [reads(dots, "WARNING!") for dots in frames]
@@ -228,8 +234,8 @@ def test_more_important_news_interrupt_and_less_important_ones_wait():
 
 
 KINDS = st.builds(
-    News,
-    st.sampled_from(list(NewsKind)),
+    GameEvent,
+    st.sampled_from(list(GameEventKind)),
     st.just(1),
     st.integers(0, 12),
     st.sampled_from(["", "cylinder[0]"]),
@@ -299,4 +305,4 @@ def test_a_combo_climbs_on_its_meters():
 
 
 def test_large_words_are_written_in_the_bold_font():
-    assert any(reads(dots, "WARNING!!", (BOLD,)) for dots in film(FACE, news(NewsKind.WARNING, 2)))
+    assert any(reads(dots, "WARNING!!", (BOLD,)) for dots in film(FACE, news(GameEventKind.WARNING, 2)))

@@ -10,13 +10,13 @@ import pytest
 from evenings import LEAKY, Evening
 from holder import ALONE, WRITES, held
 from silverball.app.controls import Action
-from silverball.app.keeping import NOT_YET, REMIND_SECONDS, RETRY_SECONDS, SAVED, WAITS
+from silverball.app.game_archive import NOT_YET, REMIND_SECONDS, RETRY_SECONDS, SAVED, WAITS
 from silverball.app.program import OVER_SECONDS
 from silverball.app.settings import Settings
-from silverball.game import database
-from silverball.game.news import Mode
-from silverball.game.proof import prove
-from silverball.game.store import FILE, Store
+from silverball.game.scores import database
+from silverball.game.scores.proof import prove
+from silverball.game.scores.store import FILE, Store
+from silverball.game.view import Mode
 
 
 def in_the_file(folder) -> list[tuple[int, str]]:
@@ -73,7 +73,7 @@ def test_a_score_that_can_be_written_nowhere_is_called_not_yet_saved(evening, tm
     def refuse(path, write):
         raise OSError(30, "Read-only file system")
 
-    monkeypatch.setattr("silverball.game.waiting.write_whole", refuse)
+    monkeypatch.setattr("silverball.game.scores.pending.write_whole", refuse)
     with held(tmp_path / FILE):
         score = play(evening)
         assert NOT_YET in evening.said

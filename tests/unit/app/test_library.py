@@ -9,13 +9,13 @@ import time
 import pytest
 
 from evenings import LEAKY, NOTHING, Evening
+from silverball.app.catalog import Catalog
 from silverball.app.controls import Action
-from silverball.app.library import Library
 from silverball.app.menus import Button
 from silverball.app.program import LOOK_EVERY
 from silverball.app.settings import Settings
-from silverball.game.news import Mode, Phase
-from silverball.game.store import Store
+from silverball.game.scores.store import Store
+from silverball.game.view import Mode, Phase
 from silverball.table import dump_table, load_table, table_names
 
 GOOD = 'format = 1\nname = "{}"\n[[cylinder]]\ncenter = [3, {}]\nradius = 1.0\n'
@@ -90,7 +90,7 @@ BROKEN = {
 @pytest.fixture
 def library(tmp_path):
     with Store(tmp_path) as store:
-        yield Library(store, tmp_path)
+        yield Catalog(store, tmp_path)
 
 
 @pytest.fixture
@@ -406,9 +406,11 @@ def test_five_hundred_files_are_all_offered_though_none_is_waited_for(tmp_path, 
     for number in range(500):
         write(tmp_path, f"t{number:03}.toml", text.replace("Classic", f"Table {number}"))
     gate = threading.Event()
-    monkeypatch.setattr("silverball.app.tablefiles.load_table", lambda name: gate.wait() and load_table(name))
+    monkeypatch.setattr(
+        "silverball.app.table_files.load_table", lambda name: gate.wait() and load_table(name)
+    )
     with Store(tmp_path) as store:
-        library = Library(store, tmp_path)
+        library = Catalog(store, tmp_path)
         own = [entry for entry in library.entries() if entry.name.startswith(str(tmp_path))]
         assert [entry.title for entry in own] == [f"t{number:03}.toml" for number in range(500)]
         assert {entry.about for entry in own} == {"is being read"}
@@ -432,9 +434,9 @@ def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monke
         gate.wait()
         return load_table(name)
 
-    monkeypatch.setattr("silverball.app.tablefiles.load_table", slow)
+    monkeypatch.setattr("silverball.app.table_files.load_table", slow)
     with Store(tmp_path) as store:
-        library = Library(store, tmp_path)
+        library = Catalog(store, tmp_path)
         library.look(whole=True)  # one of the fifty is being read, and takes its time
         library.choose(str(chosen))
         library.look(whole=False)
@@ -459,12 +461,12 @@ def test_a_file_with_a_space_in_its_name_is_told_apart_from_the_sentence(tmp_pat
 def test_the_names_in_the_folder_may_be_anything_and_the_folder_may_be_a_file(tmp_path):
     (tmp_path / "tables").write_text("not a folder")
     with Store(tmp_path) as store:
-        assert [entry.problem for entry in Library(store, tmp_path).entries()] == [""] * len(table_names())
+        assert [entry.problem for entry in Catalog(store, tmp_path).entries()] == [""] * len(table_names())
 
 
 def test_a_file_that_breaks_the_reader_is_one_that_cannot_be_read(library, tmp_path, monkeypatch):
     path = write(tmp_path)
-    monkeypatch.setattr("silverball.app.tablefiles.load_table", lambda name: 1 / 0)
+    monkeypatch.setattr("silverball.app.table_files.load_table", lambda name: 1 / 0)
     assert "ZeroDivisionError" in entry_of(library, path).problem
 
 

@@ -5,7 +5,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reading import reads
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry, layout
+from silverball.app.demo_players import PERFORMERS
+from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
+from silverball.app.menus import page as layout
 from silverball.app.menus.commands import (
     Attract,
     Change,
@@ -25,11 +27,10 @@ from silverball.app.menus.commands import (
     WatchScore,
 )
 from silverball.app.menus.menus import IDLE, REPEAT_AFTER
-from silverball.app.performers import PERFORMERS
 from silverball.app.settings import Settings
-from silverball.drawing.dotfonts import BOLD, NORMAL
-from silverball.drawing.dots import WIDTH, Dots
-from silverball.game.news import Mode
+from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
+from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
+from silverball.game.view import Mode
 
 LEFT, RIGHT, START, BACK = Button
 LATER = 0.4  # [s] when nothing slides any more

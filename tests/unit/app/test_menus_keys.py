@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reading import reads
+from silverball.app.bindings import assigned, shown
 from silverball.app.menus import (
     ACTIONS,
     Button,
@@ -17,10 +18,9 @@ from silverball.app.menus import (
     keys_of,
     pad_of,
 )
-from silverball.app.menus.actions import assigned, shown
 from silverball.app.menus.commands import Change
 from silverball.app.settings import Settings
-from silverball.drawing.dotfonts import BOLD
+from silverball.drawing.dotmatrix.fonts import BOLD
 
 LEFT, RIGHT, START, BACK = Button
 LINES = {line.action: line for line in ACTIONS}

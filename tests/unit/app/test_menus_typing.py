@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from reading import reads
 from silverball.app.menus import Button, Menus, TableEntry
 from silverball.app.menus.commands import Initials, SeeBoard
-from silverball.app.menus.letters import LETTERS
+from silverball.app.menus.entry import LETTERS
 from silverball.app.settings import Settings
 
 LEFT, RIGHT, START, BACK = Button

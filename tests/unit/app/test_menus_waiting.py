@@ -4,11 +4,11 @@ import pytest
 
 from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
 from silverball.app.menus.commands import Attract, Initials
-from silverball.app.menus.letters import SIGN_PATIENCE
+from silverball.app.menus.entry import SIGN_PATIENCE
 from silverball.app.menus.menus import IDLE
 from silverball.app.menus.transport import STUDY
 from silverball.app.settings import Settings
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 
 LEFT, RIGHT, START, BACK = Button
 TABLES = (TableEntry("classic", "Classic"), TableEntry("random", "Random", "", True))

@@ -21,8 +21,8 @@ from silverball.app.menus.commands import (
     WatchScore,
 )
 from silverball.app.settings import Settings
-from silverball.drawing.dots import HEIGHT, WIDTH
-from silverball.game.news import Mode
+from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH
+from silverball.game.view import Mode
 
 THREE = (Button.LEFT, Button.RIGHT, Button.START)
 TABLES = (

@@ -8,12 +8,13 @@ from evenings import NOTHING, Evening
 from reading import reads
 from silverball.app.controls import Action
 from silverball.app.program import OVER_SECONDS, SPEEDS
+from silverball.app.progress_bar import Progress
+from silverball.app.sessions import DemoSession
 from silverball.app.settings import Settings
-from silverball.app.stages import Showing
-from silverball.app.waiting import Progress
 from silverball.errors import TableError
-from silverball.game.news import Mode, Phase
-from silverball.game.replay import Replay, verify
+from silverball.game.replay.format import Replay
+from silverball.game.replay.verify import verify
+from silverball.game.view import Mode, Phase
 from silverball.players import PlayerKind
 
 
@@ -269,7 +270,7 @@ def test_a_game_that_is_over_gives_way_to_the_show_when_nobody_is_there(evening)
     evening.play_to_the_end()
     evening.go(OVER_SECONDS + 40.0)
     assert evening.program.menus.page == "attract"
-    assert isinstance(evening.program.stage, Showing)
+    assert isinstance(evening.program.stage, DemoSession)
     assert not evening.program.is_heard
     assert [row.initials for row in evening.store.scores()] == ["AAA"]
 

@@ -6,10 +6,10 @@ import time
 
 import pytest
 
-from silverball.app import rehearsal as rehearsal_module
-from silverball.app.performers import BEST, PERFORMERS, STAND_IN, Cast
-from silverball.app.rehearsal import Rehearsal
-from silverball.app.stages import Showing
+from silverball.app import player_warmup as rehearsal_module
+from silverball.app.demo_players import BEST, PERFORMERS, STAND_IN, DemoPlayers
+from silverball.app.player_warmup import Rehearsal
+from silverball.app.sessions import DemoSession
 from silverball.players import PlayerKind, make_player
 from silverball.table import load_table
 
@@ -84,8 +84,8 @@ def test_a_player_that_fails_does_not_get_ready_and_stops_nobody_else(monkeypatc
 
 def test_the_one_who_was_asked_for_takes_over_once():
     ready = {STAND_IN.name}
-    cast = Cast(ready.__contains__)
-    stage = Showing(TABLE, 1, cast.begin(BEST.name))
+    cast = DemoPlayers(ready.__contains__)
+    stage = DemoSession(TABLE, 1, cast.begin(BEST.name))
     assert (stage.player.kind, cast.playing) == (PlayerKind.REFLEX, STAND_IN)
     assert not cast.follow(stage)
     ready.add(BEST.name)

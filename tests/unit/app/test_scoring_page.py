@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from silverball.app.scoring import how_to_score, quick_shoves
-from silverball.game.news import Mode, NewsKind
 from silverball.game.rules import Laws, Standing, hit, shoved, started
+from silverball.game.view import GameEventKind, Mode
 from silverball.table import Arcade, Board, Cylinder, Table, TriangularPrism, generate_table, load_table
 
 RATE = 240
@@ -29,7 +29,7 @@ def factor_of(table: Table, count: int, balls: int = 1) -> int:
         now, _ = started(laws, now, 0, ball + 1)
     for _ in range(count):
         now, news = hit(laws, now, 1, 1, "cylinder[0]")
-    return next(one.value for one in news if one.kind is NewsKind.SCORED)
+    return next(one.value for one in news if one.kind is GameEventKind.SCORED)
 
 
 @given(
@@ -77,7 +77,7 @@ def test_the_shoves_that_warn_and_tilt_are_those_of_the_rules(warning, limit, wa
     while not now.tilted:
         count += 1
         now, news = shoved(laws, now, 0)
-        if any(one.kind is NewsKind.WARNING for one in news):
+        if any(one.kind is GameEventKind.WARNING for one in news):
             warned = warned or count
     assert quick_shoves(arcade) == (warned, count)
     assert re.search(rf"{count}\w\w (of quick ones )?tilts", text_of(table, "Tilt"))

@@ -7,27 +7,27 @@ import pytest
 from evenings import NOTHING, Evening
 from reading import reads
 from silverball.app.controls import Action
+from silverball.app.sessions import SURE_AFTER, SURE_WITHIN, GameSession
 from silverball.app.settings import Settings
-from silverball.app.stages import SURE_AFTER, SURE_WITHIN, Playing
 from silverball.errors import BoardFull, SilverballError
 from silverball.game.game import Game
-from silverball.game.news import Mode, Phase
-from silverball.game.replay import verify
+from silverball.game.replay.verify import verify
+from silverball.game.view import Mode, Phase
 from silverball.table import Arcade, Board, Table
 
 RATE = 240
 LONG = Table(name="Long", board=Board(gravity=0.1), arcade=Arcade(balls=3, ball_save=0))
 
 
-def playing(mode=Mode.ARCADE, table=LONG) -> Playing:
-    return Playing(Game(table, 5, mode))
+def playing(mode=Mode.ARCADE, table=LONG) -> GameSession:
+    return GameSession(Game(table, 5, mode))
 
 
-def wait(stage: Playing, seconds: float) -> None:
+def wait(stage: GameSession, seconds: float) -> None:
     stage.advance(NOTHING, round(seconds * RATE))
 
 
-def balls(stage: Playing) -> int:
+def balls(stage: GameSession) -> int:
     return stage.game.world.created
 
 

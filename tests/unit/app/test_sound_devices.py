@@ -22,7 +22,7 @@ from silverball.app.sound.rolling import LANES, ROLL_SPEEDS
 from silverball.app.sound.sounds import master_volume
 from silverball.app.sound.synth import RATE
 from silverball.app.sound.voices import Note
-from silverball.game.news import News, NewsKind
+from silverball.game.view import GameEvent, GameEventKind
 from silverball.world.events import Event
 
 WIDTH, TICKS = 10.0, 240
@@ -55,7 +55,7 @@ def use_all(sounds: Sounds) -> None:
     """Call everything that a window calls."""
     sounds.begin(_classic())
     sounds.change(Settings(volume=3))
-    sounds.tell([News(NewsKind.TILT, 1)])
+    sounds.tell([GameEvent(GameEventKind.TILT, 1)])
     sounds.note([hit(), hit("cylinder[0]")], TICKS, WIDTH)
     sounds.buttons(True, False)
     sounds.rolling([(1, 0.0, 0.0, 10.0)], 1 / 60, WIDTH)

@@ -11,9 +11,9 @@ import pytest
 import silverball as sb
 from silverball.app.sound import FilmSound, Frame, RollingBall, mixdown, write_wav
 from silverball.app.sound.synth import RATE
-from silverball.drawing.film import write_film
-from silverball.drawing.video import Soundtrack, is_whole_mp4, require_ffmpeg
-from silverball.game.news import News, NewsKind
+from silverball.export.film import write_film
+from silverball.export.mp4 import Soundtrack, is_whole_mp4, require_ffmpeg
+from silverball.game.view import GameEvent, GameEventKind
 from silverball.table import load_table
 from silverball.world.events import Event
 
@@ -78,7 +78,11 @@ def test_a_harder_hit_is_louder():
 
 
 def test_the_paddles_news_and_menus_are_heard():
-    for change in ({"buttons": (True, False)}, {"news": (News(NewsKind.TILT, 0),)}, {"menu": "choose"}):
+    for change in (
+        {"buttons": (True, False)},
+        {"news": (GameEvent(GameEventKind.TILT, 0),)},
+        {"menu": "choose"},
+    ):
         assert mix(0.5, {3: change}).any()
 
 

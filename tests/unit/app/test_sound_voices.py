@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from silverball.app.sound.placing import FULL_SPEED, pan, strength_of
+from silverball.app.sound.panning import FULL_SPEED, pan, strength_of
 from silverball.app.sound.rolling import _SILENT, LANES, ROLL_SPEEDS, Rolling
 from silverball.app.sound.scale import BELL_STEPS
 from silverball.app.sound.voices import (
@@ -19,7 +19,7 @@ from silverball.app.sound.voices import (
     Voices,
     step_of,
 )
-from silverball.game.news import News, NewsKind
+from silverball.game.view import GameEvent, GameEventKind
 from silverball.table import Table, load_table
 from silverball.world.events import Event
 
@@ -159,7 +159,7 @@ def test_prisms_climb_too_but_walls_do_not():
 def test_the_game_knows_better_how_many_hits_were_in_a_row():
     voices = Voices()
     assert steps(voices, [0]) == [0]
-    voices.news([News(NewsKind.COMBO, 100, 7)])
+    voices.news([GameEvent(GameEventKind.COMBO, 100, 7)])
     assert steps(voices, [100, 150]) == [6, 7]
 
 
@@ -264,10 +264,10 @@ def test_a_table_without_a_paddle_has_no_coil_on_that_side():
 
 def test_dead_paddles_are_silent_until_the_next_ball():
     voices = Voices()
-    voices.news([News(NewsKind.TILT, 5)])
+    voices.news([GameEvent(GameEventKind.TILT, 5)])
     assert voices.buttons(True, True) == []
     voices.buttons(False, False)
-    voices.news([News(NewsKind.BALL_READY, 500, 2)])
+    voices.news([GameEvent(GameEventKind.BALL_READY, 500, 2)])
     assert names(voices.buttons(True, True)) == ["coil left", "coil right"]
 
 
@@ -277,23 +277,29 @@ def test_dead_paddles_are_silent_until_the_next_ball():
 @pytest.mark.parametrize(
     ("kind", "name"),
     [
-        (NewsKind.BALL_SAVED, "ball_saved"),
-        (NewsKind.WARNING, "warning"),
-        (NewsKind.TILT, "tilt"),
-        (NewsKind.UN_STUCK, "un_stuck"),
-        (NewsKind.DOUBLE_ON, "double_on"),
-        (NewsKind.OVER, "game_over"),
+        (GameEventKind.BALL_SAVED, "ball_saved"),
+        (GameEventKind.WARNING, "warning"),
+        (GameEventKind.TILT, "tilt"),
+        (GameEventKind.UN_STUCK, "un_stuck"),
+        (GameEventKind.DOUBLE_ON, "double_on"),
+        (GameEventKind.OVER, "game_over"),
     ],
 )
 def test_news_has_its_sound(kind, name):
-    (note,) = Voices().news([News(kind, 1)])
+    (note,) = Voices().news([GameEvent(kind, 1)])
     assert note.key.name == name
     assert note.left == pytest.approx(note.right)
 
 
 def test_points_alone_make_no_sound_of_their_own():
-    quiet = [NewsKind.SCORED, NewsKind.COMBO, NewsKind.BALL_READY, NewsKind.BALL_LOST, NewsKind.DOUBLE_OFF]
-    assert Voices().news([News(kind, 1) for kind in quiet]) == []
+    quiet = [
+        GameEventKind.SCORED,
+        GameEventKind.COMBO,
+        GameEventKind.BALL_READY,
+        GameEventKind.BALL_LOST,
+        GameEventKind.DOUBLE_OFF,
+    ]
+    assert Voices().news([GameEvent(kind, 1) for kind in quiet]) == []
 
 
 def test_menus_have_their_sounds_and_anything_else_is_silent():

@@ -2,12 +2,12 @@
 
 import pytest
 
-from silverball.app.library import Library
+from silverball.app.catalog import Catalog
 from silverball.app.menus import Button
 from silverball.app.program import Program
 from silverball.app.settings import Settings
-from silverball.game.news import Mode
-from silverball.game.store import Store
+from silverball.game.scores.store import Store
+from silverball.game.view import Mode
 from silverball.table import table_names
 
 FIRST = {"arcade": "classic", "free": "original"}
@@ -50,7 +50,7 @@ def test_a_table_that_makes_no_sense_gives_way_to_the_default(table, mode):
 
 def test_the_menu_shows_the_table_of_the_game_that_it_offers(tmp_path):
     with Store(tmp_path) as store:
-        program = Program(store, Settings(), Library(store, tmp_path))
+        program = Program(store, Settings(), Catalog(store, tmp_path))
         assert program.recipe.name == "Classic"
         program.press_menu(Button.RIGHT)  # from PLAY to MODE
         program.press_menu(Button.START)

@@ -9,9 +9,9 @@ import pytest
 
 from reading import reads
 from silverball.app import startup
-from silverball.app.menus.layout import MIDDLE_Y
-from silverball.app.waiting import LEAST_SHARE, LINE_Y, Progress, draw_line, draw_page
-from silverball.drawing.dots import FULL, WIDTH, Dots
+from silverball.app.menus.page import MIDDLE_Y
+from silverball.app.progress_bar import LEAST_SHARE, LINE_Y, Progress, draw_line, draw_page
+from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.physics import kernel
 from silverball.table import load_table
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from silverball.drawing.store import Store
+from silverball.drawing.picture_cache import Store
 
 
 @pytest.fixture(scope="session")

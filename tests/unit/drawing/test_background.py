@@ -9,9 +9,10 @@ import time
 import numpy as np
 import pytest
 
-from silverball.drawing import Moment, Renderer, compiling
+from silverball.drawing import Moment, Renderer
 from silverball.drawing import background as background_module
-from silverball.drawing.store import Store
+from silverball.drawing import warm_up as compiling
+from silverball.drawing.picture_cache import Store
 from silverball.table import load_table
 
 TABLE = load_table("classic")
@@ -29,7 +30,7 @@ def _compiled():
 def _no_compiler(monkeypatch):
     """Each test has a compiler of its own."""
     monkeypatch.setattr(
-        background_module, "_compiler", background_module.Compiler("silverball.drawing.compiling")
+        background_module, "_compiler", background_module.Compiler("silverball.drawing.warm_up")
     )
 
 
@@ -75,7 +76,7 @@ def test_paddles_turn_while_their_pictures_are_still_baked(tmp_path, monkeypatch
 
 
 def background_module_studio():
-    from silverball.drawing.studio import Studio
+    from silverball.drawing.picture_provider import Studio
 
     return Studio
 
@@ -117,7 +118,7 @@ def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeyp
     monkeypatch.setattr(subprocess, "Popen", Process)
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     assert made_sharp(renderer)
-    assert started[0][1:] == ["-m", "silverball.drawing.compiling"]
+    assert started[0][1:] == ["-m", "silverball.drawing.warm_up"]
     renderer.close()
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pygame
 import pytest
 
-from silverball.drawing import dotpanel
-from silverball.drawing.dotpanel import DotPanel
-from silverball.drawing.dots import HEIGHT, WIDTH, Dots
+from silverball.drawing.dotmatrix import panel as dotpanel
+from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots
+from silverball.drawing.dotmatrix.panel import DotPanel
 
 SIZES = [(690, 138), (1600, 320), (333, 80), (160, 32), (100, 20), (31, 7), (1, 1), (700, 40), (40, 300)]
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from silverball.drawing.dotfonts import BOLD, FONTS, HUGE, NORMAL, TINY, fitting
-from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots, blend, picture, scroll, wipe
+from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots, blend, picture, scroll, wipe
+from silverball.drawing.dotmatrix.fonts import BOLD, FONTS, HUGE, NORMAL, TINY, fitting
 
 FAR = st.integers(-400, 400)
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from silverball.drawing.film import write_film, write_picture
-from silverball.drawing.video import is_whole_mp4
 from silverball.errors import OutputError
+from silverball.export.film import write_film, write_picture
+from silverball.export.mp4 import is_whole_mp4
 
 PICTURES = [np.random.default_rng(seed).integers(0, 256, (120, 80, 3), np.uint8) for seed in range(5)]
 ENDINGS = ["png", "gif", "mp4"]

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from silverball.drawing import Moment, Renderer
-from silverball.drawing import store as store_module
-from silverball.drawing import studio as studio_module
-from silverball.drawing.store import ENDING, Store, key_of
+from silverball.drawing import picture_cache as store_module
+from silverball.drawing import picture_provider as studio_module
+from silverball.drawing.picture_cache import ENDING, Store, key_of
 from silverball.table import generate_table, load_table
 
 TABLE = load_table("classic")

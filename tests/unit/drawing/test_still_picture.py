@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from silverball.drawing import THEMES, Camera, best_size
+from silverball.drawing.bake_table import bake_still, without_obstacles
+from silverball.drawing.bake_threads import Workshop
 from silverball.drawing.kernels.bake import new_canvas
 from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL
 from silverball.drawing.scene import make_scene
-from silverball.drawing.still import bake_still, without_obstacles
-from silverball.drawing.workshop import Workshop
 from silverball.physics import shapes
-from silverball.physics.layout import Part
+from silverball.physics.records import Part
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table, load_table
 
 TABLE = load_table("classic")

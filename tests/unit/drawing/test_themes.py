@@ -53,8 +53,8 @@ def seen(store):
     """The mean colours of the kinds of things in a picture of the clear theme."""
     renderer = Renderer(TABLE, SIZE, theme="clear", store=store)
     picture = renderer.array(Moment.before(TABLE)._replace(balls=(BALL,))).astype(float)
+    from silverball.drawing.bake_threads import Workshop
     from silverball.drawing.kernels.bake import new_canvas
-    from silverball.drawing.workshop import Workshop
 
     scene = make_scene(TABLE, renderer.camera, renderer.theme, (-10.0, -10.0))
     canvas = new_canvas(SIZE)

@@ -11,7 +11,7 @@ from typing import Any
 from boards import full_table, table_of
 from silverball.errors import SilverballError
 from silverball.game.game import Game
-from silverball.game.news import Mode, News, NewsKind, Phase
+from silverball.game.view import GameEvent, GameEventKind, Mode, Phase
 from silverball.players import make_player
 from silverball.table import Arcade, Cylinder, SlantWall, Table
 
@@ -40,7 +40,7 @@ def put(game: Game, x: float, z: float, vx: float = 0.0, vz: float = 0.0, slot: 
     ball["x"][slot], ball["z"][slot], ball["vx"][slot], ball["vz"][slot] = x, z, vx, vz
 
 
-def hit_bumper(game: Game, slot: int = 0) -> list[News]:
+def hit_bumper(game: Game, slot: int = 0) -> list[GameEvent]:
     """Let a ball hit the bumper once from the right; the news of that."""
     put(game, 0.0, 1.2, vz=-10.0, slot=slot)
     game.take_news()
@@ -48,7 +48,7 @@ def hit_bumper(game: Game, slot: int = 0) -> list[News]:
     return game.take_news()
 
 
-def lose(game: Game, slot: int = 0) -> list[News]:
+def lose(game: Game, slot: int = 0) -> list[GameEvent]:
     """Let a ball go into the gutter; the news of that."""
     put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0, slot=slot)
     game.take_news()
@@ -56,7 +56,7 @@ def lose(game: Game, slot: int = 0) -> list[News]:
     return game.take_news()
 
 
-def kinds(news: list[News]) -> list[NewsKind]:
+def kinds(news: list[GameEvent]) -> list[GameEventKind]:
     return [one.kind for one in news]
 
 

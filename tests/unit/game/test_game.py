@@ -10,8 +10,8 @@ from boards import PADDLES
 from silverball.errors import BoardFull, SilverballError
 from silverball.game import rules
 from silverball.game.game import Game
-from silverball.game.news import Mode, NewsKind, Phase
 from silverball.game.stuck import LOOKS
+from silverball.game.view import GameEventKind, Mode, Phase
 from silverball.table import SlantWall, generate_table, load_table
 
 
@@ -19,7 +19,7 @@ def test_a_new_game_is_ready_for_its_first_ball():
     game = Game(bare())
     face = game.face
     assert (face.phase, face.ball, face.balls, face.on_board, face.score) == (Phase.READY, 1, 3, 0, 0)
-    assert [(one.kind, one.value) for one in game.take_news()] == [(NewsKind.BALL_READY, 1)]
+    assert [(one.kind, one.value) for one in game.take_news()] == [(GameEventKind.BALL_READY, 1)]
     assert game.take_news() == []
 
 
@@ -27,7 +27,7 @@ def test_a_hit_scores_the_points_of_the_part():
     game = Game(bare(bumper(70)))
     game.create_ball()
     news = hit_bumper(game)
-    assert [(one.kind, one.value, one.part) for one in news] == [(NewsKind.SCORED, 70, "cylinder[0]")]
+    assert [(one.kind, one.value, one.part) for one in news] == [(GameEventKind.SCORED, 70, "cylinder[0]")]
     assert game.score == 70
 
 
@@ -64,10 +64,10 @@ def test_ball_is_saved_in_the_first_seconds_but_the_one_that_comes_back_is_not()
     game = Game(bare(ball_save=2.0))
     game.create_ball()
     assert game.face.save_left == 2.0
-    assert kinds(lose(game)) == [NewsKind.BALL_SAVED]
+    assert kinds(lose(game)) == [GameEventKind.BALL_SAVED]
     face = game.face
     assert (face.on_board, face.ball, face.save_left, face.phase) == (1, 1, 0.0, Phase.PLAY)
-    assert kinds(lose(game)) == [NewsKind.BALL_LOST, NewsKind.BALL_READY]
+    assert kinds(lose(game)) == [GameEventKind.BALL_LOST, GameEventKind.BALL_READY]
     assert game.face.ball == 2
 
 
@@ -77,15 +77,15 @@ def test_ball_is_not_saved_after_the_first_seconds():
     put(game, *IN_POCKET)
     game.advance(ticks=2 * 240)
     assert game.face.save_left == 0.0
-    assert kinds(lose(game))[0] is NewsKind.BALL_LOST
+    assert kinds(lose(game))[0] is GameEventKind.BALL_LOST
 
 
 def test_a_ball_can_be_saved_as_often_as_the_table_says():
     game = Game(bare(ball_save=60.0, ball_saves=3))
     game.create_ball()
     for _ in range(3):
-        assert kinds(lose(game)) == [NewsKind.BALL_SAVED]
-    assert kinds(lose(game))[0] is NewsKind.BALL_LOST
+        assert kinds(lose(game)) == [GameEventKind.BALL_SAVED]
+    assert kinds(lose(game))[0] is GameEventKind.BALL_LOST
 
 
 def test_hits_in_a_row_make_a_combo_and_a_pause_ends_it():
@@ -112,19 +112,19 @@ def test_a_second_ball_early_uses_one_of_the_balls_left_and_doubles_the_points()
     hit_bumper(game)
     put(game, 0.0, 3.0, vx=5.0)
     game.create_ball()
-    assert kinds(game.take_news()) == [NewsKind.DOUBLE_ON]
+    assert kinds(game.take_news()) == [GameEventKind.DOUBLE_ON]
     assert (game.face.ball, game.face.on_board, game.face.multiplier) == (2, 2, 2)
     put(game, 5.0, -3.0, slot=1)
     assert [one.value for one in hit_bumper(game)] == [200]
     assert game.score == 300
     with pytest.raises(BoardFull):
         game.create_ball()
-    assert kinds(lose(game, 1)) == [NewsKind.BALL_LOST, NewsKind.DOUBLE_OFF]
+    assert kinds(lose(game, 1)) == [GameEventKind.BALL_LOST, GameEventKind.DOUBLE_OFF]
     game.create_ball()
     lose(game, 0)
     with pytest.raises(SilverballError, match="no ball is left: this is ball 3 of 3"):
         game.create_ball()
-    assert kinds(lose(game, 1)) == [NewsKind.BALL_LOST, NewsKind.OVER]
+    assert kinds(lose(game, 1)) == [GameEventKind.BALL_LOST, GameEventKind.OVER]
     assert game.is_over
 
 
@@ -148,7 +148,7 @@ def test_a_game_ends_when_the_player_leaves_it():
     game.create_ball()
     hit_bumper(game)
     game.end()
-    assert [(one.kind, one.value) for one in game.take_news()] == [(NewsKind.OVER, 10)]
+    assert [(one.kind, one.value) for one in game.take_news()] == [(GameEventKind.OVER, 10)]
     assert (game.phase, game.ended) == (Phase.OVER, "stopped")
     game.end()
     assert game.take_news() == []
@@ -173,7 +173,7 @@ def test_a_shove_needs_a_ball():
 
 
 def test_shoves_cost_a_warning_and_then_a_tilt_and_in_free_play_nothing():
-    for mode, expected in ((Mode.ARCADE, [NewsKind.WARNING, NewsKind.TILT]), (Mode.FREE, [])):
+    for mode, expected in ((Mode.ARCADE, [GameEventKind.WARNING, GameEventKind.TILT]), (Mode.FREE, [])):
         game = Game(bare(*POCKET), mode=mode)
         game.create_ball()
         game.take_news()
@@ -203,7 +203,7 @@ def test_with_tilt_the_paddles_are_dead_until_the_board_is_empty_whatever_is_pre
     put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0)
     game.take_news()
     game.advance(True, True, ticks=60)
-    assert kinds(game.take_news()) == [NewsKind.BALL_LOST, NewsKind.BALL_READY]
+    assert kinds(game.take_news()) == [GameEventKind.BALL_LOST, GameEventKind.BALL_READY]
     assert [paddle.angle for paddle in game.world.paddles] == up
 
 
@@ -229,7 +229,7 @@ def test_a_still_ball_is_shoved_by_the_machine_again_and_again():
     start = game.tick
     game.advance(ticks=looks(2.0))
     (news,) = game.take_news()
-    assert news.kind is NewsKind.UN_STUCK
+    assert news.kind is GameEventKind.UN_STUCK
     assert 240 < news.tick - start <= looks(2.0)
     assert [event.tick for event in game.take_events() if event.kind == "jitter"] == [news.tick]
     assert game.face.warnings == 0
@@ -245,7 +245,7 @@ def test_a_ball_caught_with_a_raised_paddle_is_let_be_until_nothing_has_scored_f
         while not (news := game.take_news()):
             game.advance(left=held)
             assert game.tick < 3000
-        assert kinds(news) == [NewsKind.UN_STUCK]
+        assert kinds(news) == [GameEventKind.UN_STUCK]
         assert expected * 240 <= news[0].tick <= (expected + 1.0) * 240
 
 
@@ -281,7 +281,7 @@ def test_a_ball_that_no_paddle_reaches_is_shoved_however_the_player_bangs_the_pa
     for _ in range(240):
         game.advance(True, False, ticks=2)
         game.advance(False, True, ticks=2)
-    assert NewsKind.UN_STUCK in kinds(game.take_news())
+    assert GameEventKind.UN_STUCK in kinds(game.take_news())
 
 
 def test_on_a_table_where_nothing_scores_a_moving_ball_is_let_be():
@@ -313,7 +313,7 @@ def test_a_fault_of_the_world_ends_the_game_and_the_replay_names_it():
     game.take_news()
     game.advance(ticks=10)
     assert (game.fault, game.phase, game.ended) == ("not_finite", Phase.OVER, "not_finite")
-    assert kinds(game.take_news()) == [NewsKind.OVER]
+    assert kinds(game.take_news()) == [GameEventKind.OVER]
     assert game.replay.ended == "not_finite"
 
 

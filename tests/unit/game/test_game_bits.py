@@ -10,9 +10,9 @@ from games import IN_POCKET, POCKET, bare, bring, bumper, put, ruled
 from boards import PADDLES, full_table, table_of
 from silverball.errors import NoRoom, SilverballError, StateError
 from silverball.game.game import Game
-from silverball.game.news import Mode, NewsKind
+from silverball.game.view import GameEventKind, Mode
 from silverball.table import Cylinder, SlantWall, Table
-from silverball.world import Ball, World
+from silverball.world import BallState, World
 
 QUICK = {
     "ball_save": 8.0,
@@ -77,8 +77,8 @@ def test_many_ticks_at_once_are_the_bits_news_and_events_of_one_at_a_time(name: 
             assert at_once.take_events() == singly.take_events()
         assert at_once.replay == singly.replay
     if mode is Mode.ARCADE:
-        special = NewsKind.UN_STUCK if name == "pocket" else NewsKind.BALL_SAVED
-        assert {NewsKind.BALL_LOST, NewsKind.TILT, special} <= told
+        special = GameEventKind.UN_STUCK if name == "pocket" else GameEventKind.BALL_SAVED
+        assert {GameEventKind.BALL_LOST, GameEventKind.TILT, special} <= told
 
 
 def test_a_leap_that_loses_events_is_played_again_tick_by_tick():
@@ -105,7 +105,7 @@ def test_a_leap_that_loses_events_is_played_again_tick_by_tick():
 def test_a_saved_ball_that_finds_no_room_comes_at_the_same_tick_however_ticks_are_played(monkeypatch):
     create = World.create_ball
 
-    def create_later(world: World) -> Ball:
+    def create_later(world: World) -> BallState:
         if 0 < world.tick < 310:
             raise NoRoom("not yet")
         return create(world)

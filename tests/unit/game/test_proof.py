@@ -10,8 +10,8 @@ from datetime import UTC, datetime
 import pytest
 
 from silverball.game.game import Game
-from silverball.game.proof import Counted, prove
-from silverball.game.store import Score
+from silverball.game.scores.proof import Counted, prove
+from silverball.game.scores.store import Score
 from silverball.table import Table, dump_table, load_table, table_digest
 
 SEED = 5

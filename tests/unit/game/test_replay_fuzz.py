@@ -18,9 +18,10 @@ from games import bare, bumper, frantic_game, reflex_game
 
 from silverball.errors import SilverballError
 from silverball.game.game import Game
-from silverball.game.news import Mode
-from silverball.game.replay import Replay, compare, verify
-from silverball.game.replay_reader import checksum
+from silverball.game.replay.format import Replay
+from silverball.game.replay.reader import checksum
+from silverball.game.replay.verify import compare, verify
+from silverball.game.view import Mode
 from silverball.table import generate_table, table_digest
 
 SECONDS_PER_FILE = 5.0  # a file of a few kilobytes must be done with long before

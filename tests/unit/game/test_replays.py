@@ -14,13 +14,16 @@ from hypothesis import strategies as st
 
 from boards import CLASSIC, PADDLES
 from silverball.errors import StateError
-from silverball.game import replay_lines, replay_record
 from silverball.game.game import Game
-from silverball.game.news import Mode, NewsKind
-from silverball.game.replay import InputRefusedError, Replay, ReplayPlayer, Verdict, compare, verify
-from silverball.game.replay_digest import GROUPS
-from silverball.game.replay_reader import checksum
+from silverball.game.replay import lines as replay_lines
+from silverball.game.replay import recorder as replay_record
+from silverball.game.replay.digest import GROUPS
+from silverball.game.replay.format import Replay
+from silverball.game.replay.player import InputRefusedError, ReplayPlayer
+from silverball.game.replay.reader import checksum
+from silverball.game.replay.verify import Verdict, compare, verify
 from silverball.game.rules import RULES_VERSION
+from silverball.game.view import GameEventKind, Mode
 from silverball.physics import PHYSICS_VERSION
 from silverball.table import Cylinder, generate_table
 
@@ -309,7 +312,7 @@ def test_watching_shows_the_news_and_events_of_the_game():
     player = ReplayPlayer(game.replay)
     player.advance(700)
     news = game.take_news()
-    assert NewsKind.BALL_READY in [one.kind for one in news]
+    assert GameEventKind.BALL_READY in [one.kind for one in news]
     assert player.game.take_news() == news
     assert player.game.take_events() == game.take_events()
 

@@ -7,20 +7,20 @@ from hypothesis import strategies as st
 
 from boards import table_of
 from silverball.game import rules
-from silverball.game.news import Mode, NewsKind
+from silverball.game.view import GameEventKind, Mode
 from silverball.table import Arcade, Table
 
 RATE = 240
 numbers = st.integers
 
 
-def laws_of(mode: Mode = Mode.ARCADE, **arcade) -> rules.Laws:
+def laws_of(mode: Mode = Mode.ARCADE, **arcade) -> rules.RuleConfig:
     table: Table = table_of().model_copy(update={"arcade": Arcade(**arcade)})
-    return rules.Laws.of(table, mode, RATE)
+    return rules.RuleConfig.of(table, mode, RATE)
 
 
-def with_balls(laws: rules.Laws, count: int, tick: int = 0) -> rules.Standing:
-    now = rules.Standing()
+def with_balls(laws: rules.RuleConfig, count: int, tick: int = 0) -> rules.RuleState:
+    now = rules.RuleState()
     for number in range(1, count + 1):
         now, _ = rules.started(laws, now, tick, number)
     return now
@@ -67,7 +67,7 @@ def test_free_play_counts_plain_points_and_has_no_combos():
     now = with_balls(laws, 2)
     for tick in range(9):
         now, news = rules.hit(laws, now, tick, 100, "")
-        assert [one.kind for one in news] == [NewsKind.SCORED]
+        assert [one.kind for one in news] == [GameEventKind.SCORED]
     assert now.score == 900
     assert (now.combo, rules.multiplier(laws, now, 9)) == (0, 1)
 
@@ -89,48 +89,48 @@ def test_a_ball_is_given_back_in_its_first_seconds_and_no_more_often_than_the_ta
         now, news = rules.drained(laws, now, tick, ball)
         if not now.waiting:
             break
-        assert news[0].kind is NewsKind.BALL_SAVED
+        assert news[0].kind is GameEventKind.BALL_SAVED
         given_back += 1
         ball += 1
         now, _ = rules.put_back(laws, now, 0, ball)
     assert given_back == (saves if tick < 4 * RATE else 0)
-    assert news[0].kind is NewsKind.BALL_LOST
+    assert news[0].kind is GameEventKind.BALL_LOST
 
 
 def test_the_saved_ball_counts_as_one_in_play_so_that_double_points_go_on():
     laws = laws_of(ball_save=4.0)
     now = with_balls(laws, 2)
     now, news = rules.drained(laws, now, 100, 1)
-    assert [one.kind for one in news] == [NewsKind.BALL_SAVED]
+    assert [one.kind for one in news] == [GameEventKind.BALL_SAVED]
     assert rules.multiplier(laws, now, 100) == laws.double
 
 
 def test_a_second_ball_that_is_brought_early_is_not_saved():
     laws = laws_of(ball_save=4.0)
     now, news = rules.drained(laws, with_balls(laws, 2), 100, 2)
-    assert [one.kind for one in news] == [NewsKind.BALL_LOST, NewsKind.DOUBLE_OFF]
+    assert [one.kind for one in news] == [GameEventKind.BALL_LOST, GameEventKind.DOUBLE_OFF]
     assert now.waiting == ()
 
 
 def test_double_points_are_told_when_they_begin_and_when_they_end():
     laws = laws_of(ball_save=0.0)
-    now, first = rules.started(laws, rules.Standing(), 0, 1)
+    now, first = rules.started(laws, rules.RuleState(), 0, 1)
     now, second = rules.started(laws, now, 0, 2)
-    assert [one.kind for one in (*first, *second)] == [NewsKind.DOUBLE_ON]
+    assert [one.kind for one in (*first, *second)] == [GameEventKind.DOUBLE_ON]
     now, news = rules.drained(laws, now, 9, 1)
-    assert [one.kind for one in news] == [NewsKind.BALL_LOST, NewsKind.DOUBLE_OFF]
+    assert [one.kind for one in news] == [GameEventKind.BALL_LOST, GameEventKind.DOUBLE_OFF]
 
 
 @given(numbers(1, 6))
 def test_a_game_has_as_many_balls_as_the_table_says_and_ends_with_the_last(balls):
     laws = laws_of(balls=balls, ball_save=0.0)
-    now = rules.Standing()
+    now = rules.RuleState()
     for number in range(1, balls + 1):
         assert rules.refusal(laws, now) == ""
         now, _ = rules.started(laws, now, number, number)
         now, news = rules.drained(laws, now, number, number)
-        last = [NewsKind.OVER] if number == balls else [NewsKind.BALL_READY]
-        assert [one.kind for one in news] == [NewsKind.BALL_LOST, *last]
+        last = [GameEventKind.OVER] if number == balls else [GameEventKind.BALL_READY]
+        assert [one.kind for one in news] == [GameEventKind.BALL_LOST, *last]
         assert news[0].value == number
     assert now.over
     assert "over" in rules.refusal(laws, now)
@@ -145,11 +145,11 @@ def test_there_is_no_ball_beyond_the_last_while_it_is_in_play():
 
 def test_free_play_has_balls_without_end():
     laws = laws_of(Mode.FREE, balls=1)
-    now = rules.Standing()
+    now = rules.RuleState()
     for number in range(1, 50):
         now, _ = rules.started(laws, now, number, number)
         now, news = rules.drained(laws, now, number, number)
-        assert [one.kind for one in news] == [NewsKind.BALL_LOST, NewsKind.BALL_READY]
+        assert [one.kind for one in news] == [GameEventKind.BALL_LOST, GameEventKind.BALL_READY]
     assert not now.over
     assert rules.refusal(laws, now) == ""
 
@@ -170,7 +170,7 @@ def test_the_third_of_three_quick_shoves_is_a_tilt_and_the_second_a_warning():
     for tick in (0, 24, 48):
         now, news = rules.shoved(laws, now, tick)
         told.append([one.kind for one in news])
-    assert told == [[], [NewsKind.WARNING], [NewsKind.TILT]]
+    assert told == [[], [GameEventKind.WARNING], [GameEventKind.TILT]]
     assert now.tilted
 
 
@@ -182,8 +182,8 @@ def test_a_table_gives_so_many_warnings_and_then_tilts(warnings):
     for number in range(warnings + 1):
         now, news = rules.shoved(laws, now, 100_000 * number)
         told += [(one.kind, one.value) for one in news]
-    counted = [(NewsKind.WARNING, number) for number in range(1, warnings + 1)]
-    assert told == [*counted, (NewsKind.TILT, 0)]
+    counted = [(GameEventKind.WARNING, number) for number in range(1, warnings + 1)]
+    assert told == [*counted, (GameEventKind.TILT, 0)]
 
 
 def test_while_tilted_nothing_scores_nothing_is_saved_and_no_ball_is_brought():
@@ -194,7 +194,7 @@ def test_while_tilted_nothing_scores_nothing_is_saved_and_no_ball_is_brought():
     assert rules.hit(laws, now, 1, 100, "")[0].score == 0
     assert "tilt" in rules.refusal(laws, now)
     now, news = rules.drained(laws, now, 2, 1)
-    assert news[0].kind is NewsKind.BALL_LOST
+    assert news[0].kind is GameEventKind.BALL_LOST
     assert now.tilted
     now, _ = rules.drained(laws, now, 3, 2)
     assert not now.tilted
@@ -226,5 +226,5 @@ def test_a_ball_that_the_game_does_not_know_changes_nothing():
 def test_a_game_that_is_ended_twice_ends_once():
     laws = laws_of()
     now, news = rules.ended(with_balls(laws, 1), 5)
-    assert [one.kind for one in news] == [NewsKind.OVER]
+    assert [one.kind for one in news] == [GameEventKind.OVER]
     assert rules.ended(now, 6) == (now, ())

@@ -11,9 +11,9 @@ import pytest
 
 from silverball.app.settings import Settings
 from silverball.errors import SilverballError
-from silverball.game import store as stores
-from silverball.game.database import Database
-from silverball.game.store import FILE, PLACES, SCHEMA, Store
+from silverball.game.scores import store as stores
+from silverball.game.scores.database import Database
+from silverball.game.scores.store import FILE, PLACES, SCHEMA, Store
 
 BOARD = {"mode": "arcade", "table_name": "random", "table_digest": "d" * 64}
 

@@ -18,7 +18,7 @@ import pytest
 
 import killed_player
 from killed_player import initials
-from silverball.game.store import FILE, Store
+from silverball.game.scores.store import FILE, Store
 
 MOST_THINGS = 12  # that are shown to a player before he is killed: three games
 LONGEST = {"write": 0.003, "game": 0.04}  # [s] that he lives on then; what takes about so long

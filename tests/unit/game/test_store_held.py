@@ -15,9 +15,9 @@ import pytest
 
 from holder import ALONE, WRITES, held
 from silverball.errors import SilverballError
-from silverball.game import database
-from silverball.game.store import FILE, Store
-from silverball.game.waiting import NAME
+from silverball.game.scores import database
+from silverball.game.scores.pending import NAME
+from silverball.game.scores.store import FILE, Store
 
 REPLAY = "a line of a replay\n" * 100
 LIST = ("arcade", "random", "d" * 64)
@@ -229,7 +229,7 @@ def test_lists_that_were_read_before_are_shown_while_the_file_cannot_even_be_rea
 def full(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
     """Whether there is no room for more files; it can be changed."""
     is_full = [True]
-    whole = "silverball.game.waiting.write_whole"
+    whole = "silverball.game.scores.pending.write_whole"
     from silverball.wholefile import write_whole
 
     def write(path, work):

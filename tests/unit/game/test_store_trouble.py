@@ -16,8 +16,8 @@ from pathlib import Path
 import pytest
 
 from silverball.errors import SilverballError
-from silverball.game import database
-from silverball.game.store import FILE, SCHEMA, Store
+from silverball.game.scores import database
+from silverball.game.scores.store import FILE, SCHEMA, Store
 
 REPLAY = "a line of a replay\n" * 100
 NOBODY = 65534

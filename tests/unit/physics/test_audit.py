@@ -9,7 +9,7 @@ import pytest
 
 from boards import LEFT, RIGHT, launched, table_of
 from silverball.physics.audit import deepest, part_gap
-from silverball.physics.layout import Part
+from silverball.physics.records import Part
 from silverball.table import Cylinder, SlantWall, TriangularPrism
 from silverball.world import World
 

@@ -11,7 +11,7 @@ from boards import PADDLES, edited, full_table, launched, place, speed_of, table
 from silverball.errors import BoardFull, NoRoom, StateError
 from silverball.physics.audit import deepest
 from silverball.physics.balls import create_ball
-from silverball.physics.layout import Outcome
+from silverball.physics.records import Outcome
 from silverball.table import Cylinder, SlantWall
 from silverball.world import World, WorldBatch
 

@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from silverball.physics import codecache, kernel
+from silverball.physics import code_cache as codecache
+from silverball.physics import kernel
 
 
 def tripled_and(number, more):
@@ -178,7 +179,8 @@ def test_a_file_in_the_place_of_the_folder_of_all_code_makes_room(tmp_path, monk
 WRITER = """
 import sys
 from pathlib import Path
-from silverball.physics import codecache, kernel
+from silverball.physics import kernel
+from silverball.physics import code_cache as codecache
 from test_damaged_code import compiled, tripled_and
 one = compiled(tripled_and, Path(sys.argv[1]))
 print(one(2, 1), one(2.0, 1), one(1, 2.0))

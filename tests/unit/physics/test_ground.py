@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from boards import full_table, table_of
-from silverball.physics import audit, ground
+from silverball.physics import audit
 from silverball.physics.audit import depth_in_borders, depth_in_standing
-from silverball.physics.ground import BLOCKED, MAIN_GROUND, OFF_BOARD, ground_of, is_narrow, mark_at, survey
-from silverball.players.hostile import hostile_table
+from silverball.soak import regions as ground
+from silverball.soak.hostile import hostile_table
+from silverball.soak.regions import BLOCKED, MAIN_GROUND, OFF_BOARD, ground_of, is_narrow, mark_at, survey
 from silverball.table import SlantWall, ball_places, generate_table, load_table
 from silverball.world.compile import compile_tables
 
@@ -48,7 +49,7 @@ def test_the_audit_imports_nothing_of_the_solver(module) -> None:
     tree = ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
     imported = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     ours = {name for name in imported if name.startswith("silverball")}
-    assert ours <= {"silverball.physics.kernel", "silverball.physics.layout", "silverball.physics.audit"}
+    assert ours <= {"silverball.physics.kernel", "silverball.physics.records", "silverball.physics.audit"}
 
 
 @pytest.mark.parametrize("name", TABLES)

@@ -16,8 +16,8 @@ import pytest
 from boards import full_table, table_of
 from silverball.physics.contact import search
 from silverball.physics.flight import flight_to_shape
-from silverball.physics.layout import BALL, GRIP, NOTHING, Part
 from silverball.physics.motion import depart
+from silverball.physics.records import BALL, GRIP, NOTHING, Part
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table
 from silverball.world import World, WorldBatch
 from silverball.world.compile import Boards, compile_tables

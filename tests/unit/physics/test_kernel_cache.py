@@ -11,7 +11,8 @@ import sys
 from pathlib import Path
 
 import silverball
-from silverball.physics import codecache, kernel
+from silverball.physics import code_cache as codecache
+from silverball.physics import kernel
 
 PACKAGE = Path(silverball.__file__).parent
 
@@ -97,5 +98,5 @@ def test_a_full_disk_costs_the_cache_and_nothing_else(tmp_path, monkeypatch):
     compiled = kernel.kernel(doubled)
     compiled._cache = codecache.CodeCache(doubled, tmp_path)
     assert compiled(4) == 8
-    assert tried, "nothing was to be written: numba keeps its cache elsewhere, mend codecache.py"
+    assert tried, "nothing was to be written: numba keeps its cache elsewhere, mend code_cache.py"
     assert not list(tmp_path.rglob("*.nb?"))

@@ -20,7 +20,7 @@ import pytest
 
 from boards import Paddle, first_contact, launched, moment, place, speed_of, table_of
 from oracle import Body, Twin
-from silverball.physics.layout import Motion
+from silverball.physics.records import Motion
 from silverball.physics.tolerances import CREEP
 from silverball.table import Cylinder, Table, TriangularPrism
 from silverball.world import World

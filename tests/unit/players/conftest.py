@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from silverball.players import soak as soak_module
+from silverball.soak import rounds as soak_module
 
 
 @pytest.fixture

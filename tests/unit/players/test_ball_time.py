@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from boards import PADDLES, full_table, table_of
-from silverball.players.ball_time import STALL, median_life, time_balls
-from silverball.players.press import PlayerKind
+from silverball.metrics.ball_time import STALL, median_life, time_balls
+from silverball.players.simple import PlayerKind
 from silverball.table import SlantWall
 from silverball.world import World, WorldBatch
 

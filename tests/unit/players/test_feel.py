@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from boards import CLASSIC, PADDLES, mirrored, table_of
-from silverball.physics.layout import records
-from silverball.players.feel import measure, ratio, share, shots_as_dict
-from silverball.players.feelgames import TICK_RATE
-from silverball.players.feelshots import SHOT, Aim, Shots, shots_of
+from silverball.metrics.feel import measure, ratio, share, shots_as_dict
+from silverball.metrics.game_traces import TICK_RATE
+from silverball.metrics.shots import SHOT, Aim, Shots, shots_of
+from silverball.physics.records import records
 from silverball.table import load_table
 
 AIMS = (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)

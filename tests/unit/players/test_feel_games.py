@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from boards import full_table, place, speed_of
-from silverball.players import make_player
-from silverball.players.feelgames import (
+from silverball.metrics.game_traces import (
     BEGINNER,
     CELLS,
     GAME,
@@ -22,7 +21,8 @@ from silverball.players.feelgames import (
     kind_of,
     play_games,
 )
-from silverball.players.press import PlayerKind
+from silverball.players import make_player
+from silverball.players.simple import PlayerKind
 from silverball.world import World, WorldBatch
 
 TABLE = full_table()

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from boards import full_table, launched, table_of
+from silverball.metrics.ball_time import time_balls
 from silverball.players import make_player
-from silverball.players.ball_time import time_balls
-from silverball.players.games import play
 from silverball.players.planner import Notes, Planner, beat_of, plan_batch
-from silverball.players.press import PlayerKind
+from silverball.players.rollout import play
+from silverball.players.simple import PlayerKind
 from silverball.world import World, WorldBatch
-from silverball.world.state import digest
+from silverball.world.saved_world import digest
 
 FEW = 12  # branches: enough to play, and quick
 

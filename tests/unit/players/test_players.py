@@ -10,10 +10,10 @@ import pytest
 from boards import PADDLES, full_table, launched, table_of
 from silverball.errors import SilverballError
 from silverball.players import make_player
-from silverball.players.games import play
-from silverball.players.press import RANDOM_HOLD, PlayerKind
+from silverball.players.rollout import play
+from silverball.players.simple import RANDOM_HOLD, PlayerKind
 from silverball.world import World, WorldBatch
-from silverball.world.state import digest
+from silverball.world.saved_world import digest
 
 SIMPLE = ("idle", "random", "reflex", "hold")  # the planner has tests of its own
 

@@ -11,11 +11,8 @@ import pytest
 
 from boards import LEFT, PADDLES, RIGHT, full_table, table_of
 from holed import hide_from_the_solver, options_of
-from silverball.physics.layout import Part
-from silverball.players.drive import QUIET
-from silverball.players.hostile import hostile_table
-from silverball.players.soak import Soaked, play_round, soaked_round
-from silverball.players.watch import (
+from silverball.physics.records import Part
+from silverball.soak.checks import (
     DEPTH,
     STUCK_AFTER,
     Found,
@@ -24,6 +21,9 @@ from silverball.players.watch import (
     greatest_sag,
     look_at_places,
 )
+from silverball.soak.driver import QUIET
+from silverball.soak.hostile import hostile_table
+from silverball.soak.rounds import Soaked, play_round, soaked_round
 from silverball.table import (
     Cylinder,
     SlantWall,

@@ -9,11 +9,11 @@ import pytest
 from boards import full_table, table_of
 from holed import Holed, Narrow, options_of
 from silverball.errors import StateError
-from silverball.players import soak as soak_module
-from silverball.players.finding import Finding, again
-from silverball.players.soak import Options
-from silverball.players.soaklog import SoakLog, code_digest, log_name, soak
-from silverball.players.watch import STUCK_AFTER, Found
+from silverball.soak import rounds as soak_module
+from silverball.soak.campaign import SoakLog, code_digest, log_name, soak
+from silverball.soak.checks import STUCK_AFTER, Found
+from silverball.soak.finding import Finding, again
+from silverball.soak.rounds import Options
 from silverball.table import SlantWall, parse_table
 
 BOARD = full_table()
@@ -105,8 +105,8 @@ def test_a_file_of_other_code_or_of_no_soak_is_refused(short_rounds, tmp_path) -
 def test_a_soak_of_a_hopeless_solver_ends_and_writes_some_of_its_findings(
     short_rounds, monkeypatch, tmp_path
 ) -> None:
-    monkeypatch.setattr("silverball.players.soaklog.ENOUGH", 3)
-    monkeypatch.setattr("silverball.players.soaklog.MOST_FILES", 2)
+    monkeypatch.setattr("silverball.soak.campaign.ENOUGH", 3)
+    monkeypatch.setattr("silverball.soak.campaign.MOST_FILES", 2)
     monkeypatch.setattr(soak_module, "WorldBatch", Holed)
     log = soak(options_of(worlds=6), 10**9, tmp_path / "soak.json")
     assert sum(log.totals.found.values()) >= 3

@@ -7,10 +7,10 @@ import pytest
 
 from boards import LEFT, PADDLES, full_table, launched, table_of
 from silverball.errors import SilverballError
+from silverball.metrics.ball_time import time_balls
 from silverball.players import PlayerKind, make_player
-from silverball.players.ball_time import time_balls
-from silverball.players.games import play
-from silverball.players.sight import COLUMNS, MIRRORED, SEEN, Raw, look, see
+from silverball.players.features import COLUMNS, MIRRORED, SEEN, Raw, look, see
+from silverball.players.rollout import play
 from silverball.players.trained import ROWS, SCALE, Policy, Trained, hold_of, press_batch, stored_policy
 from silverball.table import Cylinder, generate_table
 from silverball.world import World, WorldBatch

@@ -6,7 +6,7 @@ import pytest
 
 from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.players import PlayerKind
-from silverball.players.games import play
+from silverball.players.rollout import play
 from silverball.table import check, generate_table, load_table
 from silverball.world import WorldBatch
 

@@ -14,7 +14,7 @@ import pytest
 from boards import full_table
 from silverball.table import generate_table
 from silverball.world import World, WorldBatch
-from silverball.world.state import digest
+from silverball.world.saved_world import digest
 
 TABLE = full_table()
 COUNT, TICKS = 24, 300
@@ -99,7 +99,7 @@ PROGRAM = """
 import numpy as np
 from boards import full_table
 from silverball.world import World, WorldBatch
-from silverball.world.state import digest
+from silverball.world.saved_world import digest
 world = World("random", seed=7)
 for tick in range(600):
     if len(world.balls) < 2:

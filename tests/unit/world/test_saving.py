@@ -16,7 +16,7 @@ from silverball.errors import FaultError, StateError
 from silverball.physics.audit import deepest
 from silverball.table import table_digest
 from silverball.world import World
-from silverball.world.state import pack
+from silverball.world.saved_world import pack
 
 TABLE = full_table()
 

@@ -12,7 +12,7 @@ import pytest
 import silverball as sb
 from boards import PADDLES, full_table, table_of
 from silverball.errors import StateError
-from silverball.physics.layout import WORLD
+from silverball.physics.records import WORLD
 from silverball.world import World, WorldBatch
 from silverball.world.snapshot import HEADER, Snapshot
 

@@ -4,7 +4,7 @@
 commands say (`commands.py`).
 """
 
-from silverball.app.menus.actions import (
+from silverball.app.bindings import (
     ACTIONS,
     ActionLine,
     action_by_key,

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from silverball.app.menus import layout
-from silverball.app.menus.actions import keys_of
-from silverball.app.menus.board import MODES
+from silverball.app.bindings import keys_of
+from silverball.app.menus import page as layout
 from silverball.app.menus.commands import Attract, Button, Command
 from silverball.app.menus.desk import Desk, Page
-from silverball.drawing.dotfonts import BOLD, NORMAL
-from silverball.drawing.dots import HEIGHT, WIDTH, Dots, scroll, wipe
-from silverball.drawing.dotshows import draw_ball
+from silverball.app.menus.high_scores import MODES
+from silverball.drawing.dotmatrix.animations import draw_ball
+from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, scroll, wipe
+from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 
 PAGE_TIME = 4.0  # [s]
 CHANGE_TIME = 0.5  # [s] of it, in which one page gives way to the next

@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 from typing import Any, NamedTuple
 
-from silverball.app.menus import layout
+from silverball.app.menus import page as layout
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.desk import Desk, Page
-from silverball.drawing.dots import WIDTH, Dots
+from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 
 
 class Value(NamedTuple):

@@ -11,7 +11,7 @@ from enum import StrEnum
 from typing import TypeAlias
 
 from silverball.app.settings import Settings
-from silverball.game.news import Mode
+from silverball.game.view import Mode
 
 
 class Button(StrEnum):

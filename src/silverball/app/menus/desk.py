@@ -6,14 +6,14 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from silverball.app.menus import layout
-from silverball.app.menus.actions import ActionLine, keys_of, shown
+from silverball.app.bindings import ActionLine, keys_of, shown
+from silverball.app.demo_players import Performer
+from silverball.app.menus import page as layout
 from silverball.app.menus.commands import Button, Change, Command
-from silverball.app.performers import Performer
 from silverball.app.settings import Settings
-from silverball.drawing.dotfonts import NORMAL
-from silverball.drawing.dots import Dots
-from silverball.game.news import Mode
+from silverball.drawing.dotmatrix.canvas import Dots
+from silverball.drawing.dotmatrix.fonts import NORMAL
+from silverball.game.view import Mode
 
 MESSAGE_TIME = 2.5  # [s] for which a message is shown at least
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from silverball.app.menus.board import ScoresPage
+from silverball.app.demo_players import PERFORMERS
 from silverball.app.menus.choice import ChoicePage, Item, Value
 from silverball.app.menus.commands import (
     Change,
@@ -16,9 +16,9 @@ from silverball.app.menus.commands import (
     WatchScore,
 )
 from silverball.app.menus.desk import Desk, TableEntry
-from silverball.app.menus.letters import LettersPage
+from silverball.app.menus.entry import LettersPage
+from silverball.app.menus.high_scores import ScoresPage
 from silverball.app.menus.remap import remap_page
-from silverball.app.performers import PERFORMERS
 
 SEED_DIGITS = 9
 BROKEN = "!"  # before the name of a table that cannot be played

@@ -12,21 +12,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 
-from silverball.app.menus import layout
-from silverball.app.menus.actions import ACTIONS, ActionLine, Kind
+from silverball.app.bindings import ACTIONS, ActionLine, Kind
+from silverball.app.demo_players import Performer
+from silverball.app.menus import page as layout
 from silverball.app.menus.attract import AttractPage
 from silverball.app.menus.commands import Attract, Button, Command, EndReplay, Initials
 from silverball.app.menus.desk import Desk, JoystickEntry, ScoreRow, TableEntry
+from silverball.app.menus.entry import InitialsPage, LettersPage
 from silverball.app.menus.front import main_page
-from silverball.app.menus.gamepages import over_page, pause_page
-from silverball.app.menus.letters import InitialsPage, LettersPage
+from silverball.app.menus.game_pages import over_page, pause_page
 from silverball.app.menus.remap import CapturePage
 from silverball.app.menus.transport import ReplayFace, TransportPage
-from silverball.app.performers import Performer
 from silverball.app.settings import Settings
-from silverball.drawing.dotfonts import NORMAL
-from silverball.drawing.dots import FULL, HEIGHT, WIDTH, Dots
-from silverball.game.news import Mode
+from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots
+from silverball.drawing.dotmatrix.fonts import NORMAL
+from silverball.game.view import Mode
 
 REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it counts again
 REPEAT_EVERY = 0.09  # [s]

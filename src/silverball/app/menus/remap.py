@@ -11,12 +11,12 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import Literal, TypeAlias
 
-from silverball.app.menus import layout
-from silverball.app.menus.actions import RESERVED, ActionLine, Kind, assigned, names_of, owner, with_chosen
+from silverball.app.bindings import RESERVED, ActionLine, Kind, assigned, names_of, owner, with_chosen
+from silverball.app.menus import page as layout
 from silverball.app.menus.choice import ChoicePage, Item
 from silverball.app.menus.commands import Button, Change, Command
 from silverball.app.menus.desk import Desk, JoystickEntry, Page
-from silverball.drawing.dots import Dots
+from silverball.drawing.dotmatrix.canvas import Dots
 
 PATIENCE = 8.0  # [s] to press the key; who has no keyboard at hand comes back by waiting
 

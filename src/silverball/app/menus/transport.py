@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import NamedTuple
 
-from silverball.app.menus import layout
+from silverball.app.menus import page as layout
 from silverball.app.menus.commands import (
     Button,
     Command,
@@ -15,8 +15,8 @@ from silverball.app.menus.commands import (
     ReplaySpeed,
 )
 from silverball.app.menus.desk import Desk, Page
-from silverball.drawing.dotfonts import NORMAL
-from silverball.drawing.dots import WIDTH, Dots
+from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
+from silverball.drawing.dotmatrix.fonts import NORMAL
 
 JUMP = 5.0  # [s]
 STUDY = 270.0  # [s] for which a replay may be held beyond what other pages wait

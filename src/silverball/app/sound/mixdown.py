@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from silverball.app.sound.bank import FULL, Bank, Samples, make_bank, to_samples
 from silverball.app.sound.rolling import LANES, Gains, Rolling, RollingBall
@@ -19,8 +20,7 @@ from silverball.app.sound.synth import RATE, Wave, single, soft_limit
 from silverball.app.sound.voices import Note, Voices
 
 if TYPE_CHECKING:
-    from silverball.drawing.video import Soundtrack
-    from silverball.game.news import News
+    from silverball.game.view import GameEvent
     from silverball.table import Table
     from silverball.world import Event, World
 
@@ -29,6 +29,18 @@ VOLUME = 0.8
 
 
 LONGEST_FRAME = RATE // 2  # [sample] in which strengths change evenly; in a longer frame, then no more
+
+
+class Soundtrack(NamedTuple):
+    """The sound of a film.
+
+    Attributes:
+        samples: int16 [sample, 2], left and right.
+        rate: Samples a second.
+    """
+
+    samples: NDArray[np.int16]
+    rate: int
 
 
 class Frame(NamedTuple):
@@ -49,7 +61,7 @@ class Frame(NamedTuple):
     events: tuple[Event, ...] = ()
     balls: tuple[RollingBall, ...] = ()
     buttons: tuple[bool, bool] = (False, False)
-    news: tuple[News, ...] = ()
+    news: tuple[GameEvent, ...] = ()
     menu: str = ""
 
     @classmethod
@@ -59,7 +71,7 @@ class Frame(NamedTuple):
         time: float,
         events: Iterable[Event],
         buttons: tuple[bool, bool] = (False, False),
-        news: Iterable[News] = (),
+        news: Iterable[GameEvent] = (),
     ) -> Self:
         """The frame that ends with a world as it is now, at a time in the film [s]."""
         return cls(time, world.time, tuple(events), rolling_balls(world), buttons, tuple(news))
@@ -83,7 +95,7 @@ class FilmSound:
         world: World,
         events: Iterable[Event],
         buttons: tuple[bool, bool] = (False, False),
-        news: Iterable[News] = (),
+        news: Iterable[GameEvent] = (),
     ) -> None:
         """The next picture: a world as it is now, what happened since the last one, the buttons now."""
         time = (len(self._frames) + 1) / self._picture_rate
@@ -91,8 +103,6 @@ class FilmSound:
 
     def track(self) -> Soundtrack:
         """The sound of all pictures so far, for `write_film`."""
-        from silverball.drawing.video import Soundtrack
-
         seconds = len(self._frames) / self._picture_rate
         return Soundtrack(mixdown(self._frames, seconds, self._table, self._tick_rate), RATE)
 

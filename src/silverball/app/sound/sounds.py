@@ -13,7 +13,7 @@ from silverball.app.sound.voices import Note, Voices
 
 if TYPE_CHECKING:
     from silverball.app.sound.mixer import Mixer
-    from silverball.game.news import News
+    from silverball.game.view import GameEvent
     from silverball.table import Table
     from silverball.world import Event
 
@@ -99,7 +99,7 @@ class Sounds:
         self._voices.begin(table)
         self._end_rolling()
 
-    def tell(self, news: Iterable[News]) -> None:
+    def tell(self, news: Iterable[GameEvent]) -> None:
         """What the game says; before `note`, so that bells know of the hits in a row."""
         self._play(self._voices.news(news))
 

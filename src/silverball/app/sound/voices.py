@@ -11,10 +11,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.sound.bank import Key
-from silverball.app.sound.placing import pan, strength_of
+from silverball.app.sound.panning import pan, strength_of
 from silverball.app.sound.recipes import RECIPES
 from silverball.app.sound.scale import BELL_STEPS, SCALE
-from silverball.game.news import News, NewsKind
+from silverball.game.view import GameEvent, GameEventKind
 
 if TYPE_CHECKING:  # the window opens before the physics is loaded
     from silverball.table import Table
@@ -50,12 +50,12 @@ _HITS = {  # part → sound, least strength (a cylinder kicks by itself, however
     "ball": ("balls", 0.0),
 }
 _NEWS = {
-    NewsKind.BALL_SAVED: "ball_saved",
-    NewsKind.WARNING: "warning",
-    NewsKind.TILT: "tilt",
-    NewsKind.UN_STUCK: "un_stuck",
-    NewsKind.DOUBLE_ON: "double_on",
-    NewsKind.OVER: "game_over",
+    GameEventKind.BALL_SAVED: "ball_saved",
+    GameEventKind.WARNING: "warning",
+    GameEventKind.TILT: "tilt",
+    GameEventKind.UN_STUCK: "un_stuck",
+    GameEventKind.DOUBLE_ON: "double_on",
+    GameEventKind.OVER: "game_over",
 }
 MENU = {
     "move": "menu_move",
@@ -183,15 +183,15 @@ class Voices:
 
     # --- what the game says -------------------------------------------------------------------------
 
-    def news(self, news: Iterable[News]) -> list[Note]:
+    def news(self, news: Iterable[GameEvent]) -> list[Note]:
         """The notes of a game's news; hits in a row are remembered for the bells of the same ticks."""
         notes = []
         for one in news:
-            if one.kind is NewsKind.COMBO:
+            if one.kind is GameEventKind.COMBO:
                 self._told[one.tick] = one.value
-            elif one.kind is NewsKind.TILT:
+            elif one.kind is GameEventKind.TILT:
                 self._is_tilted = True
-            elif one.kind in (NewsKind.BALL_READY, NewsKind.OVER):
+            elif one.kind in (GameEventKind.BALL_READY, GameEventKind.OVER):
                 self._is_tilted = False
             if one.kind in _NEWS:
                 notes.append(self._note(_NEWS[one.kind], 0, 1.0, pan(0.0, 1.0)))

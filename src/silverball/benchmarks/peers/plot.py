@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from silverball.benchmarks.peers.accuracy import BOUNCES
-from silverball.benchmarks.peers.contest import Result
-from silverball.benchmarks.peers.contestants import BATCH, EXTRA, SILVERBALL
+from silverball.benchmarks.peers.comparison import Result
+from silverball.benchmarks.peers.engines import BATCH, EXTRA, SILVERBALL
 from silverball.errors import MissingExtra
 
 COLOURS = {BATCH: "#c2185b", SILVERBALL: "#f48fb1", "pymunk": "#1976d2", "Box2D v3": "#388e3c"}

@@ -6,8 +6,8 @@ import json
 from typing import Any
 
 from silverball.benchmarks.peers.accuracy import BOUNCES
-from silverball.benchmarks.peers.contest import Result, Row, described, orders_ahead
-from silverball.benchmarks.peers.contestants import BATCH, SILVERBALL
+from silverball.benchmarks.peers.comparison import Result, Row, described, orders_ahead
+from silverball.benchmarks.peers.engines import BATCH, SILVERBALL
 
 HEADERS = (
     "engine", "step [s]", "frames/s", "a batch is faster by", "one world is faster by", "escapes",

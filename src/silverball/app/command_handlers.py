@@ -1,0 +1,117 @@
+"""What does a command of the menus bring about? One function for each kind of command."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING
+
+from silverball.app.catalog import trouble_words
+from silverball.app.menus import commands
+from silverball.app.sessions import GameSession
+
+if TYPE_CHECKING:
+    from silverball.app.program import Program
+
+
+@singledispatch
+def execute(command: object, program: Program) -> None:
+    """Do what a command says; None says nothing."""
+    if command is not None:
+        raise TypeError(f"expected a command of the menus, got {command!r}")
+
+
+@execute.register(commands.Play)
+def _(command: commands.Play, program: Program) -> None:
+    program.play(command.mode, command.table, command.seed)
+
+
+@execute.register(commands.WatchLast)
+def _(command: commands.WatchLast, program: Program) -> None:
+    program.watch_text(program.store.last_game() or "", "the last game")
+
+
+@execute.register(commands.WatchScore)
+def _(command: commands.WatchScore, program: Program) -> None:
+    program.watch_score(int(command.key))
+
+
+@execute.register(commands.WatchMachine)
+def _(command: commands.WatchMachine, program: Program) -> None:
+    program.show_off(command.player)
+
+
+@execute.register(commands.Attract)
+def _(command: commands.Attract, program: Program) -> None:
+    if command.on and program.is_ready and not program.has_game:
+        program.show_off(nobody_there=True)
+
+
+@execute.register(commands.Change)
+def _(command: commands.Change, program: Program) -> None:
+    program.use(command.settings)
+
+
+@execute.register(commands.SeeBoard)
+def _(command: commands.SeeBoard, program: Program) -> None:
+    program.see_board(command.seed)
+
+
+@execute.register(commands.TellTrouble)
+def _(command: commands.TellTrouble, program: Program) -> None:
+    program.say(trouble_words(command.table, command.problem))
+
+
+@execute.register(commands.Quit)
+def _(command: commands.Quit, program: Program) -> None:
+    program.is_over = True
+
+
+@execute.register(commands.Resume)
+def _(command: commands.Resume, program: Program) -> None:
+    """The menu has closed: the game goes on."""
+
+
+@execute.register(commands.Restart)
+def _(command: commands.Restart, program: Program) -> None:
+    if isinstance(program.stage, GameSession):
+        program.begin(program.stage.game.mode)
+
+
+@execute.register(commands.EndGame)
+def _(command: commands.EndGame, program: Program) -> None:
+    if isinstance(program.stage, GameSession) and not program.stage.has_ended:
+        program.give_up(program.stage)
+    program.stage = None
+
+
+@execute.register(commands.SaveReplay)
+def _(command: commands.SaveReplay, program: Program) -> None:
+    path = program.keep_file("game")
+    program.menus.say("saved" if path else "could not be saved")
+    program.say(f"the replay is at {path}" if path else "the data folder cannot be written")
+
+
+@execute.register(commands.Initials)
+def _(command: commands.Initials, program: Program) -> None:
+    program.keeper.rename(program.ended, command.text)
+    program.use(program.settings.changed(initials=command.text))
+
+
+@execute.register(commands.ReplaySpeed)
+def _(command: commands.ReplaySpeed, program: Program) -> None:
+    program.change_speed(command.step)
+
+
+@execute.register(commands.ReplayPause)
+def _(command: commands.ReplayPause, program: Program) -> None:
+    program.is_held = not program.is_held
+
+
+@execute.register(commands.ReplayJump)
+def _(command: commands.ReplayJump, program: Program) -> None:
+    program.jump(command.seconds)
+
+
+@execute.register(commands.EndReplay)
+def _(command: commands.EndReplay, program: Program) -> None:
+    program.end_watching()

@@ -1,0 +1,129 @@
+"""How is a page laid out? A title above, what is chosen large in the middle, and a line of help below."""
+
+from __future__ import annotations
+
+import math
+
+from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots
+from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, Font
+
+TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 24
+FAINT, HALF = 70, 145  # brightness of what is less important
+MOST_MARKS = 15  # for more choices there is no room
+MARGIN = 13  # [dot] on both sides of the middle, for the arrows
+
+SCROLL_SPEED = 40.0  # [dot/s] of texts that are too long; a letter in 0.15 s
+SCROLL_WAIT = 1.0  # [s] before it starts, and at its end
+SLIDE_TIME = 0.12  # [s] in which one choice gives way to the next
+FOOT_TURN = 3.0  # [s] after which the line of help says the next thing
+
+
+def title(dots: Dots, text: str, index: int = 0, count: int = 0, seconds: float = 0.0) -> None:
+    """The title, and which of how many choices is shown: by a mark for each, or by numbers."""
+    place = f"{index + 1}/{count}" if count > MOST_MARKS else ""
+    marks = NORMAL.width(place) if place else 4 * count if count > 1 else 0
+    marquee(dots, text, TITLE_Y, 0, WIDTH - marks - 2, NORMAL, seconds, "left", HALF)
+    if place:
+        dots.text(place, WIDTH, TITLE_Y, NORMAL, "right", HALF)
+    if place or not marks:
+        return
+    for mark in range(count):
+        x = WIDTH - marks + mark * marks // count
+        if mark == index:
+            dots.box(x, TITLE_Y + 2, 3, 3)
+        else:
+            dots.box(x + 1, TITLE_Y + 3, 1, 1, HALF)
+
+
+def middle(dots: Dots, text: str, seconds: float, shift: int = 0, brightness: int = 255) -> None:
+    """The large line; long texts get smaller letters, and longer ones scroll.
+
+    Args:
+        dots: Where to write.
+        text: What to write.
+        seconds: Since it is there.
+        shift: How far it is moved to the right [dot].
+        brightness: Of its dots.
+    """
+    room = WIDTH - 2 * MARGIN
+    if BOLD.width(text) <= room:
+        dots.text(
+            text, WIDTH // 2 + shift, MIDDLE_Y, BOLD, "center", brightness, window=(MARGIN, WIDTH - MARGIN)
+        )
+    elif shift:
+        left = max((room - NORMAL.width(text)) // 2, 0) + MARGIN
+        dots.text(
+            text, left + shift, MIDDLE_Y + 2, NORMAL, "left", brightness, window=(MARGIN, WIDTH - MARGIN)
+        )
+    else:
+        marquee(dots, text, MIDDLE_Y + 2, MARGIN, WIDTH - MARGIN, NORMAL, seconds, "center", brightness)
+
+
+def arrows(dots: Dots, seconds: float, strong: bool = False) -> None:
+    """That there is something on both sides; strong: that the paddle buttons change what stands between."""
+    brightness = round(170 + 85 * math.cos(2.0 * math.pi * seconds)) if strong else HALF
+    dots.text("◄", 0, MIDDLE_Y, BOLD, "left", brightness)
+    dots.text("►", WIDTH, MIDDLE_Y, BOLD, "right", brightness)
+
+
+def foot(dots: Dots, texts: tuple[str, ...], seconds: float, brightness: int = 190) -> None:
+    """The line of help: several texts take turns, long ones scroll."""
+    texts = tuple(text for text in texts if text)
+    if not texts:
+        return
+    times = [max(FOOT_TURN, scroll_time(NORMAL.width(text))) for text in texts]
+    at = max(seconds, 0.0) % sum(times)
+    for text, time in zip(texts, times, strict=True):
+        if at < time:
+            marquee(dots, text, FOOT_Y, 0, WIDTH, NORMAL, at, "center", brightness)
+            return
+        at -= time
+
+
+def marquee(
+    dots: Dots,
+    text: str,
+    y: int,
+    left: int,
+    right: int,
+    font: Font,
+    seconds: float,
+    align: str = "center",
+    brightness: int = 255,
+) -> None:
+    """A text between two columns; it scrolls if there is not enough room."""
+    width, room = font.width(text), right - left
+    if width <= room:
+        x = left + (room - width) // 2 if align == "center" else left
+    else:
+        at = max(seconds, 0.0) % scroll_time(width, room)
+        x = left - min(round(max(at - SCROLL_WAIT, 0.0) * SCROLL_SPEED), width - room)
+    dots.text(text, x, y, font, "left", brightness, window=(left, right))
+
+
+def meter(dots: Dots, x: int, y: int, width: int, share: float, height: int = 5) -> None:
+    """A bar that is filled to a share, 0 to 1."""
+    dots.frame(x, y, width, height, HALF)
+    dots.box(x + 1, y + 1, round((width - 2) * min(max(share, 0.0), 1.0)), height - 2)
+
+
+def slide(seconds: float, direction: int) -> int:
+    """How far a new choice has yet to go [dot], so long after a button was pressed."""
+    left = 1.0 - seconds / SLIDE_TIME
+    return round(direction * (WIDTH - 2 * MARGIN) * left * left) if 0.0 < left <= 1.0 else 0
+
+
+def blinks(seconds: float, period: float = 0.5) -> bool:
+    """Whether something that blinks is visible."""
+    return seconds % period < 0.6 * period
+
+
+def under(dots: Dots, below: Dots) -> None:
+    """Lay the upper part of what the game shows above the line of help."""
+    dots.pixels[: FOOT_Y - 1] = below.pixels[: FOOT_Y - 1]
+    dots.pixels[FOOT_Y - 1 : HEIGHT] = 0
+
+
+def scroll_time(width: int, room: int = WIDTH) -> float:
+    """How long a text of a width takes to be read to its end, where there is so much room [s]."""
+    return 2.0 * SCROLL_WAIT + max(width - room, 0) / SCROLL_SPEED

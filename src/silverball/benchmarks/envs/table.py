@@ -1,0 +1,90 @@
+"""How is it told: a table in the terminal, the same in Markdown, and one JSON object.
+
+Beside each of our rates stands how many times that of each yardstick it is. A yardstick that sees a state is
+compared with states alone; one that draws pictures with everything, since whoever wants to learn pinball
+can choose.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from silverball.benchmarks.envs.measure import Rate, Result
+
+
+def yardsticks(result: Result) -> list[Rate]:
+    """Those that ours are compared with."""
+    return [rate for rate in result.rates if rate.yardstick]
+
+
+def ratio(rate: Rate, yardstick: Rate) -> float | None:
+    """How many times as many steps; None where that would compare pictures with a state, or no steps."""
+    if not (rate.ours or rate is yardstick) or not rate.sees:
+        return None
+    if yardstick.sees == "state" and rate.sees != "state":
+        return None
+    return rate.value / yardstick.value
+
+
+def cells(rate: Rate, measures: list[Rate]) -> list[str]:
+    """A row as people read it."""
+    value = f"{rate.value:,.0f}" if rate.unit == "steps/s" else f"{rate.value:.3f} {rate.unit}"
+    return [rate.name, value, *(_times(ratio(rate, measure)) for measure in measures)]
+
+
+def _times(value: float | None) -> str:
+    if value is None:
+        return ""
+    return f"{value:,.0f} ×" if value >= 10.0 else f"{value:.2f} ×"
+
+
+def headers(measures: list[Rate]) -> list[str]:
+    """What stands above the columns."""
+    return ["environment", "steps/s", *(f"beside {measure.yardstick}" for measure in measures)]
+
+
+def footing(result: Result) -> list[str]:
+    """What it was measured on, and who was missing."""
+    versions = ", ".join(f"{name} {version}" for name, version in result.versions.items())
+    rounds = f"Medians of {result.rounds} rounds" if result.rounds > 1 else "One round"
+    lines = [f"{rounds}, random actions; {result.machine}; {versions}."]
+    if result.missing:
+        lines.append(f"Not installed: {', '.join(result.missing)}.")
+    return lines
+
+
+def terminal_table(result: Result) -> Any:
+    """A table for rich."""
+    from rich.table import Table
+
+    measures = yardsticks(result)
+    table = Table(title="Environments")
+    for index, header in enumerate(headers(measures)):
+        table.add_column(header, justify="right" if index else "left", no_wrap=index == 0)
+    were_ours = True
+    for rate in result.rates:
+        if were_ours and not rate.ours:
+            table.add_section()
+        were_ours = rate.ours
+        table.add_row(*cells(rate, measures))
+    return table
+
+
+def markdown(result: Result) -> str:
+    """The table in Markdown, with what it was measured on."""
+    measures = yardsticks(result)
+    lines = [headers(measures), ["---"] + ["---:"] * (1 + len(measures))]
+    lines += [cells(rate, measures) for rate in result.rates]
+    rows = ["| " + " | ".join(line) + " |" for line in lines]
+    return "\n".join([*rows, "", *footing(result), ""])
+
+
+def as_json(result: Result) -> str:
+    """Everything, with the ratios by the yardstick's name."""
+    measures = yardsticks(result)
+    rates = [
+        {**rate._asdict(), "beside": {one.yardstick: ratio(rate, one) for one in measures}}
+        for rate in result.rates
+    ]
+    return json.dumps({**result._asdict(), "rates": rates}, indent=2)

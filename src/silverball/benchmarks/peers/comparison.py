@@ -1,0 +1,207 @@
+"""What comes of it when every engine plays the same tables in one run?
+
+Speed is measured in rounds: in each, every engine plays the same board (of a recipe: another in each round)
+for a moment, one after the other, so that the noise of the machine hits all alike; ratios are taken within a
+round. Escapes, penetration, errors and drift do not depend on the clock and are measured after.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Callable
+from typing import NamedTuple
+
+from silverball.benchmarks.peers import accuracy, energy, play, tables
+from silverball.benchmarks.peers.engine import FRAME_RATE
+from silverball.benchmarks.peers.engines import BATCH, OWN, SILVERBALL, Engine, Entry, versions
+from silverball.benchmarks.peers.penetration import Watched, Watcher, watch
+from silverball.benchmarks.peers.silverball_table import FRAMES_A_CALL, batch_speed
+from silverball.benchmarks.speed import machine
+from silverball.table import Table
+
+PRESSES = 6000  # frames of random buttons in a round, repeated if more are played
+
+
+class Plan(NamedTuple):
+    """How much to measure.
+
+    Attributes:
+        worlds: In Silverball's batch.
+        rounds: Of the measurement of speed, each on a board of its own.
+        seconds: Wall time of each engine in each round [s].
+        calls: Of the batch in each round, of `FRAMES_A_CALL` frames.
+        boards: On which play is watched.
+        frames: Watched on each of them, by each engine.
+        scenes: Of the accuracy.
+        energy_seconds: Simulated for the drift [s].
+    """
+
+    worlds: int = 4096
+    rounds: int = 9
+    seconds: float = 0.3
+    calls: int = 8
+    boards: int = 10
+    frames: int = 10_000
+    scenes: int = accuracy.SCENES
+    energy_seconds: int = energy.SECONDS
+
+
+class Row(NamedTuple):
+    """What one engine did with one stepping.
+
+    Attributes:
+        engine: Its name.
+        stepping: Its step, as people write it.
+        frames_per_second: Median of the rounds, on one core.
+        slowest: Of the slowest round.
+        fastest: Of the fastest round.
+        batch_ratio: How many times as fast Silverball's batch was, median of the rounds' ratios.
+        world_ratio: The same for one Silverball world stepped from Python at 1/60 s, as the peers are.
+        watched: Frames in which escapes and penetration were looked for.
+        escapes: Balls that got where they cannot be.
+        deepest: Deepest penetration [u].
+        errors: Median error [u] after each of `accuracy.BOUNCES`.
+        energy: Relative error of the energy on a closed elastic table.
+    """
+
+    engine: str
+    stepping: str
+    frames_per_second: float
+    slowest: float
+    fastest: float
+    batch_ratio: float
+    world_ratio: float
+    watched: int
+    escapes: int
+    deepest: float
+    errors: list[float]
+    energy: float
+
+
+class Result(NamedTuple):
+    """All rows, and what they were measured on."""
+
+    rows: list[Row]
+    plan: Plan
+    balls: float
+    ball_radius: float
+    machine: str
+    versions: dict[str, str]
+
+
+def units(plan: Plan, engines: list[Engine]) -> int:
+    """How often `run` will report progress."""
+    entries = len(OWN) + sum(len(engine.entries()) for engine in engines)
+    return plan.rounds * (entries + 1) + 1 + entries * (plan.boards + 2)
+
+
+def run(recipe: Table, plan: Plan, engines: list[Engine], advance: Callable[[str], None]) -> Result:
+    """Measure everything.
+
+    Args:
+        recipe: A table, or a recipe, of which every round gets a board of its own.
+        plan: How much to measure.
+        engines: The peers that take part.
+        advance: Called with what is being done now, before each of `units` pieces of work.
+    """
+    entries = [*OWN, *(entry for engine in engines for entry in engine.entries())]
+    speeds, batch, balls = measure_speeds(recipe, plan, entries, advance)
+    advance("following the scenes in 50 digits")
+    scenes = accuracy.scenes(recipe, plan.scenes)
+    opened = tables.board(recipe, 0)
+    rows = []
+    for entry, own in zip(entries, speeds, strict=True):
+        watched = watch_entry(recipe, plan, entry, advance)
+        advance(f"{entry.name}, {entry.stepping.label}: errors")
+        errors = accuracy.median_errors(scenes, entry.build)
+        advance(f"{entry.name}, {entry.stepping.label}: energy")
+        drift = energy.drift(entry.build(tables.elastic(opened)), energy.start(opened), plan.energy_seconds)
+        rows.append(row(entry.name, entry.stepping.label, own, batch, speeds[0], watched, errors, drift))
+    # A world of a batch is, bit for bit, the single world: what does not depend on the clock is the same.
+    first = rows[0]
+    seen = Watched(first.watched, first.escapes, first.deepest)
+    stepping = f"{first.stepping}, {plan.worlds} worlds"
+    rows.insert(0, row(BATCH, stepping, batch, batch, speeds[0], seen, first.errors, first.energy))
+    radius = recipe.board.ball_radius
+    return Result(rows, plan, balls, radius, machine(), versions(engines))
+
+
+def row(
+    name: str,
+    stepping: str,
+    own: list[float],
+    batch: list[float],
+    world: list[float],
+    watched: Watched,
+    errors: list[float],
+    drift: float,
+) -> Row:
+    """A row from the speeds of all rounds and what else was measured."""
+    return Row(
+        name,
+        stepping,
+        statistics.median(own),
+        min(own),
+        max(own),
+        statistics.median(b / o for b, o in zip(batch, own, strict=True)),
+        statistics.median(w / o for w, o in zip(world, own, strict=True)),
+        *watched,
+        errors,
+        drift,
+    )
+
+
+def measure_speeds(
+    recipe: Table, plan: Plan, entries: list[Entry], advance: Callable[[str], None]
+) -> tuple[list[list[float]], list[float], float]:
+    """Frames per second of every entry and of the batch in each round, and the batch's balls a board."""
+    speeds: list[list[float]] = [[] for _ in entries]
+    batch, balls = [], []
+    for number in range(plan.rounds):
+        table = tables.board(recipe, number)
+        press = play.random_presses(PRESSES, number)
+        places = play.free_places(table, number)
+        advance(f"speed, round {number + 1}: {BATCH}")
+        frames, mean_balls = batch_speed(table, plan.worlds, plan.calls, press, number)
+        batch.append(frames)
+        balls.append(mean_balls)
+        for entry, own in zip(entries, speeds, strict=True):
+            advance(f"speed, round {number + 1}: {entry.name}, {entry.stepping.label}")
+            own.append(play.speed(play.Game(entry.build(table), press, places), plan.seconds))
+    return speeds, batch, statistics.mean(balls)
+
+
+def watch_entry(recipe: Table, plan: Plan, entry: Entry, advance: Callable[[str], None]) -> Watched:
+    """Escapes and penetration of one entry, on some boards."""
+    escapes, depth = 0, 0.0
+    for number in range(plan.boards):
+        advance(f"{entry.name}, {entry.stepping.label}: watching")
+        table = tables.board(recipe, number)
+        watcher = Watcher(table)
+        press = play.random_presses(plan.frames, number)
+        game = play.Game(entry.build(table), press, play.free_places(table, number))
+        escapes += watch(game, plan.frames, watcher)
+        depth = max(depth, watcher.depth)
+    return Watched(plan.boards * plan.frames, escapes, depth)
+
+
+def orders_ahead(result: Result) -> list[float]:
+    """By how many powers of ten the best peer's error exceeds Silverball's, for each of the bounces."""
+    own = result.rows[0].errors
+    peers = [row.errors for row in result.rows if row.engine not in (BATCH, SILVERBALL)]
+    return [
+        math.log10(min(errors[index] for errors in peers) / own[index]) if own[index] > 0.0 else math.inf
+        for index in range(len(own))
+    ]
+
+
+def described(plan: Plan) -> str:
+    """What was measured, in words."""
+    return (
+        f"A frame is 1/{FRAME_RATE} s of one table with two balls and random paddles, on one core; speeds "
+        f"are medians of {plan.rounds} rounds, ratios are taken within a round. "
+        f"The batch moves {plan.worlds} worlds by {FRAMES_A_CALL} frames a call; every other row is one "
+        f"world stepped from Python. Errors are medians of {plan.scenes} scenes, against 50 digits. "
+        f"Energy: {plan.energy_seconds} s of elastic bouncing on a closed board."
+    )

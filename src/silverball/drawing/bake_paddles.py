@@ -1,0 +1,181 @@
+"""What does a paddle look like at every angle? Small pictures that are laid over the table, board by board.
+
+A sprite says for each pixel how much of what is there stays (its shadow takes some away, its body all), what
+is added, and how high the paddle is there: new = old · stays / 255 + added.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.drawing.bake_table import to_bytes, without_obstacles
+from silverball.drawing.bake_threads import Workshop
+from silverball.drawing.camera import Camera
+from silverball.drawing.kernels.bake import new_canvas
+from silverball.drawing.kernels.cells import list_cells
+from silverball.drawing.kernels.stage import HALO, NEAR, Scene
+from silverball.drawing.pictures import PaddleSprite
+from silverball.drawing.scene import make_scene
+from silverball.drawing.themes import Theme
+from silverball.physics.records import Part
+from silverball.table import Paddle, Table
+
+DEGREES = 1.0  # between two pictures of a paddle, about
+SHADOW_REACH = 0.7  # [u] around a paddle that its shadow and its mirror image take
+NUMBERS = {"left": Part.LEFT_PADDLE, "right": Part.RIGHT_PADDLE}
+
+
+def step_count(paddle: Paddle) -> int:
+    """Into how many equal steps a paddle's swing is cut."""
+    return max(math.ceil((paddle.up_angle - paddle.rest_angle) / DEGREES), 1)
+
+
+def step_of(paddle: Paddle, angle: float) -> int:
+    """The step nearest to an angle [deg]."""
+    share = (angle - paddle.rest_angle) / (paddle.up_angle - paddle.rest_angle)
+    steps = step_count(paddle)
+    return min(max(round(share * steps), 0), steps)
+
+
+def angle_of(paddle: Paddle, step: int) -> float:
+    """The angle [deg] of a step; the first and the last are the stops themselves."""
+    steps = step_count(paddle)
+    return paddle.up_angle if step == steps else (
+        paddle.rest_angle + step * (paddle.up_angle - paddle.rest_angle) / steps
+    )  # fmt: skip
+
+
+def in_turns(steps: int) -> list[int]:
+    """The steps in the order in which they are of use: the stops, the middle, the quarters, and so on."""
+    order = dict.fromkeys((0, steps))
+    stride = steps
+    while stride > 1:
+        stride = (stride + 1) // 2
+        order.update(dict.fromkeys(range(0, steps, stride)))
+    return list(order)
+
+
+def is_mirrored(table: Table, camera: Camera) -> bool:
+    """Whether the right paddle is the left one in the mirror, and the picture too."""
+    paddles = {paddle.side: paddle for paddle in table.paddle}
+    if len(paddles) < 2 or abs(2.0 * camera.frustum.across - camera.size[0]) > 1e-6:
+        return False
+    left, right = paddles["left"], paddles["right"]
+    x, z = left.pivot
+    return right == left.model_copy(update={"side": "right", "pivot": (x, -z), "name": right.name,
+        "stroke": right.stroke, "return_stroke": right.return_stroke, "points": right.points,
+        "restitution": right.restitution, "restitution_falloff": right.restitution_falloff})  # fmt: skip
+
+
+class PaddleBaker:
+    """Bakes the paddles of a table, one angle at a time.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its look.
+        workshop: Who does it.
+    """
+
+    def __init__(self, table: Table, camera: Camera, theme: Theme, workshop: Workshop) -> None:
+        self._camera = camera
+        self._theme = theme
+        self._workshop = workshop
+        self._paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
+        self._bare = make_scene(without_obstacles(table), camera, theme)
+        self._with = make_scene(without_obstacles(table), camera, theme, (0.0, 0.0))
+        self._canvas = new_canvas(camera.size)
+        self._canvas.mask[:] = False
+        self._bare_canvas = new_canvas(camera.size)
+        self._bare_canvas.mask[:] = False
+        self._bare_done: set[str] = set()
+
+    def bake(self, side: str, step: int) -> PaddleSprite:
+        """The sprite of the paddle of a side at a step of its swing."""
+        self._bake_bare(side)
+        paddle = self._paddles[side]
+        angle = angle_of(paddle, step)
+        left, top, right, bottom = self._box(paddle, angle)
+        box = (slice(top, bottom), slice(left, right))
+        self._canvas.mask[box] = True
+        self._workshop.bake(self._scene(side, angle), self._canvas)
+        self._canvas.mask[box] = False
+        is_paddle = self._canvas.part[box] == NUMBERS[side]
+        return _sprite(
+            left, top, self._bare_canvas.shown[box], self._canvas.shown[box],
+            np.where(is_paddle, self._canvas.height[box], np.float32(-1.0)),
+        )  # fmt: skip
+
+    def _bake_bare(self, side: str) -> None:
+        """Bake what is below a paddle at any angle, once."""
+        if side in self._bare_done:
+            return
+        paddle = self._paddles[side]
+        for step in range(0, step_count(paddle) + 1):
+            left, top, right, bottom = self._box(paddle, angle_of(paddle, step))
+            self._bare_canvas.mask[top:bottom, left:right] = True
+        self._workshop.bake(self._bare, self._bare_canvas)
+        self._bare_canvas.mask[:] = False
+        self._bare_done.add(side)
+
+    def _scene(self, side: str, angle: float) -> Scene:
+        scene = self._with
+        looks = scene.looks.copy()
+        for number in NUMBERS.values():
+            if number != NUMBERS[side]:
+                looks[number]["form"] = 0
+        look = looks[NUMBERS[side]]
+        look["sine"], look["cosine"] = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+        unit = float(scene.stage[0]["unit"])
+        return scene._replace(
+            looks=looks,
+            near=list_cells(scene.stage, looks, scene.shapes, NEAR * unit),
+            lit=list_cells(scene.stage, looks, scene.shapes, HALO * unit),
+        )
+
+    def _box(self, paddle: Paddle, angle: float) -> tuple[int, int, int, int]:
+        corners = paddle.corners(angle)
+        reach = SHADOW_REACH * self._camera.build.unit
+        xs, zs = [x for x, _ in corners], [z for _, z in corners]
+        return self._camera.box(
+            min(xs) - reach, max(xs) + 0.3 * reach, min(zs) - reach, max(zs) + reach, 0.0,
+            1.3 * self._camera.build.paddle_height,
+        )  # fmt: skip
+
+
+def _sprite(
+    left: int, top: int, bare: NDArray[np.float32], seen: NDArray[np.float32], height: NDArray[np.float32]
+) -> PaddleSprite:
+    """What must stay and be added so that a bare table becomes one with a paddle, cut to what differs."""
+    below, above = to_bytes(bare).astype(np.float32), to_bytes(seen).astype(np.float32)
+    dimmed = np.clip((above.sum(axis=2) + 1.0) / (below.sum(axis=2) + 1.0), 0.0, 1.0)
+    # At its edges a pixel is part paddle: half of what is below stays, and what is missing is added.
+    solid = (height >= 0.0).astype(np.float32)
+    around = solid.copy()
+    around[1:] += solid[:-1]
+    around[:-1] += solid[1:]
+    around[:, 1:] += solid[:, :-1]
+    around[:, :-1] += solid[:, 1:]
+    stays = np.where(solid > 0.0, np.where(around >= 5.0, 0.0, 0.25), dimmed)
+    stays = np.round(255.0 * stays)
+    added = np.clip(np.round(above - below * stays[:, :, None] / 255.0), 0.0, 255.0)
+    changed = (np.abs(above - below).max(axis=2) > 1.0) | (height >= 0.0)
+    rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
+    if not len(rows):
+        rows = columns = np.zeros(1, np.int64)
+        if not changed.size:
+            empty = np.zeros((0, 0), np.uint8)
+            return PaddleSprite(left, top, empty, np.zeros((0, 0, 3), np.uint8), empty.astype(np.float32))
+    box = (slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1))
+    stays = np.where(changed, np.minimum(stays, 254.0), 255.0)  # 255 says: nothing here
+    added[~changed] = 0.0
+    return PaddleSprite(
+        left + box[1].start,
+        top + box[0].start,
+        np.ascontiguousarray(stays[box].astype(np.uint8)),
+        np.ascontiguousarray(added[box].astype(np.uint8)),
+        np.ascontiguousarray(height[box].astype(np.float16).astype(np.float32)),
+    )

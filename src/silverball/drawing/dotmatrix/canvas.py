@@ -1,0 +1,225 @@
+"""What stands on the score display? 160 × 32 dots, each more or less bright, and what can be drawn with them.
+
+Places are (x to the right, y downwards) from the upper left dot. What reaches beyond the display is cut off.
+Brightness is 0 (dark) to 255.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, Self, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.drawing.dotmatrix.fonts import BOLD, HUGE, NORMAL, TINY, Font
+
+WIDTH, HEIGHT = 160, 32
+FULL = 255
+
+Align: TypeAlias = Literal["left", "center", "right"]
+Direction: TypeAlias = Literal["left", "right", "up", "down"]
+Levels: TypeAlias = NDArray[np.uint8]
+
+
+class Dots:
+    """A picture of dots.
+
+    Attributes:
+        pixels: Brightness, 0 to 255, shape [row, column].
+
+    Args:
+        pixels: The picture to start with, taken over as it is; dark if none is given.
+    """
+
+    def __init__(self, pixels: Levels | None = None) -> None:
+        self.pixels: Levels = np.zeros((HEIGHT, WIDTH), np.uint8) if pixels is None else pixels
+
+    def copy(self) -> Self:
+        """The same picture, on its own."""
+        return type(self)(self.pixels.copy())
+
+    def clear(self, brightness: int = 0) -> None:
+        """Make all dots equally bright."""
+        self.pixels[:] = brightness
+
+    def text(
+        self,
+        text: str,
+        x: int,
+        y: int,
+        font: Font = NORMAL,
+        align: Align = "left",
+        brightness: int = FULL,
+        scale: int = 1,
+        window: tuple[int, int] = (0, WIDTH),
+    ) -> int:
+        """Write one line; what lies between its strokes stays as it is.
+
+        Args:
+            text: What to write. A character that the font lacks becomes a box.
+            x: Where it starts, has its middle or ends (the first dot to the right of it), by `align`.
+            y: The top of its capitals.
+            font: How it is written.
+            align: What `x` means.
+            brightness: Of its dots; 0 writes dark letters on bright ground.
+            scale: How many dots wide and high each dot of the font becomes.
+            window: Columns, first and one after the last, outside which nothing is written.
+
+        Returns:
+            How wide the text is [dot].
+        """
+        width = scale * font.width(text)
+        left = x - {"left": 0, "center": width // 2, "right": width}[align]
+        at = left
+        for character in text:
+            glyph = font.glyph(character)
+            if scale != 1:
+                glyph = glyph.repeat(scale, axis=0).repeat(scale, axis=1)
+            self.stamp(glyph, at, y, brightness, window)
+            at += glyph.shape[1] + scale * font.gap
+        return width
+
+    def number(
+        self,
+        value: int,
+        x: int,
+        y: int,
+        width: int = WIDTH,
+        fonts: tuple[Font, ...] = (HUGE, BOLD, NORMAL, TINY),
+        align: Align = "center",
+        brightness: int = FULL,
+    ) -> Font:
+        """Write a whole number, its thousands apart, in the first of some fonts in which it fits.
+
+        Args:
+            value: The number.
+            x: As for `text`.
+            y: The top of the space for it, as high as the first font; smaller ones stand in its middle.
+            width: Space for it [dot].
+            fonts: The fonts to try; the last one is taken even if it is too wide.
+            align: What `x` means.
+            brightness: Of its dots.
+
+        Returns:
+            The font that was taken.
+        """
+        text = f"{value:,}"
+        font = next((font for font in fonts if font.width(text) <= width), fonts[-1])
+        self.text(text, x, y + (fonts[0].height - font.height) // 2, font, align, brightness)
+        return font
+
+    def stamp(
+        self,
+        mask: NDArray[np.bool_],
+        x: int,
+        y: int,
+        brightness: int = FULL,
+        window: tuple[int, int] = (0, WIDTH),
+    ) -> None:
+        """Make the dots of a mask, shape [row, column], equally bright, the upper left one at (x, y)."""
+        here, there = _overlap(mask.shape, x, y, window)
+        self.pixels[here][mask[there]] = brightness
+
+    def sprite(self, levels: Levels, x: int, y: int) -> None:
+        """Lay a small picture over this one, the brighter dot wins; its upper left dot comes to (x, y)."""
+        here, there = _overlap(levels.shape, x, y, (0, WIDTH))
+        self.pixels[here] = np.maximum(self.pixels[here], levels[there])
+
+    def dot(self, x: int, y: int, brightness: int = FULL) -> None:
+        """One dot."""
+        if 0 <= x < WIDTH and 0 <= y < HEIGHT:
+            self.pixels[y, x] = brightness
+
+    def line(self, x0: int, y0: int, x1: int, y1: int, brightness: int = FULL) -> None:
+        """A line one dot thin, both ends included."""
+        count = max(abs(x1 - x0), abs(y1 - y0)) + 1
+        x = np.rint(np.linspace(x0, x1, count)).astype(np.int64)
+        y = np.rint(np.linspace(y0, y1, count)).astype(np.int64)
+        there = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
+        self.pixels[y[there], x[there]] = brightness
+
+    def box(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
+        """A filled rectangle."""
+        self.pixels[_slices(x, y, width, height)] = brightness
+
+    def frame(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
+        """The border of a rectangle, one dot thin."""
+        if width > 0 and height > 0:
+            self.box(x, y, width, 1, brightness)
+            self.box(x, y + height - 1, width, 1, brightness)
+            self.box(x, y, 1, height, brightness)
+            self.box(x + width - 1, y, 1, height, brightness)
+
+    def invert(self, x: int = 0, y: int = 0, width: int = WIDTH, height: int = HEIGHT) -> None:
+        """Make dark dots bright and bright ones dark in a rectangle."""
+        place = _slices(x, y, width, height)
+        self.pixels[place] = FULL - self.pixels[place]
+
+    def dim(self, share: float, x: int = 0, y: int = 0, width: int = WIDTH, height: int = HEIGHT) -> None:
+        """Leave only a share, 0 to 1, of the brightness in a rectangle."""
+        place = _slices(x, y, width, height)
+        self.pixels[place] = (self.pixels[place] * np.float32(min(max(share, 0.0), 1.0))).astype(np.uint8)
+
+
+def blend(before: Dots, after: Dots, share: float) -> Dots:
+    """From one picture to another: all dots change slowly. A share of 0 is `before`, 1 is `after`."""
+    part = np.float32(_share(share))
+    mixed = before.pixels + (after.pixels.astype(np.float32) - before.pixels) * part
+    return Dots(np.rint(mixed).astype(np.uint8))
+
+
+def wipe(before: Dots, after: Dots, share: float, direction: Direction = "right") -> Dots:
+    """From one picture to another: a bright edge runs in a direction and leaves the new one behind."""
+    axis, forwards = _axis(direction)
+    length = before.pixels.shape[axis]
+    edge = round(_share(share) * (length + 1))
+    place = np.arange(length) if forwards else np.arange(length)[::-1]
+    place = place if axis else place[:, None]
+    pixels = np.where(place < edge - 1, after.pixels, before.pixels)
+    if 0 < edge <= length:
+        pixels = np.where(place == edge - 1, np.uint8(FULL), pixels)
+    return Dots(pixels)
+
+
+def scroll(before: Dots, after: Dots, share: float, direction: Direction = "up") -> Dots:
+    """From one picture to another: both move in a direction, the new one behind the old one."""
+    axis, forwards = _axis(direction)
+    length = before.pixels.shape[axis]
+    moved = round(_share(share) * length)
+    pair = (after, before) if forwards else (before, after)
+    both = np.concatenate([picture.pixels for picture in pair], axis=axis)
+    start = length - moved if forwards else moved
+    return Dots(both.take(np.arange(start, start + length), axis=axis))
+
+
+def picture(rows: str, levels: str = ".+#") -> Levels:
+    """A small picture from rows of characters, the darkest first in `levels`; for `Dots.sprite`."""
+    step = FULL // (len(levels) - 1)
+    return np.array([[step * levels.index(dot) for dot in row] for row in rows.split()], np.uint8)
+
+
+def _share(share: float) -> float:
+    return min(max(share, 0.0), 1.0)
+
+
+def _axis(direction: Direction) -> tuple[int, bool]:
+    """Along which axis of the array, and whether towards larger indices."""
+    return {"left": (1, False), "right": (1, True), "up": (0, False), "down": (0, True)}[direction]
+
+
+def _slices(x: int, y: int, width: int, height: int) -> tuple[slice, slice]:
+    return (
+        slice(min(max(y, 0), HEIGHT), min(max(y + height, 0), HEIGHT)),
+        slice(min(max(x, 0), WIDTH), min(max(x + width, 0), WIDTH)),
+    )
+
+
+def _overlap(
+    shape: tuple[int, ...], x: int, y: int, window: tuple[int, int]
+) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
+    """The part of the display that a picture at (x, y) covers, and the part of the picture that covers it."""
+    first, last = max(window[0], 0), min(window[1], WIDTH)
+    left, right = min(max(x, first), last), max(min(x + shape[1], last), first)
+    top, bottom = min(max(y, 0), HEIGHT), max(min(y + shape[0], HEIGHT), 0)
+    right, bottom = max(right, left), max(bottom, top)
+    return (slice(top, bottom), slice(left, right)), (slice(top - y, bottom - y), slice(left - x, right - x))

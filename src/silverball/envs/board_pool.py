@@ -1,0 +1,178 @@
+"""Which boards do the episodes draw from? A pool, made before the first step and shared by all environments.
+
+A board takes 10 ms or more to make and check, a step a tenth of a microsecond; so episodes draw one from a
+pool instead. All boards of a pool have the same borders and paddles, so that what is observed
+means the same on each: they come from one recipe, or from a list of tables that are alike in this.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from operator import index
+from typing import Any, NamedTuple
+
+import numpy as np
+import tomli_w
+from numpy.typing import NDArray
+
+from silverball.envs.options import Named
+from silverball.envs.slots import CylinderSlot, Field, PrismSlot, fields
+from silverball.physics.records import LOG, WORLD, Kind, Part, records
+from silverball.plain import plain
+from silverball.table import Table, generate_table, load_table, parse_table
+from silverball.world import WorldBatch
+from silverball.world.compile import Boards, compile_tables
+
+
+class Pool(NamedTuple):
+    """Boards, compiled, with what environments need of them.
+
+    Attributes:
+        tables: The finished tables.
+        seeds: The seed of each board, int64 [board]; of a list of tables their numbers; −1 for one table.
+        boards: The compiled tables.
+        blanks: WORLD records of worlds in which nothing has happened yet, one for each board.
+        layouts: The groups of each board's obstacles in an observation, float32 [board, column].
+        fields: Where all groups of an observation lie.
+    """
+
+    tables: tuple[Table, ...]
+    seeds: NDArray[np.int64]
+    boards: Boards
+    blanks: NDArray[Any]
+    layouts: NDArray[np.float32]
+    fields: tuple[Field, ...]
+
+    def board_of_seed(self, seed: Any) -> int:
+        """Which board has a seed, or that number in a list of tables.
+
+        Raises:
+            ValueError: None has.
+        """
+        if self.seeds[0] < 0:
+            name = plain(self.tables[0].name)
+            raise ValueError(f"board cannot be chosen: {name} is the only table, got {seed!r}")
+        try:
+            number = -1 if isinstance(seed, bool) else index(seed)
+        except TypeError:  # no whole number
+            number = -1
+        found = np.flatnonzero(self.seeds == number)
+        if not len(found):
+            raise ValueError(
+                f"board must be a whole number from {self.seeds[0]} to {self.seeds[-1]}, got {seed!r}; "
+                "of a recipe the options boards and board_seed make others"
+            )
+        return int(found[0])
+
+    @property
+    def columns(self) -> int:
+        """Columns of a state observation."""
+        return self.fields[-1].end
+
+
+def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool:
+    """The pool of a recipe, of one table, or of a list of tables.
+
+    Args:
+        table: A table, a built-in name or a path; or a list of these, of finished tables.
+        count: How many boards, if it is a recipe.
+        board_seed: The seed of the first board; the others follow.
+
+    Raises:
+        TableError: There is no such table, or it has problems.
+        TypeError: It is something else.
+        ValueError: Tables of a list cannot be in one pool.
+    """
+    if isinstance(table, (list, tuple)):
+        return _listed(tuple(_loaded(one) for one in table))
+    one = _loaded(table)  # type: ignore[arg-type]
+    return _drawn(one, count, board_seed) if one.random is not None else _compiled((one,), [-1])
+
+
+def _loaded(table: Named) -> Table:
+    if isinstance(table, (str, os.PathLike)):
+        return load_table(table)
+    if isinstance(table, Mapping):
+        try:
+            text = tomli_w.dumps(table)
+        except TypeError as error:
+            raise TypeError(f"table must hold what a table file can: {error}") from None
+        return parse_table(text, "table")
+    if not isinstance(table, Table):
+        raise TypeError(
+            "table must be a built-in name, a path, a Table, a dict or a list of them, "
+            f"got {type(table).__name__}"
+        )
+    return table
+
+
+@lru_cache(maxsize=8)
+def _drawn(recipe: Table, count: int, board_seed: int) -> Pool:
+    seeds = range(board_seed, board_seed + count)
+    return _compiled(tuple(generate_table(seed, recipe) for seed in seeds), seeds)
+
+
+@lru_cache(maxsize=8)
+def _listed(tables: tuple[Table, ...]) -> Pool:
+    if not tables:
+        raise ValueError("the list of tables is empty, it needs at least one")
+    for number, table in enumerate(tables):
+        which = f"table {number} of the list ({plain(table.name)})"
+        if table.random is not None:
+            raise ValueError(f"{which} is a recipe: draw boards from it with generate_table(seed, recipe)")
+        for part in ("board", "paddle"):
+            if getattr(table, part) != getattr(tables[0], part):
+                raise ValueError(f"{which} has another [{part}] than the first one; they must be the same")
+    return _compiled(tables, range(len(tables)))
+
+
+def _compiled(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
+    boards = compile_tables(tables)
+    layout = fields(
+        max(len(table.triangular_prism) for table in tables), max(len(table.cylinder) for table in tables)
+    )
+    blanks = records(len(tables), WORLD)
+    for part, side in ((Part.LEFT_PADDLE, 0), (Part.RIGHT_PADDLE, 1)):
+        rest = boards.collider["angle_rest"][boards.board["collider_first"] + part]
+        blanks["paddle"]["angle"][:, side] = rest
+        blanks["paddle"]["angle_commanded"][:, side] = rest
+    return Pool(tables, np.array(seeds, np.int64), boards, blanks, _layouts(boards, layout), layout)
+
+
+def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:
+    """The obstacles of each board as they stand in an observation; 0 where others have more of them."""
+    prisms, cylinders = layout[-2:]
+    shown = np.zeros((len(boards.board), cylinders.end - prisms.first), np.float32)
+    for row, board in zip(shown, boards.board, strict=True):
+        parts = boards.collider[board["collider_first"] : board["collider_end"]]
+        up, across = board["half_length"], board["half_width"]
+        corners = parts[parts["kind"] == Kind.TRIANGULAR_PRISM]
+        first = row[: len(corners) * len(PrismSlot)]
+        for corner in range(3):
+            first[2 * corner :: 6] = corners[f"x{corner}"] / up
+            first[2 * corner + 1 :: 6] = corners[f"z{corner}"] / across
+        round_ones = parts[parts["kind"] == Kind.CYLINDER]
+        rest = row[prisms.end - prisms.first :][: len(round_ones) * len(CylinderSlot)]
+        rest[0::3], rest[1::3] = round_ones["x"] / up, round_ones["z"] / across
+        rest[2::3] = round_ones["radius"] / across
+    return shown
+
+
+class PooledBatch(WorldBatch):
+    """A batch of worlds that may change boards: each plays on any board of the pool."""
+
+    def __init__(
+        self, pool: Pool, count: int, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
+    ) -> None:
+        """Worlds in these records, WORLD [world], on these boards [world]."""
+        self.count = count
+        self.tick_rate = tick_rate
+        self.threads = threads
+        self.tables = pool.tables
+        self.boards = pool.boards
+        self.board_of = board_of
+        self.state = state
+        self.logs = records(count, LOG)
+        self.tallies = np.zeros((count, max(len(names) for names in pool.boards.names)), np.int64)

@@ -1,0 +1,1 @@
+"""Replays: recordings of games as text that can be played, verified, compared and filmed."""

@@ -1,0 +1,203 @@
+"""Does a replay lead to what it says, and where do two replays part?
+
+`verify` plays a replay and compares every second's digests and the end. `compare` plays two replays side by
+side and, in the second in which they part, tick by tick, so that it can name the first tick, the field and
+both values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from silverball.errors import SilverballError
+from silverball.game.replay.digest import CHARACTERS, GROUPS, differing_groups, values
+from silverball.game.replay.player import InputRefusedError, Playback
+from silverball.table import table_digest
+
+if TYPE_CHECKING:
+    from silverball.game.game import Game
+    from silverball.game.replay.format import Replay
+
+
+class Verdict(NamedTuple):
+    """What came of playing a replay.
+
+    Attributes:
+        ok: Whether everything is as it is written.
+        score: That the game reached, as far as it was played.
+        tick: Up to which everything was equal; the difference shows at `seen` at the latest.
+        seen: The tick at which the difference was seen.
+        field: What differs first; empty if nothing does.
+        expected: Its value in the file, or in the first of two files.
+        got: Its value in the game that was played, or in the second file.
+        message: All that in one sentence.
+    """
+
+    ok: bool
+    score: int
+    tick: int
+    seen: int
+    field: str = ""
+    expected: str = ""
+    got: str = ""
+    message: str = ""
+
+
+def verify(
+    replay: Replay,
+    progress: Callable[[int], None] = lambda _: None,
+    look: Callable[[Game], None] = lambda _: None,
+) -> Verdict:
+    """Play a replay and see whether the same comes out.
+
+    Args:
+        replay: The replay.
+        progress: Called after every second of play with the ticks so far.
+        look: Called after every second of play, and at the end, with the game that is played.
+
+    Returns:
+        The verdict; a game that cannot be played, such as one on a board that no world can be made of, is
+        a difference too.
+    """
+    try:
+        playback = Playback(replay)
+    except SilverballError as error:
+        return _differs(0, 0, 0, "table", "a board that can be played", str(error).replace("\n", " "))
+    game, rate = playback.game, replay.tick_rate
+    for number, line in enumerate(replay.lines):
+        before = game.tick
+        try:
+            playback.play(rate)
+        except InputRefusedError as error:
+            return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
+        if game.tick != (number + 1) * rate:
+            return _ended_early(playback)
+        expected, got = line[: CHARACTERS * len(GROUPS)], game.short_digests
+        if expected != got:
+            return _differs_in_second(game.score, before, game.tick, expected, got)
+        progress(game.tick)
+        look(game)
+    try:
+        playback.play(replay.ticks - game.tick)
+        playback.finish()
+    except InputRefusedError as error:
+        return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
+    look(game)
+    if game.tick != replay.ticks:
+        return _ended_early(playback)
+    equal_until = len(replay.lines) * rate
+    ends = (
+        ("ended", replay.ended, game.ended),
+        ("score", str(replay.score), str(game.score)),
+        ("digest", replay.digest, game.digest()),
+    )
+    for field, expected, got in ends:
+        if expected != got:
+            return _differs(game.score, equal_until, game.tick, field, expected, got)
+    return Verdict(True, game.score, game.tick, game.tick, message=_words_of(replay))
+
+
+def compare(first: Replay, second: Replay) -> Verdict:
+    """Play two replays side by side and find the first tick at which they part.
+
+    Returns:
+        The verdict: `expected` is the first replay's value, `got` the second's, and `tick` equals `seen`.
+    """
+    heads = (
+        ("mode", first.mode, second.mode),
+        ("tick_rate", first.tick_rate, second.tick_rate),
+        ("seed", first.seed, second.seed),
+        ("table", table_digest(first.table), table_digest(second.table)),
+    )
+    for field, one, other in heads:
+        if one != other:
+            return _differs(0, 0, 0, field, str(one), str(other))
+    plays = Playback(first), Playback(second)
+    games = tuple(play.game for play in plays)
+    while not (plays[0].at_end and plays[1].at_end):
+        moments = [game.save() for game in games]
+        start = games[0].tick
+        _advance(plays, first.tick_rate)
+        if _states(games[0]) == _states(games[1]) and plays[0].at_end == plays[1].at_end:
+            continue
+        for play, moment in zip(plays, moments, strict=True):
+            play.jump(moment)
+        for _ in range(first.tick_rate + 1):
+            start = games[0].tick
+            refused = _advance(plays, 1)
+            verdict = _parted(plays, start, refused)
+            if verdict is not None:
+                return verdict
+    return Verdict(
+        True, games[0].score, games[0].tick, games[0].tick, message="both replays are the same game"
+    )
+
+
+def _advance(plays: tuple[Playback, Playback], ticks: int) -> list[str]:
+    """Play both on; for each the input that was refused, if any."""
+    refused = []
+    for play in plays:
+        try:
+            play.advance(ticks)
+            refused.append("")
+        except InputRefusedError as error:
+            play.at_end = True
+            refused.append(str(error))
+    return refused
+
+
+def _states(game: Game) -> tuple[bytes, str]:
+    return game.world.records[0].tobytes(), game.rules_text
+
+
+def _parted(plays: tuple[Playback, Playback], tick: int, refused: list[str]) -> Verdict | None:
+    """The verdict if two games differ that were equal before this tick."""
+    one, other = (play.game for play in plays)
+    if _states(one) != _states(other):
+        pairs = zip(
+            values(one.world.records[0], one.rules_text),
+            values(other.world.records[0], other.rules_text),
+            strict=False,
+        )
+        for (field, mine), (path, its) in pairs:
+            if field != path or repr(mine) != repr(its):
+                name = field if field == path else f"{field} and {path}"
+                return _differs(one.score, tick, one.tick, name, repr(mine), repr(its))
+    if refused[0] != refused[1]:
+        mine, its = (text or "accepted" for text in refused)
+        return _differs(one.score, tick, one.tick, "inputs", mine, its)
+    if plays[0].at_end != plays[1].at_end:
+        ends = [f"{play.replay.ticks} ticks" for play in plays]
+        return _differs(one.score, tick, one.tick, "ticks", *ends)
+    return None
+
+
+def _ended_early(playback: Playback) -> Verdict:
+    """The game was over before the replay was."""
+    game, replay = playback.game, playback.replay
+    got = f"{game.tick} ({game.ended})"
+    return _differs(game.score, game.tick, game.tick, "ticks", str(replay.ticks), got)
+
+
+def _differs_in_second(score: int, before: int, seen: int, expected: str, got: str) -> Verdict:
+    groups = differing_groups(expected, got)
+    at = GROUPS.index(groups[0]) * CHARACTERS
+    short = [text[at : at + CHARACTERS] for text in (expected, got)]
+    verdict = _differs(score, before, seen, groups[0], *short)
+    if len(groups) > 1:
+        others = " and ".join(part for part in (", ".join(groups[1:-1]), groups[-1]) if part)
+        verdict = verdict._replace(
+            message=f"{verdict.message}; {others} differ{'s' * (len(groups) == 2)} too"
+        )
+    return verdict
+
+
+def _differs(score: int, tick: int, seen: int, field: str, expected: str, got: str) -> Verdict:
+    where = f"tick {seen}" if tick == seen else f"tick {seen} (equal up to tick {tick})"
+    message = f"{where}, {field}: expected {expected}, got {got}"
+    return Verdict(False, score, tick, seen, field, expected, got, message)
+
+
+def _words_of(replay: Replay) -> str:
+    return f"equal in all {replay.ticks} ticks ({replay.seconds:.1f} s), score {replay.score}"

@@ -1,0 +1,202 @@
+"""Where does a shot go, and how exactly must one press for it?
+
+A ball comes to a paddle in one of two ways that every player knows: it rolls down the guide onto the resting
+paddle, or it has been held on the raised paddle, which is dropped, and rolls down that. The button is pressed
+at every tick of the way, one world for each, and the shot is followed until a paddle meets it again.
+
+Directions are in degrees from straight up the table, to the right positive. Lengths are [u], times [s].
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from math import atan2, hypot
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
+from silverball.physics.balls import put_ball
+from silverball.physics.kernel import kernel
+from silverball.physics.records import NOTHING, EventKind, records
+from silverball.physics.step import step_world
+from silverball.table import SlantWall, Table
+from silverball.world import WorldBatch
+
+WAIT = 2.5  # [s] for which the raised paddle holds the ball before it is dropped: it lies still by then
+PRESSES = 2.0  # [s] over which the moment of the press is swept
+HOLD = 0.3  # [s] for which the button is held
+AFTER = 3.0  # [s] after the press, for which a shot is followed
+START = 1.5  # [u] up the guide from its lower end, where the ball is let go; less on a shorter guide
+CLEAR = 0.002  # [u] between the ball and the guide there
+LOW, HIGH = 2.0, 5.0  # [u] the two x at which is taken down where a shot crosses them
+AIMED = 3.0  # [u] beyond the paddles' reach: what a shot meets from there on, it was aimed at
+MIDDLE = 0.16  # of the board's width: what comes nearer to the middle than this is a shot to the middle
+DEGREES = 180.0 / np.pi
+
+
+class Aim(IntEnum):
+    """Where a shot goes."""
+
+    NOWHERE = 0  # the ball was not struck that far, or met something on the way
+    LEFT = 1
+    MIDDLE = 2
+    RIGHT = 3
+
+
+SHOT = np.dtype(
+    [
+        ("press", "i8"),  # the tick of the press
+        ("launched", "i8"),  # whether the ball left the paddles' reach upwards
+        ("direction", "f8"), ("speed", "f8"),  # there [deg], [u/s]
+        ("first", "i8"),  # the part that it met first after the press, paddles aside; or NOTHING
+        ("first_x", "f8"), ("first_z", "f8"),  # where
+        ("low_z", "f8"), ("high_z", "f8"),  # z at which it first crossed LOW and HIGH upwards, NaN if never
+        ("clean", "i8"),  # whether it came to something to aim at, or to LOW, before it met anything else
+        ("aim_z", "f8"),  # where that was
+        ("highest", "f8"),  # x that it reached before a paddle met it again
+    ],
+    align=True,
+)  # fmt: skip
+
+
+class Shots(NamedTuple):
+    """The shots of one paddle in one way.
+
+    Attributes:
+        side: "left" or "right".
+        held: Whether the ball was held on the raised paddle before.
+        shot: SHOT records [press], one for each tick of the sweep.
+        aim: An `Aim` for each, [press].
+        names: Of the table's parts.
+        top: x at which the top of the table begins [u].
+    """
+
+    side: str
+    held: bool
+    shot: NDArray[Any]
+    aim: NDArray[np.int64]
+    names: tuple[str, ...]
+    top: float
+
+    def window(self, aim: Aim) -> tuple[float, float]:
+        """For how long, without a gap, a press makes a shot of this aim [ms], and since when [ms].
+
+        The time counts from the first press that strikes the ball up the table; NaN if none does.
+        """
+        struck = np.nonzero(self.shot["launched"])[0]
+        best, since, run = 0, -1, 0
+        for tick, one in enumerate((self.aim == aim).tolist()):
+            run = run + 1 if one else 0
+            if run > best:
+                best, since = run, tick + 1 - run
+        tick_ms = 1000.0 / TICK_RATE
+        return best * tick_ms, (since - int(struck[0])) * tick_ms if best else float("nan")
+
+    def directions(self) -> NDArray[np.float64]:
+        """The directions [deg] of all balls that were struck, in the order of the presses."""
+        found: NDArray[np.float64] = self.shot["direction"][self.shot["launched"] == 1]
+        return found
+
+
+def guide_of(table: Table, side: str) -> SlantWall | None:
+    """The slant wall that leads down to a paddle: the one with an end nearest to the paddle's pivot."""
+    paddle = next((paddle for paddle in table.paddle if paddle.side == side), None)
+    if paddle is None or not table.slant_wall:
+        return None
+    (x, z), nearest = paddle.pivot, None
+    for wall in table.slant_wall:
+        away = min(hypot(end[0] - x, end[1] - z) for end in (wall.start, wall.end))
+        if nearest is None or away < nearest[0]:
+            nearest = (away, wall)
+    return nearest[1] if nearest is not None else None
+
+
+def start_on(wall: SlantWall, table: Table) -> tuple[float, float]:
+    """Where a ball lies on a guide, START above its lower end: x, z [u]."""
+    low, high = sorted((wall.start, wall.end))
+    length = hypot(high[0] - low[0], high[1] - low[1])
+    share = min(START, 0.8 * length) / length
+    nx, nz = wall.inward_normal(table.board)
+    off = wall.thickness + table.board.ball_radius + CLEAR
+    return low[0] + share * (high[0] - low[0]) + off * nx, low[1] + share * (high[1] - low[1]) + off * nz
+
+
+def shots_of(table: Table, side: str, held: bool) -> Shots | None:
+    """All shots of a paddle; None where there is no paddle on this side or no guide that leads to it."""
+    wall = guide_of(table, side)
+    if wall is None:
+        return None
+    count = round(PRESSES * TICK_RATE)
+    batch = WorldBatch(table, count, 0, TICK_RATE)
+    shot: NDArray[Any] = records(count, SHOT)
+    shot["press"] = np.arange(count) + (round(WAIT * TICK_RATE) if held else 0)
+    wait = round(WAIT * TICK_RATE) if held else 0
+    x, z = start_on(wall, table)
+    batch.on_threads(
+        lambda first, end: shoot(
+            batch.state, batch.boards.board, batch.boards.collider, batch.boards.grid, batch.logs,
+            batch.tallies, shot, first, end, x, z, side == "left", wait, 1.0 / TICK_RATE,
+        ),
+        count * count,
+    )  # fmt: skip
+    third = MIDDLE * table.board.width
+    aim_z, aim = shot["aim_z"], np.full(count, int(Aim.NOWHERE))
+    good = shot["clean"] == 1
+    aim[good & (aim_z < -third)] = Aim.LEFT
+    aim[good & (np.abs(aim_z) <= third)] = Aim.MIDDLE
+    aim[good & (aim_z > third)] = Aim.RIGHT
+    return Shots(side, held, shot, aim, batch.boards.names[0], 0.5 * table.board.length - TOP)
+
+
+@kernel
+def shoot(
+    worlds: Any, boards: Any, colliders: Any, grid: Any, logs: Any, tallies: Any,
+    shots: Any, first: int, end: int, x: float, z: float, left: bool, wait: int, tick: float,
+) -> None:  # fmt: skip
+    """Play one shot in each of the worlds first … end − 1, all on the first board.
+
+    The ball starts at rest at (x, z). The button is held for `wait` ticks, then pressed at the shot's tick.
+    """
+    board = boards[0]
+    for index in range(first, end):
+        world, log, tally, shot = worlds[index], logs[index], tallies[index], shots[index]
+        log.count, log.lost = 0, 0
+        put_ball(world, board, log, 0, x, z, 0.0, 0.0)
+        ball = world.ball[0]
+        shot.first, shot.low_z, shot.high_z, shot.highest = NOTHING + 0, np.nan, np.nan, -board.half_length
+        for now in range(shot.press + int(AFTER / tick)):
+            log.count, log.lost = 0, 0
+            up = now < wait or shot.press <= now < shot.press + int(HOLD / tick)
+            before = ball.x
+            step_world(world, board, colliders, grid, log, tally, up and left, up and not left, False, tick)
+            if ball.id == 0:
+                break
+            if now < shot.press:
+                continue
+            again = False
+            for number in range(log.count):
+                event = log.event[number]
+                if event.kind not in CONTACTS:
+                    continue
+                if event.part in PADDLES:
+                    again = shot.launched == 1
+                elif event.kind == EventKind.HIT and shot.first == NOTHING:
+                    shot.first, shot.first_x, shot.first_z = event.part, event.x, event.z
+                    if shot.low_z != shot.low_z and event.x > board.paddle_top + AIMED:
+                        shot.clean, shot.aim_z = shot.launched, event.z
+            if again:
+                break
+            if shot.launched == 0 and ball.x > board.paddle_top >= before and ball.vx > STRUCK:
+                shot.launched = 1
+                shot.direction = DEGREES * atan2(ball.vz, ball.vx)
+                shot.speed = (ball.vx * ball.vx + ball.vz * ball.vz) ** 0.5
+            if shot.launched == 1:
+                shot.highest = max(shot.highest, ball.x)
+                if before < LOW <= ball.x and shot.low_z != shot.low_z:
+                    shot.low_z = ball.z
+                    if shot.first == NOTHING:
+                        shot.clean, shot.aim_z = 1, ball.z
+                if before < HIGH <= ball.x and shot.high_z != shot.high_z:
+                    shot.high_z = ball.z

@@ -1,0 +1,256 @@
+"""What the step moves and what it moves through: the records, and the small tuples that kernels pass around.
+
+A *world* is one flat record with everything that changes. A *board* and its *colliders* are the table,
+compiled; they do not change. A *log* is the buffer of events of the last call; it is not part of the state.
+Kernels pass records on as they are, read and write their fields, and hand the small NamedTuples below to each
+other: no arrays are made in the hot loop.
+
+Units: u, s, rad; x up the table, z to the player's right. Angles of paddles are mirrored alike (up is
+positive).
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.physics.kernel import SETTINGS
+
+BALL_COUNT = 2
+"""Balls in a world record; a table may allow one or two (`max_balls`)."""
+
+LOG_SIZE = 64
+"""Events that the log of one world holds; later ones are counted as lost."""
+
+
+LOG_RESERVE = 8
+"""Of these, the slots that contacts leave free: a jam comes after many touches and must not be lost."""
+
+
+class Part(IntEnum):
+    """The first colliders of every board; the table's other parts follow from `FIRST_SHAPE` on."""
+
+    LEFT_WALL = 0
+    RIGHT_WALL = 1
+    TOP_WALL = 2
+    LEFT_PADDLE = 3
+    RIGHT_PADDLE = 4
+    FIRST_SHAPE = 5
+
+
+# What a ball can meet besides parts. Plain integers: they share a field with part numbers.
+NOTHING = -1
+GUTTER = -2
+OTHER_BALL = -3
+PAUSE = -4  # a null event: the search was safe up to here
+GRIP = -5  # a slipping ball begins to roll
+
+
+class Kind(IntEnum):
+    """What a collider is."""
+
+    ABSENT = 0  # a paddle that the table does not have
+    WALL = 1
+    SLANT_WALL = 2
+    PADDLE = 3
+    TRIANGULAR_PRISM = 4
+    CYLINDER = 5
+
+
+class EventKind(IntEnum):
+    """What happened."""
+
+    HIT = 1  # a ball met a part above hit_speed
+    TOUCH = 2  # the same below hit_speed
+    BALL_HIT = 3  # two balls met above hit_speed
+    BALL_TOUCH = 4
+    GUTTER = 5  # a ball left the board
+    CREATED = 6
+    JITTER = 7
+    JAM = 8  # a pinched ball was held, the paddles at it stalled
+
+
+class Motion(IntEnum):
+    """How a ball moves over the playfield."""
+
+    SLIDING = 0  # without friction, as in the original
+    ROLLING = 1
+    SLIPPING = 2  # its lowest point rubs over the playfield
+    HELD = 3  # jammed, until the tick is over; no ball is at the end of a tick
+
+
+class Fault(IntEnum):
+    """Why a world has stopped."""
+
+    NONE = 0
+    NOT_FINITE = 1  # a position or speed is not a number
+    OUTSIDE = 2  # a ball is beyond the borders
+    TOO_FAST = 3  # a ball is faster than the cap allows
+    INSIDE = 4  # a ball is inside a part or the other ball
+    BEYOND_STOP = 5  # a paddle is beyond its stops
+
+
+class Outcome(IntEnum):
+    """What came of the wish for a new ball."""
+
+    CREATED = 0
+    BOARD_FULL = 1
+    NO_ROOM = 2
+
+
+BALL = np.dtype(
+    [
+        ("x", "f8"), ("z", "f8"),  # centre [u]
+        ("vx", "f8"), ("vz", "f8"),  # velocity [u/s]
+        ("spin_x", "f8"), ("spin_y", "f8"), ("spin_z", "f8"),  # [rad/s]; zero on a table without friction
+        ("id", "i8"),  # 1, 2, 3, … in the order of creation; 0: no ball
+        # The flight that brought it here: since its last contact the ball has been on one parabola, and is
+        # always worked out from its beginning, so that rounding does not grow from tick to tick.
+        ("from_x", "f8"), ("from_z", "f8"), ("from_vx", "f8"), ("from_vz", "f8"),
+        ("pull_x", "f8"), ("pull_z", "f8"),  # acceleration [u/s²]
+        ("motion", "i8"),  # Motion
+        ("grips", "f8"),  # the age at which a slipping ball begins to roll
+        ("ticks", "i8"), ("offset", "f8"),  # it began so many ticks ago, and so late [s] in that tick
+        ("age", "f8"),  # so this old it is: at the beginning of the next tick [s]
+        ("due", "f8"), ("meets", "i8"),  # its next contact with a still part: at what age, which part;
+        # with NOTHING: the flight is known to be free up to this age
+    ],
+    align=True,
+)  # fmt: skip
+
+PADDLE = np.dtype(
+    [
+        ("angle", "f8"),  # where it is [rad]
+        ("angle_commanded", "f8"),  # where the button wants it: rest or up [rad]
+        ("angular_velocity", "f8"),  # at the end of the last tick [rad/s]
+    ],
+    align=True,
+)
+
+WORLD = np.dtype(
+    [
+        ("ball", BALL, (BALL_COUNT,)),
+        ("paddle", PADDLE, (2,)),  # left, right
+        ("tick", "i8"),
+        ("seed", "i8"), ("draws", "i8"),  # the random generator: key and counter
+        ("score", "i8"),
+        ("created", "i8"), ("drained", "i8"),  # balls
+        ("wall_hits", "i8"), ("slant_wall_hits", "i8"), ("paddle_hits", "i8"),
+        ("triangular_prism_hits", "i8"), ("cylinder_hits", "i8"), ("ball_hits", "i8"),
+        ("touches", "i8"),
+        ("jams", "i8"),
+        ("fault", "i8"),  # Fault
+    ],
+    align=True,
+)  # fmt: skip
+
+BOARD = np.dtype(
+    [
+        ("pull_x", "f8"), ("pull_z", "f8"), ("gravity", "f8"),  # acceleration of a free ball, its size [u/s²]
+        ("ball_radius", "f8"), ("curvature", "f8"),  # [u], and one by it [1/u]
+        ("ball_restitution", "f8"),
+        ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"),
+        ("gutter", "f8"),  # x of the gutter line [u]
+        ("half_length", "f8"), ("half_width", "f8"),
+        ("friction", "f8"),  # coefficient
+        ("press", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
+        ("steepest", "f8"),  # bound on the acceleration of any flight [u/s²]
+        ("max_balls", "i8"),
+        ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # where the borders stop a ball's centre [u]
+        ("paddle_top", "f8"),  # no paddle reaches a ball whose centre is above this x [u]
+        # Circles in which a ball's centre must be to touch the left or right paddle, at any angle.
+        ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
+        ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
+        ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
+        # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
+        ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
+        ("skin", "f8"),  # a cell lists all parts that a ball can reach on a way of this length [u]
+        ("search_time", "f8"),  # no search for contacts looks further ahead than this [s]
+        ("place_first", "i8"), ("place_end", "i8"),  # this board's rows of the places
+        ("place_size", "f8"),  # side of a place's square [u]
+        ("place_lowest", "f8"),  # no ball is created below this x [u]
+    ],
+    align=True,
+)  # fmt: skip
+
+COLLIDER = np.dtype(
+    [
+        ("kind", "i8"),
+        # Reach: a circle around (x, z) that holds the whole part. A wall keeps its coordinate in x or z.
+        ("x", "f8"), ("z", "f8"), ("reach", "f8"),
+        # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
+        # (counter-clockwise) and sides 01, 12, 20 with unit directions along_* and lengths. A paddle's lie in
+        # its own frame (see paddle.py).
+        ("radius", "f8"),
+        ("x0", "f8"), ("z0", "f8"), ("x1", "f8"), ("z1", "f8"), ("x2", "f8"), ("z2", "f8"),
+        ("along_x0", "f8"), ("along_z0", "f8"), ("along_x1", "f8"), ("along_z1", "f8"),
+        ("along_x2", "f8"), ("along_z2", "f8"),
+        ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
+        ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
+        # Surface
+        ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
+        # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]
+        ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"),
+        ("lift_speed", "f8"), ("return_speed", "f8"),
+        ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
+    ],
+    align=True,
+)  # fmt: skip
+
+EVENT = np.dtype(
+    [
+        ("kind", "i8"),  # EventKind
+        ("part", "i8"),  # the collider's number on its board, or NOTHING, GUTTER, OTHER_BALL
+        ("ball", "i8"),  # id
+        ("tick", "i8"),
+        ("offset", "f8"),  # time within the tick [s]
+        ("x", "f8"), ("z", "f8"),  # the ball's centre [u]
+        ("normal_x", "f8"), ("normal_z", "f8"),  # unit, from the part to the ball
+        ("speed", "f8"),  # of the approach along the normal, relative to the surface [u/s]
+    ],
+    align=True,
+)  # fmt: skip
+
+LOG = np.dtype(
+    [
+        ("count", "i8"), ("lost", "i8"),
+        ("mark", "f8"),  # of the flights and angles that the last call left (see validation.py)
+        ("event", EVENT, (LOG_SIZE,)),
+    ],
+    align=True,
+)  # fmt: skip
+
+
+def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
+    """An array of zeroed records. Without the JIT, `record.field` takes one of NumPy's record arrays."""
+    array = np.zeros(count, dtype)
+    return array.view(np.recarray) if SETTINGS.DISABLE_JIT else array
+
+
+class Ball(NamedTuple):
+    """A ball at one moment: centre [u] and velocity [u/s]."""
+
+    x: float
+    z: float
+    vx: float
+    vz: float
+
+
+class Paddle(NamedTuple):
+    """A paddle in one tick: angle at its beginning [rad], angular velocity [rad/s], its stop [rad]."""
+
+    angle: float
+    turn: float
+    stop: float
+
+
+class Contact(NamedTuple):
+    """A contact: its time [s], the part met, the unit normal from the part to the ball."""
+
+    time: float
+    part: int
+    nx: float
+    nz: float

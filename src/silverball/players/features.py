@@ -1,0 +1,113 @@
+"""What does the trained player see? The ball and the paddles, as numbers that a small network can use.
+
+Ten numbers that every table has are looked at (`Raw`), in the units of the environments' state observation,
+so that training and play see the same. Obstacles are not looked at, and without them a table is its own
+mirror image: a ball on the right is seen, and answered, in the mirror, so that half of the game has to be
+learnt.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.physics.records import Part
+
+Rows = NDArray[np.float64]
+
+
+class Raw(IntEnum):
+    """The numbers that are looked at: of the lowest ball, of the left paddle, of the right one."""
+
+    X = 0
+    Z = 1
+    VX = 2
+    VZ = 3
+    LEFT_ANGLE = 4
+    LEFT_TURN = 5
+    LEFT_HELD = 6
+    RIGHT_ANGLE = 7
+    RIGHT_TURN = 8
+    RIGHT_HELD = 9
+
+
+COLUMNS = (1, 2, 3, 4, 10, 11, 12, 13, 14, 15)
+"""Where these numbers stand in the environments' state observation (`envs/slots.py`) of a single ball."""
+
+LEFT, RIGHT = slice(Raw.LEFT_ANGLE, Raw.LEFT_HELD + 1), slice(Raw.RIGHT_ANGLE, Raw.RIGHT_HELD + 1)
+PADDLES_AT = -0.65  # x of the paddles on the built-in tables, in half board lengths
+PIVOT = 0.3  # z of the middle of a paddle, in half board widths
+CLOSER = 4.0  # times as large as life: places near the paddles
+LOW = -0.4  # x below which a ball will soon be at the paddles
+SEEN = len(Raw) + 8
+MIRRORED = np.array([0, 2, 1, 3])  # what an action is in the mirror: none, right, left, both
+
+
+def look(state: Any, boards: Any, colliders: Any) -> Rows:
+    """The raw numbers of some worlds; where there is no ball, or no paddle on a side, its numbers are 0.
+
+    Args:
+        state: WORLD records [world].
+        boards: The BOARD record of each [world].
+        colliders: COLLIDER records of all boards.
+
+    Returns:
+        Numbers [world, Raw].
+    """
+    raw = np.zeros((len(state), len(Raw)))
+    balls = state["ball"]
+    alive = balls["id"] != 0
+    lowest = np.where(alive, balls["x"], np.inf).argmin(axis=1)
+    ball = balls[np.arange(len(state)), lowest]
+    sizes = ((Raw.X, "x", "half_length"), (Raw.Z, "z", "half_width"))
+    for slot, name, size in (*sizes, (Raw.VX, "vx", "speed_cap"), (Raw.VZ, "vz", "speed_cap")):
+        raw[:, slot] = np.where(alive.any(axis=1), ball[name] / boards[size], 0.0)
+    for side, part in ((0, Part.LEFT_PADDLE), (1, Part.RIGHT_PADDLE)):
+        collider, paddle = colliders[boards["collider_first"] + part], state["paddle"][:, side]
+        swing = collider["angle_up"] - collider["angle_rest"]
+        there = swing > 0.0
+        fastest = np.maximum(collider["lift_speed"], collider["return_speed"])
+        first = Raw.LEFT_ANGLE if side == 0 else Raw.RIGHT_ANGLE
+        turned = paddle["angle"] - collider["angle_rest"]
+        raw[:, first] = np.divide(turned, swing, out=np.zeros(len(state)), where=there)
+        raw[:, first + 1] = np.divide(
+            paddle["angular_velocity"], fastest, out=np.zeros(len(state)), where=there
+        )
+        raw[:, first + 2] = there & (paddle["angle_commanded"] == collider["angle_up"])
+    return raw
+
+
+def see(raw: Rows) -> tuple[Rows, NDArray[np.bool_]]:
+    """What the network is given.
+
+    Args:
+        raw: Numbers [row, Raw].
+
+    Returns:
+        Numbers [row, SEEN]: the raw ones, then the places near the paddles once more and larger; and which
+        rows are seen in the mirror.
+    """
+    is_mirrored: NDArray[np.bool_] = raw[:, Raw.Z] > 0.0
+    seen = np.zeros((len(raw), SEEN))
+    seen[:, : len(Raw)] = raw
+    seen[:, (Raw.Z, Raw.VZ)] *= np.where(is_mirrored, -1.0, 1.0)[:, None]
+    seen[:, LEFT] = np.where(is_mirrored[:, None], raw[:, RIGHT], raw[:, LEFT])
+    seen[:, RIGHT] = np.where(is_mirrored[:, None], raw[:, LEFT], raw[:, RIGHT])
+    x, z, vx, vz = seen[:, Raw.X], seen[:, Raw.Z], seen[:, Raw.VX], seen[:, Raw.VZ]
+    is_low = x < LOW
+    closer = (
+        np.clip(CLOSER * (x - PADDLES_AT), -1.2, 1.2),
+        np.clip(2.0 * z, -1.2, 1.2),
+        np.clip(CLOSER * (z + PIVOT), -1.5, 1.5),
+        np.clip(CLOSER * (z - PIVOT), -1.5, 1.5),
+        is_low,
+        3.0 * vx,
+        3.0 * vz,
+        3.0 * vx * is_low,
+    )
+    for number, values in enumerate(closer):
+        seen[:, len(Raw) + number] = values
+    return seen, is_mirrored

@@ -1,0 +1,1 @@
+"""The soak: random play on random and hostile boards, checked after every tick, to find faults."""

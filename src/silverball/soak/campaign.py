@@ -1,0 +1,173 @@
+"""How does a soak go on until it has its frames, and what does it keep?
+
+After every round the totals are written to a file, whole or not at all; the same soak goes on from there, and
+an interruption costs one round. The file belongs to the options and to the very code of the physics: totals
+of different programs must not be added up. Beside it stands a file for every finding.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable
+from dataclasses import asdict, field, fields
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+from pydantic import AfterValidator, Field, InstanceOf
+from pydantic.dataclasses import dataclass
+
+from silverball.errors import OutputError, StateError
+from silverball.physics.kernel import KERNEL_PACKAGES
+from silverball.soak.finding import found_at
+from silverball.soak.json_file import STRICT, Count, file_text, made_from
+from silverball.soak.rounds import Options, Totals, play_round
+from silverball.table.quantity import shown
+from silverball.wholefile import STDIN, is_missing, write_whole
+
+FORMAT = 1
+ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them tell nothing new
+MOST_FILES = 20  # findings that are written down, for the same reason
+SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times as much as it has
+WHAT = "a progress file of a soak"
+
+
+def _file_name(name: str) -> str:
+    if not name.endswith(".json") or Path(name).name != name or "\0" in name:
+        raise ValueError("must be the name of a file")
+    return name
+
+
+@dataclass(config=STRICT)
+class SoakLog:
+    """What a soak has done so far.
+
+    Attributes:
+        options: `Options.described()`.
+        code: The hash of the code that does it.
+        rounds: Rounds done.
+        totals: Of these.
+        findings: The names of the files of findings, beside the log.
+    """
+
+    options: dict[str, Any]
+    code: str
+    rounds: Count = 0
+    totals: Totals = field(default_factory=Totals)
+    # Instances, for a name may have bytes that are no text, which pydantic takes for no string.
+    findings: Annotated[
+        list[Annotated[InstanceOf[str], AfterValidator(_file_name)]], Field(max_length=MOST_FILES)
+    ] = field(default_factory=list)
+
+    def to_text(self) -> str:
+        """The log as JSON."""
+        return json.dumps({"format": FORMAT} | asdict(self), indent=1) + "\n"
+
+    @classmethod
+    def from_text(cls, text: str, source: str) -> Self:
+        """Read a log.
+
+        Raises:
+            StateError: The text is no log of a soak.
+        """
+        return made_from(text, source, WHAT, FORMAT, cls._of)
+
+    @classmethod
+    def _of(cls, values: dict[str, Any]) -> Self:
+        totals = values.get("totals")
+        if not isinstance(totals, dict):
+            raise ValueError("it has no totals")
+        for kind, given in ((cls, values), (Totals, totals)):
+            for part in fields(kind):  # a log that was begun has them all
+                if part.name not in given:
+                    raise ValueError(f"it has no {part.name}")
+        return cls(**values | {"totals": Totals(**totals)})
+
+
+def code_digest() -> str:
+    """The hash of all sources that decide what a soak does."""
+    package = Path(__file__).resolve().parent.parent
+    digest = hashlib.sha256()
+    for source in sorted(
+        path for name in (*KERNEL_PACKAGES, "table") for path in (package / name).rglob("*.py")
+    ):
+        digest.update(source.relative_to(package).as_posix().encode() + source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def log_name(options: Options) -> str:
+    """The usual name of the file of a soak: another one for other options or other code."""
+    described = json.dumps([options.described(), code_digest()]).encode()
+    return (
+        f"soak-{'hostile' if options.hostile else 'random'}-{hashlib.sha256(described).hexdigest()[:12]}.json"
+    )
+
+
+def begun(options: Options, path: Path) -> SoakLog:
+    """The log of a soak that goes on, or that of a new one.
+
+    Raises:
+        StateError: The file is of another soak, or no log at all.
+    """
+    if is_missing(path) and str(path) != STDIN:
+        return SoakLog(options.described(), code_digest())
+    log = SoakLog.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+    for key, value in options.described().items():
+        if log.options.get(key) != value:
+            raise StateError(
+                f"{path}: this soak was begun with {key} {shown(log.options.get(key))}, not {shown(value)}; "
+                "give the same options, or another --progress file"
+            )
+    if log.code != code_digest():
+        raise StateError(
+            f"{path}: this soak was begun with another version of the code; begin a new one with another "
+            "--progress file"
+        )
+    return log
+
+
+def soak(options: Options, frames: int, path: Path, progress: Callable[[int], None] | None = None) -> SoakLog:
+    """Soak until so many frames are done, from where the file says on.
+
+    Args:
+        options: What the soak is made of.
+        frames: To be done in all, earlier runs included; the last round is finished.
+        path: The file of the log; its folder is made.
+        progress: Called now and then with the frames done.
+
+    Returns:
+        The log; fewer frames are done only if there were `ENOUGH` findings.
+
+    Raises:
+        StateError: The file is of another soak.
+        OutputError: The file cannot be written.
+    """
+    log = begun(options, path)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+    while log.totals.frames < frames and sum(log.totals.found.values()) < ENOUGH:
+        before = log.totals.frames
+        report = (lambda done, before=before: progress(before + done)) if progress is not None else None
+        totals, places = play_round(options, log.rounds, report)
+        for place in places[: max(0, MOST_FILES - len(log.findings))]:
+            finding = found_at(options, place)
+            name = f"{path.stem}-{finding.kind}-{place.round}-{place.world}.json"
+            _write(path.with_name(name), finding.to_text())
+            log.findings.append(name)
+        log.totals.add(totals)
+        log.rounds += 1
+        _write(path, log.to_text())
+    return log
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def _unwritable(path: Path, error: OSError) -> OutputError:
+    return OutputError(f"{path}: cannot be written ({error.strerror or error}); give another --progress file")

@@ -1,0 +1,108 @@
+"""How is a world of a soak driven?
+
+Two balls are kept on the board; buttons are held for random times, now and then for a tick or two only;
+balls are shoved; and in the wild worlds a ball gets a random velocity about once a second. A quiet world
+presses nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball which lies somewhere for
+ever shows.
+
+Everything random is a function of the world's seed and a counter, so that a world can be run again alone.
+What is done in a tick is an ACTION: it can be written down and done again without any of this.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from silverball.physics.balls import create_ball
+from silverball.physics.kernel import kernel
+from silverball.physics.random import uniform
+from silverball.physics.records import BALL_COUNT
+from silverball.physics.trigonometry import sine_cosine
+
+SOAK_KEY = 0x50A4  # sets these random numbers apart from the world's own
+# All that follow are chosen.
+HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] for which a button may be held or left, each as likely
+BOTH_SHARE = 0.2  # of the presses are of both buttons at once
+KICK_EVERY = 2.0  # [s] at most, between two random velocities of a ball; half of that in the mean
+CAP_SHARE = 0.25  # of them are as fast as the cap allows
+SHOVE_EVERY = 4.0  # [s] at most, between two shoves
+QUIET, LIVELY = 75.0, 25.0  # [s]
+RETRY = 0.25  # [s] between two wishes for a ball: on a crowded board there may be no room
+
+ACTION = np.dtype(
+    [
+        ("left", "i8"), ("right", "i8"), ("shove", "i8"),  # buttons, 0 or 1
+        ("create", "i8"),  # whether a ball is wanted
+        ("kick", "i8", (BALL_COUNT,)),  # whether the ball in the slot gets this velocity [u/s]
+        ("vx", "f8", (BALL_COUNT,)), ("vz", "f8", (BALL_COUNT,)),
+    ],
+    align=True,
+)  # fmt: skip
+
+DRIVER = np.dtype(
+    [
+        ("draws", "i8"),  # random numbers used
+        # The ticks at which the next change may come: of the buttons, left and right, and so on.
+        ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (BALL_COUNT,)), ("create_at", "i8"),
+    ],
+    align=True,
+)  # fmt: skip
+
+
+@kernel
+def drawn(world: Any, driver: Any) -> float:
+    """The next of the soak's random numbers of a world, in [0, 1)."""
+    driver.draws += 1
+    return uniform(world.seed ^ SOAK_KEY, driver.draws)
+
+
+@kernel
+def choose(world: Any, board: Any, driver: Any, action: Any, tick: float, wild: bool) -> None:
+    """What is done to a world before and in its next tick."""
+    now, balls = world.tick, 0
+    action.shove = 0
+    plays = wild or now * tick % (QUIET + LIVELY) >= QUIET
+    for side in range(2):
+        if plays and now >= driver.press_at[side]:
+            down = 1 if drawn(world, driver) < 0.5 else 0
+            hold = HOLDS[int(drawn(world, driver) * len(HOLDS))] * (0.5 + drawn(world, driver))
+            both = drawn(world, driver) < BOTH_SHARE
+            if side == 0 or both:
+                action.left, driver.press_at[0] = down, now + 1 + int(hold / tick)
+            if side == 1 or both:
+                action.right, driver.press_at[1] = down, now + 1 + int(hold / tick)
+    if not plays:
+        action.left, action.right = 0, 0
+    elif now >= driver.shove_at:
+        action.shove = 1
+        driver.shove_at = now + 1 + int(drawn(world, driver) * SHOVE_EVERY / tick)
+    for slot in range(BALL_COUNT):
+        action.kick[slot] = 0
+        if world.ball[slot].id == 0:
+            continue
+        balls += 1
+        if wild and now >= driver.kick_at[slot]:
+            driver.kick_at[slot] = now + 1 + int(drawn(world, driver) * KICK_EVERY / tick)
+            speed = board.speed_cap
+            if drawn(world, driver) >= CAP_SHARE:
+                speed *= drawn(world, driver)
+            sine, cosine = sine_cosine(2.0 * pi * drawn(world, driver))
+            action.kick[slot], action.vx[slot], action.vz[slot] = 1, speed * sine, speed * cosine
+    action.create = 0
+    if balls < board.max_balls and now >= driver.create_at:
+        action.create = 1
+        driver.create_at = now + 1 + int(RETRY / tick)
+
+
+@kernel
+def act(world: Any, board: Any, colliders: Any, places: Any, log: Any, action: Any) -> None:
+    """Do what comes before a tick: new velocities and a new ball."""
+    log.count, log.lost = 0, 0
+    for slot in range(BALL_COUNT):
+        if action.kick[slot] != 0 and world.ball[slot].id != 0:
+            world.ball[slot].vx, world.ball[slot].vz = action.vx[slot], action.vz[slot]
+    if action.create != 0:
+        create_ball(world, board, colliders, places, log)

@@ -1,0 +1,240 @@
+"""What does a soak write down of something it found, and does it happen again?
+
+A finding is the table, the state of the world some ticks before, and what was done in each tick from there
+on; as text it is one JSON object. It needs neither the soak that made it nor its random numbers.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import AfterValidator, Field, ValidationError
+from pydantic.dataclasses import dataclass
+
+from silverball.errors import StateError
+from silverball.game.replay.reader import has_mesh
+from silverball.physics import PHYSICS_VERSION
+from silverball.physics.records import BALL_COUNT, NOTHING, Motion
+from silverball.physics.validation import is_sound
+from silverball.soak.checks import Found, watched_tick
+from silverball.soak.json_file import STRICT, Amount, Count, file_text, made_from
+from silverball.soak.rounds import KINDS, Options, Place, Soaked, soaked_round
+from silverball.table import Table, dump_table, table_digest
+from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
+from silverball.world.saved_world import pack, unpack
+
+FORMAT = 1
+LEAD_SECONDS = 1.0  # [s] before the finding at which the state is kept
+BUTTONS = ("left", "right", "shove", "create")
+SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
+WHAT = "a finding of a soak"
+FASTEST = 1e4  # [u/s] of a kick; chosen: far above every speed cap
+
+
+def _action(values: list[Any]) -> list[Any]:
+    """An action as `_written` writes it, or a ValueError."""
+    buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
+    fair = all(type(button) is int and button in (0, 1) for button in buttons)
+    if not fair or len(kicks) != BALL_COUNT or not all(kick is None or _is_kick(kick) for kick in kicks):
+        raise ValueError(f"must be four times 0 or 1 and {BALL_COUNT} velocities")
+    return values
+
+
+def _is_kick(kick: Any) -> bool:
+    return (
+        isinstance(kick, list)
+        and len(kick) == 2
+        and all(type(number) in (int, float) and abs(number) <= FASTEST for number in kick)
+    )
+
+
+Digest = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+
+
+@dataclass(frozen=True, config=STRICT)
+class Finding:
+    """One thing that should never happen.
+
+    Attributes:
+        kind: The name of a `Found` in small letters.
+        ball: The id of the ball; 0 where it is of no single ball.
+        depth: How deep it was inside something [u]; 0 where the kind has no depth.
+        round: Of the soak.
+        world: Of the round.
+        tick: The tick of the world, counted from 1, after which it shows.
+        program: The version of Silverball.
+        physics: The version of the physics.
+        table_text: The table as a table file.
+        table_digest: Its hash.
+        hostile: Whether the table was not checked.
+        tick_rate: Ticks per second.
+        state: The saved world before the first action, in hexadecimal.
+        actions: Of each tick: left, right, shove, create (0 or 1), then the new velocity of each ball, [vx,
+            vz] [u/s], or null.
+    """
+
+    kind: Annotated[str, Field(pattern=f"^({'|'.join(kind.name.lower() for kind in KINDS)})$")]
+    ball: Count
+    depth: Amount
+    round: Count
+    world: Count
+    tick: Count
+    program: Annotated[str, Field(max_length=40)]
+    physics: Count
+    table_text: Annotated[str, Field(max_length=TABLE_LIMIT)]
+    table_digest: Digest
+    hostile: bool
+    tick_rate: Annotated[int, Field(ge=10, le=100_000)]
+    state: Annotated[str, Field(pattern="^([0-9a-f]{2})*$")]
+    actions: list[Annotated[list[Any], AfterValidator(_action)]]
+
+    def to_text(self) -> str:
+        """The finding as JSON, one line for every attribute and every action."""
+        values = asdict(self) | {"format": FORMAT}
+        actions = ",\n".join(f"  {json.dumps(action)}" for action in values.pop("actions"))
+        lines = [f"{json.dumps(key)}: {json.dumps(value)}" for key, value in values.items()]
+        return "{\n" + ",\n".join([*lines, f'"actions": [\n{actions}\n]']) + "\n}\n"
+
+    @classmethod
+    def from_text(cls, text: str, source: str) -> Finding:
+        """Read a finding.
+
+        Raises:
+            StateError: The text is no finding of this format.
+        """
+        return made_from(text, source, WHAT, FORMAT, cls._of)
+
+    @classmethod
+    def load(cls, path: Path) -> Finding:
+        """Read a finding from a file.
+
+        Raises:
+            StateError: There is none, or it cannot be read.
+        """
+        return cls.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+
+    @classmethod
+    def _of(cls, values: dict[str, Any]) -> Finding:
+        finding = cls(**values)
+        finding.table()
+        return finding
+
+    def table(self) -> Table:
+        """The finished table.
+
+        Raises:
+            ValueError: `table_text` is none, or another one than `table_digest` says.
+        """
+        try:
+            table = Table.model_validate(tomllib.loads(self.table_text))
+        except ValidationError:
+            raise ValueError("table_text: is a table that cannot be used") from None
+        if table.random is not None or has_mesh(table):
+            raise ValueError("table_text: is no finished table")
+        if table_digest(table) != self.table_digest:
+            raise ValueError("table_text: does not belong to table_digest; it was changed")
+        return table
+
+
+def found_at(options: Options, place: Place) -> Finding:
+    """Run the world of a finding again, alone, and write it down from `LEAD_SECONDS` before on."""
+    from silverball import __version__
+
+    rehearsal = soaked_round(options, place.round, place.world)
+    rehearsal.run(place.tick)
+    watch = rehearsal.watches[0]
+    kind = Found(int(watch["found"]))
+    since = int(watch["since"])
+    start = since if kind == Found.STUCK else max(0, since - round(LEAD_SECONDS * options.tick_rate))
+    # A stuck ball is written down from its arrival on: with another start it would count from another place.
+    soaked = soaked_round(options, place.round, place.world)
+    soaked.run(start)
+    table = soaked.tables[0]
+    digest = table_digest(table)
+    state = pack(soaked.batch.state[0], digest, options.tick_rate)
+    actions = []
+    for _ in range(start, place.tick):
+        soaked.run(1)
+        actions.append(_written(soaked.actions[0]))
+    slot = int(watch["slot"])
+    return Finding(
+        kind=kind.name.lower(),
+        ball=0 if kind == Found.FAULT else int(soaked.batch.state["ball"]["id"][0, slot]),
+        depth=float(watch["depth"]),
+        round=place.round,
+        world=place.world,
+        tick=place.tick,
+        program=__version__,
+        physics=PHYSICS_VERSION,
+        table_text=dump_table(table),
+        table_digest=digest,
+        hostile=options.hostile,
+        tick_rate=options.tick_rate,
+        state=state.hex(),
+        actions=actions,
+    )
+
+
+def again(finding: Finding) -> Found:
+    """Do again what was done, and say what the watch finds now: `Found.NOTHING` if it does not happen.
+
+    Raises:
+        StateError: The state was changed, or is of another version of the physics.
+    """
+    soaked = Soaked([finding.table()], [0], finding.tick_rate, finding.hostile)
+    record = unpack(bytes.fromhex(finding.state), finding.table_digest, finding.tick_rate)
+    soaked.batch.state[0] = record
+    if not _is_possible(soaked):
+        raise StateError("the state of this finding is impossible; it was changed")
+    batch, true, watch, action = soaked.batch, soaked.true, soaked.watches[0], soaked.actions[0]
+    for values in finding.actions:
+        if watch["found"] != Found.NOTHING:
+            break
+        _read_into(action, values)
+        watched_tick(
+            batch.state[0], batch.boards.board[0], batch.boards.collider, batch.boards.grid,
+            batch.boards.place, batch.logs[0],
+            batch.tallies[0], true.board[0], true.collider, soaked.grounds.site[0], soaked.grounds.mark,
+            watch, action, 1.0 / finding.tick_rate, finding.hostile,
+        )  # fmt: skip
+    return Found(int(watch["found"]))
+
+
+def _is_possible(soaked: Soaked) -> bool:
+    """Whether the kernels can go on from the state of the only world: nothing in it leads out of an array."""
+    state, board = soaked.batch.state[0], soaked.batch.boards.board[0]
+    parts = board["collider_end"] - board["collider_first"]
+    balls = state["ball"]
+    numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
+    return bool(
+        not any(map(math.isnan, numbers))  # a time may be infinite: never
+        and ((balls["meets"] >= NOTHING) & (balls["meets"] < parts)).all()
+        and np.isin(balls["motion"], list(Motion)).all()
+        and state["tick"] >= 0
+        and is_sound(state, board)
+    )
+
+
+def _written(action: Any) -> list[Any]:
+    """An ACTION record as plain values."""
+    kicks = [
+        [float(vx), float(vz)] if kick else None
+        for kick, vx, vz in zip(action["kick"], action["vx"], action["vz"], strict=True)
+    ]
+    return [*(int(action[name]) for name in BUTTONS), *kicks]
+
+
+def _read_into(action: Any, values: list[Any]) -> None:
+    """Write plain values into an ACTION record."""
+    *buttons, first, second = values
+    for name, value in zip(BUTTONS, buttons, strict=True):
+        action[name] = value
+    for slot, kick in enumerate((first, second)):
+        action["kick"][slot] = kick is not None
+        action["vx"][slot], action["vz"][slot] = kick or (0.0, 0.0)

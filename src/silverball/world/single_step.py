@@ -1,0 +1,148 @@
+"""How is a single world moved with one short call?
+
+Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
+addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
+there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
+types of the arguments again (`straight`), since they are always the same.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from collections.abc import Callable
+from typing import Any, cast
+
+import numpy as np
+from numba import extending, types
+from numba.core import cgutils as untyped_cgutils
+from numba.np import arrayobj as untyped_arrayobj
+from numpy.typing import NDArray
+
+from silverball.physics.kernel import SETTINGS, kernel, straight
+from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
+from silverball.physics.step import run_worlds
+from silverball.world.compile import Boards
+
+LEFT, RIGHT, JITTER = 1, 2, 4  # bits of the buttons
+
+cgutils, arrayobj = cast(Any, untyped_cgutils), cast(Any, untyped_arrayobj)
+intrinsic: Any = extending.intrinsic
+INT, SHORT_INT, BOOL = np.dtype(np.int64), np.dtype(np.int32), np.dtype(np.bool_)
+
+ADDRESSES = np.dtype(
+    [
+        ("world", "i8"), ("board", "i8"), ("board_of", "i8"), ("collider", "i8"), ("grid", "i8"),
+        ("log", "i8"), ("tally", "i8"), ("action", "i8"),
+        ("colliders", "i8"), ("numbers", "i8"), ("parts", "i8"),  # lengths: of collider, of grid, of a tally
+        ("tick", "f8"),  # length of a tick [s]
+    ]
+)  # fmt: skip
+
+
+class SingleStepper:
+    """The one world of a batch, with all that moves it: these very arrays, none that take their place."""
+
+    def __init__(
+        self, boards: Boards, state: NDArray[Any], board_of: NDArray[np.int64], logs: NDArray[Any],
+        tallies: NDArray[np.int64], tick: float,
+    ) -> None:  # fmt: skip
+        """Write the addresses down; `tick` is the length of a tick [s]."""
+        self._action = np.zeros((1, 1, 3), np.bool_)
+        named: dict[str, NDArray[Any]] = {
+            "world": state,
+            "board": boards.board,
+            "board_of": board_of,
+            "collider": boards.collider,
+            "grid": boards.grid,
+            "log": logs,
+            "tally": tallies,
+            "action": self._action,
+        }
+        self._arrays = list(named.values())
+        self._tick = tick
+        self._addresses = np.zeros(1, ADDRESSES)
+        row = self._addresses[0]
+        for name, array in named.items():
+            row[name] = array.ctypes.data
+        row["colliders"], row["numbers"], row["parts"] = (
+            len(boards.collider),
+            len(boards.grid),
+            tallies.shape[1],
+        )
+        row["tick"] = tick
+        self._step: Callable[[Any, int, int], int] = self._first_step
+
+    def __reduce__(self) -> Any:
+        """Refuse to be copied: the addresses are those of the original's arrays."""
+        raise TypeError("SingleStepper holds addresses and cannot be copied; copy the World that owns it")
+
+    def step(self, buttons: int, ticks: int) -> int:
+        """Move the world on with these buttons held, for ticks as `run_worlds` takes them; its fault."""
+        if SETTINGS.DISABLE_JIT:
+            self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
+            cast(Any, run_worlds)(*self._arrays, 0, 1, ticks, self._tick)
+            return int(self._arrays[0][0]["fault"])
+        return self._step(self._addresses, buttons, ticks)
+
+    def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
+        """Make the step; it is compiled now, and no earlier."""
+        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        fault: int = step(addresses, buttons, ticks)
+        return fault
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any) -> Any:
+    """The array of this shape and element type at an address; `numba.carray` needs reference counting."""
+    array_type = types.Array(dtype.dtype, len(shape), "C")
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        array = context.make_array(array_type)(context, builder)
+        lengths = cgutils.unpack_tuple(builder, arguments[1])
+        size = context.get_constant(types.intp, context.get_abi_sizeof(context.get_data_type(dtype.dtype)))
+        strides = [size]
+        for length in reversed(lengths[1:]):
+            strides.insert(0, builder.mul(strides[0], length))
+        data = builder.inttoptr(arguments[0], array.data.type)
+        arrayobj.populate_array(array, data, lengths, strides, size, None)
+        return array._getvalue()
+
+    return array_type(address, shape, dtype), generate
+
+
+def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """The same without the compiler."""
+    size = math.prod(shape) * dtype.itemsize
+    memory: Any = (ctypes.c_char * size).from_address(int(address))
+    array: NDArray[Any] = np.frombuffer(memory, dtype).reshape(shape)
+    return array.view(np.recarray) if dtype.names else array
+
+
+array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_array_at
+
+
+@kernel
+def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
+    """Move the world on that lies at these addresses (see `ADDRESSES`), as `run_worlds` does; its fault."""
+    at = addresses[0]
+    worlds = array_at(at.world, (1,), WORLD)
+    action = array_at(at.action, (1, 1, 3), BOOL)
+    action[0, 0, 0] = buttons & LEFT != 0
+    action[0, 0, 1] = buttons & RIGHT != 0
+    action[0, 0, 2] = buttons & JITTER != 0
+    run_worlds(
+        worlds,
+        array_at(at.board, (1,), BOARD),
+        array_at(at.board_of, (1,), INT),
+        array_at(at.collider, (at.colliders,), COLLIDER),
+        array_at(at.grid, (at.numbers,), SHORT_INT),
+        array_at(at.log, (1,), LOG),
+        array_at(at.tally, (1, at.parts), INT),
+        action,
+        0,
+        1,
+        ticks,
+        at.tick,
+    )
+    return int(worlds[0].fault)
