@@ -43,14 +43,14 @@ class Seen(VecEnvWrapper):
         seen, is_mirrored = see(rows[:, COLUMNS])
         return seen.astype(np.float32), is_mirrored
 
-    def reset(self):  # noqa: D102  (what SB3 says of it)
+    def reset(self):
         seen, self._is_mirrored = self._see(self.venv.reset())
         return seen
 
-    def step_async(self, actions):  # noqa: D102
+    def step_async(self, actions):
         self.venv.step_async(np.where(self._is_mirrored, MIRRORED[actions], actions))
 
-    def step_wait(self):  # noqa: D102
+    def step_wait(self):
         rows, rewards, ended, infos = self.venv.step_wait()
         for row in np.flatnonzero(ended):
             last = infos[row]["terminal_observation"]

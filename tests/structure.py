@@ -1,6 +1,6 @@
 """Count what keeps the code readable: `python tests/structure.py [src/silverball]`.
 
-Prints the numbers of files, of short files, of kernels with many parameters, of bare `Any` annotations, and the
+Prints the numbers of files, of short files, of kernels with many parameters, of bare `Any` annotations, the
 files of one name and the circles of imports; tests/test_structure.py holds the code to them.
 """
 
