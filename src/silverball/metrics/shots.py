@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
 from silverball.physics.balls import put_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import NOTHING, EventKind, Lane, Playfield, records
+from silverball.physics.records import NOTHING, BoardGeometry, EventKind, Lane, records
 from silverball.physics.step import step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
@@ -172,7 +172,7 @@ def shoot(
             before = ball.x
             step_world(
                 Lane(world, log, tally),
-                Playfield(board, colliders, grid),
+                BoardGeometry(board, colliders, grid),
                 up and left,
                 up and not left,
                 False,

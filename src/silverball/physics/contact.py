@@ -22,6 +22,7 @@ from silverball.physics.records import (
     NOTHING,
     PAUSE,
     Ball,
+    BoardGeometry,
     Contact,
     EventKind,
     Kind,
@@ -29,20 +30,19 @@ from silverball.physics.records import (
     Motion,
     Paddle,
     Part,
-    Playfield,
 )
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
 @kernel
-def search(playfield: Playfield, ball: Any, tick: float) -> None:
+def search(geometry: BoardGeometry, ball: Any, tick: float) -> None:
     """Follow a ball's flight on from its age `due`, until a still part is met or `skin` [u] are gone.
 
     The flight of a slipping ball is followed to the end of the tick alone, where it ends. At equal times the
     earlier part in the order of the table is met first, which is the same in the mirror.
     """
-    board, colliders, grid = playfield.board, playfield.colliders, playfield.grid
+    board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     start = ball.due
     here = flown(ball, start)
     speed = sqrt(here.vx * here.vx + here.vz * here.vz)
@@ -104,7 +104,7 @@ def is_passed_by(c: Any, here: Ball, speed: float, way: float, stray: float) -> 
 
 @internal
 def first_contact(
-    playfield: Playfield, left: Paddle, right: Paddle, ball: Any, start: float, limit: float, tick: float
+    geometry: BoardGeometry, left: Paddle, right: Paddle, ball: Any, start: float, limit: float, tick: float
 ) -> Contact:
     """The first of all contacts of a ball between two times of the tick [s]; normals of still parts left out.
 
@@ -116,9 +116,9 @@ def first_contact(
     while ball.meets == NOTHING and ball.due < ball.age + limit:
         if searches == FLIGHT_STEPS:
             return Contact(start, PAUSE, 0.0, 0.0)
-        search(playfield, ball, tick)
+        search(geometry, ball, tick)
         searches += 1
-    board, colliders = playfield.board, playfield.colliders
+    board, colliders = geometry.board, geometry.colliders
     best = Contact(limit, NOTHING, 0.0, 0.0)
     if ball.meets != NOTHING:
         time = max(ball.due - ball.age, start)
@@ -152,12 +152,12 @@ def way_in(board: Any, start: float, end: float) -> float:
 
 
 @internal
-def resolve(lane: Lane, playfield: Playfield, ball: Any, contact: Contact, turn: float) -> None:
+def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, turn: float) -> None:
     """Let a contact happen: the ball bounces off a part, begins to roll, or is gone through the gutter.
 
     `turn` is the angular velocity of the paddle met [rad/s].
     """
-    world, board, time = lane.world, playfield.board, contact.time
+    world, board, time = lane.world, geometry.board, contact.time
     if contact.part == PAUSE:
         return
     if contact.part == GRIP:
@@ -169,7 +169,7 @@ def resolve(lane: Lane, playfield: Playfield, ball: Any, contact: Contact, turn:
         record(lane.log, EventKind.GUTTER + 0, ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx)
         clear(ball)
         return
-    c = playfield.colliders[board.collider_first + contact.part]
+    c = geometry.colliders[board.collider_first + contact.part]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
     acceleration = board.gravity
     if c.kind == Kind.WALL:

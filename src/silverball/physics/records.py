@@ -256,7 +256,7 @@ class Contact(NamedTuple):
     nz: float
 
 
-class Playfield(NamedTuple):
+class BoardGeometry(NamedTuple):
     """One board as the step reads it: its BOARD record, all COLLIDER records and the grids of all boards."""
 
     board: Any
@@ -272,7 +272,7 @@ class Lane(NamedTuple):
     tally: Any
 
 
-class Playfields(NamedTuple):
+class BatchGeometry(NamedTuple):
     """All boards of a batch.
 
     Attributes:

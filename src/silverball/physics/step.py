@@ -25,6 +25,8 @@ from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_dis
 from silverball.physics.records import (
     NOTHING,
     PAUSE,
+    BatchGeometry,
+    BoardGeometry,
     Contact,
     EventKind,
     Fault,
@@ -33,8 +35,6 @@ from silverball.physics.records import (
     Motion,
     Paddle,
     Part,
-    Playfield,
-    Playfields,
 )
 from silverball.physics.skip_ahead import are_apart, free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
@@ -43,18 +43,18 @@ from silverball.physics.validation import is_admitted, is_as_left, is_sound
 
 @kernel
 def step_world(
-    lane: Lane, playfield: Playfield, raise_left: bool, raise_right: bool, shove: bool, tick: float
+    lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, shove: bool, tick: float
 ) -> None:
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    world, board = lane.world, playfield.board
-    if is_ready(world, playfield, lane.log, tick):
+    world, board = lane.world, geometry.board
+    if is_ready(world, geometry, lane.log, tick):
         if shove:
             shove_balls(world, board, lane.log)
-        if free_ticks(playfield, world.ball[0], world.ball[1], tick, 1) == 1:
-            turn_paddles(world, board, playfield.colliders, raise_left, raise_right, tick)
+        if free_ticks(geometry, world.ball[0], world.ball[1], tick, 1) == 1:
+            turn_paddles(world, board, geometry.colliders, raise_left, raise_right, tick)
             end_ticks(world, board, tick, 1 + 0)  # a bare 1 would be compiled as a version of its own
         else:
-            play_tick(lane, playfield, raise_left, raise_right, tick)
+            play_tick(lane, geometry, raise_left, raise_right, tick)
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
         leave(world, lane.log)
@@ -81,9 +81,9 @@ def end_ticks(world: Any, board: Any, tick: float, count: int) -> None:
 
 
 @internal
-def play_tick(lane: Lane, playfield: Playfield, raise_left: bool, raise_right: bool, tick: float) -> None:
+def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, tick: float) -> None:
     """Let everything happen that happens within a tick, in its order."""
-    world, board, colliders = lane.world, playfield.board, playfield.colliders
+    world, board, colliders = lane.world, geometry.board, geometry.colliders
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
     left = aimed(left_part, world.paddle[0].angle, raise_left)
@@ -95,8 +95,8 @@ def play_tick(lane: Lane, playfield: Playfield, raise_left: bool, raise_right: b
     jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     while True:
         limit = min(tick, stop_left, stop_right)
-        meet_a = first_contact(playfield, left, right, a, time, limit, tick)
-        meet_b = first_contact(playfield, left, right, b, time, limit, tick)
+        meet_a = first_contact(geometry, left, right, a, time, limit, tick)
+        meet_b = first_contact(geometry, left, right, b, time, limit, tick)
         meet = Contact(min(meet_a.time, meet_b.time), NOTHING, 0.0, 0.0)
         if not apart:
             meet = first_meeting(board, a, b, time, meet.time)
@@ -110,11 +110,11 @@ def play_tick(lane: Lane, playfield: Playfield, raise_left: bool, raise_right: b
             busy_a, busy_b, meetings = busy_a + 1, busy_b + 1, meetings + 1
         elif meet_a.part != NOTHING and meet_a.time <= meet_b.time:
             turn = left.turn if meet_a.part == Part.LEFT_PADDLE else right.turn
-            resolve(lane, playfield, a, meet_a, turn)
+            resolve(lane, geometry, a, meet_a, turn)
             busy_a += 1
         elif meet_b.part != NOTHING:
             turn = left.turn if meet_b.part == Part.LEFT_PADDLE else right.turn
-            resolve(lane, playfield, b, meet_b, turn)
+            resolve(lane, geometry, b, meet_b, turn)
             busy_b += 1
         if time >= stop_left:
             left, stop_left = at_stop(left), NEVER
@@ -124,10 +124,10 @@ def play_tick(lane: Lane, playfield: Playfield, raise_left: bool, raise_right: b
         if busy_a >= jammed or busy_b >= jammed:
             both = JAM_SHARE * meetings >= jammed  # they press each other
             if both or busy_a >= jammed:
-                left, right = jam(lane, playfield, a, left, right, time, again_a)
+                left, right = jam(lane, geometry, a, left, right, time, again_a)
                 busy_a, again_a = 0, True
             if both or busy_b >= jammed:
-                left, right = jam(lane, playfield, b, left, right, time, again_b)
+                left, right = jam(lane, geometry, b, left, right, time, again_b)
                 busy_b, again_b = 0, True
             meetings = 0
             stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
@@ -178,7 +178,7 @@ def balls_met(world: Any, board: Any, log: Any, contact: Contact) -> None:
 
 @internal
 def jam(
-    lane: Lane, playfield: Playfield, ball: Any, left: Paddle, right: Paddle, time: float, again: bool
+    lane: Lane, geometry: BoardGeometry, ball: Any, left: Paddle, right: Paddle, time: float, again: bool
 ) -> tuple[Paddle, Paddle]:
     """Stop a jammed ball dead at a time of the tick, and stall the paddles at it; both paddles.
 
@@ -186,7 +186,7 @@ def jam(
     """
     if ball.id == 0 or ball.motion == Motion.HELD:
         return left, right
-    world, board, colliders = lane.world, playfield.board, playfield.colliders
+    world, board, colliders = lane.world, geometry.board, geometry.colliders
     land(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
     left = stalled(left, colliders[board.collider_first + Part.LEFT_PADDLE], ball, near, time, again)
@@ -227,11 +227,11 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
 
 
 @internal
-def is_ready(world: Any, playfield: Playfield, log: Any, tick: float) -> bool:
+def is_ready(world: Any, geometry: BoardGeometry, log: Any, tick: float) -> bool:
     """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
     if world.fault != Fault.NONE:
         return False
-    return is_as_left(world, playfield.board, log, tick) or is_admitted(world, playfield, tick)
+    return is_as_left(world, geometry.board, log, tick) or is_admitted(world, geometry, tick)
 
 
 @inlined
@@ -246,13 +246,13 @@ def is_inside(world: Any, board: Any) -> bool:
 
 @kernel
 def run_worlds(
-    lanes: Lanes, playfields: Playfields, actions: Any, first: int, end: int, ticks: int, tick: float
+    lanes: Lanes, geometries: BatchGeometry, actions: Any, first: int, end: int, ticks: int, tick: float
 ) -> None:
     """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
         lanes: The worlds; their logs are emptied first, their tallies added to.
-        playfields: Their boards.
+        geometries: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
@@ -266,22 +266,22 @@ def run_worlds(
     ticks = abs(ticks)
     for index in range(first, end):
         lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index])
-        world, log, board = lane.world, lane.log, playfields.boards[lanes.board_of[index]]
-        colliders = playfields.colliders
-        playfield = Playfield(board, colliders, playfields.grid)
+        world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
+        colliders = geometries.colliders
+        geometry = BoardGeometry(board, colliders, geometries.grid)
         if not goes_on:
             log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, playfield, log, tick):
+        if ticks == 0 or not is_ready(world, geometry, log, tick):
             continue
         step = 0
         while step < ticks and is_inside(world, board):
             row = 0 if is_held else step
             if actions[row, index, 2] and (not is_held or (step == 0 and not goes_on)):
                 shove_balls(world, board, log)
-            free = free_ticks(playfield, world.ball[0], world.ball[1], tick, ticks - step)
+            free = free_ticks(geometry, world.ball[0], world.ball[1], tick, ticks - step)
             if free == 0:
                 left, right = actions[row, index, 0], actions[row, index, 1]
-                play_tick(lane, playfield, left, right, tick)
+                play_tick(lane, geometry, left, right, tick)
                 step += 1
                 continue
             count = 0
