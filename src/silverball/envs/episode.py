@@ -27,7 +27,7 @@ from silverball.envs.slots import (
 )
 from silverball.envs.state import COUNTS, EPISODE, End, Mode, Task
 from silverball.physics.balls import create_ball
-from silverball.physics.kernel import inlined, internal, kernel, pasted
+from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.random import WORD, threefry
 from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
 from silverball.physics.step import run_worlds
@@ -67,7 +67,7 @@ def move(addresses: Any, first: int, end: int, task: int) -> tuple[float, int]:
     return 0.0, 0
 
 
-@pasted
+@ir_inlined
 def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
     """Move the environments first … end − 1 on by one step.
 
@@ -94,7 +94,7 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
     return reward, ends
 
 
-@pasted
+@ir_inlined
 def reset_envs(at: Any, first: int, end: int) -> None:
     """Begin the next episode of those of the environments first … end − 1 that the mask names."""
     rules = the.rules(at)[0]
@@ -106,7 +106,7 @@ def reset_envs(at: Any, first: int, end: int) -> None:
         observe(at, rules, index)
 
 
-@pasted
+@ir_inlined
 def observe_envs(at: Any, first: int, end: int) -> None:
     """Write the observations of the environments first … end − 1 anew, after their state was changed."""
     rules = the.rules(at)[0]

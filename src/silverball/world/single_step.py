@@ -3,7 +3,7 @@
 Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
 addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
 there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
-types of the arguments again (`straight`), since they are always the same.
+types of the arguments again (`bind_types`), since they are always the same.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, kernel, straight
+from silverball.physics.kernel import SETTINGS, bind_types, kernel
 from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, BatchGeometry, Lanes
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
@@ -91,7 +91,7 @@ class SingleStepper:
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
         """Make the step; it is compiled now, and no earlier."""
-        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        self._step = step = bind_types(step_alone, addresses, buttons, ticks)
         fault: int = step(addresses, buttons, ticks)
         return fault
 
