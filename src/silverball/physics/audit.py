@@ -86,7 +86,7 @@ def box(c: Any) -> tuple[float, float, float, float]:
 
 
 @inlined
-def is_off(c: Any, x: float, z: float, radius: float) -> bool:
+def is_outside_box(c: Any, x: float, z: float, radius: float) -> bool:
     """Whether (x, z) is further than `radius` from the box of a part that stands still."""
     low_x, high_x, low_z, high_z = box(c)
     return x < low_x - radius or x > high_x + radius or z < low_z - radius or z > high_z + radius
@@ -115,12 +115,12 @@ def depth_in_borders(board: Any, colliders: Any, x: float, z: float) -> float:
 
 
 @kernel
-def depth_in_standing(board: Any, colliders: Any, x: float, z: float) -> float:
+def depth_in_stationary(board: Any, colliders: Any, x: float, z: float) -> float:
     """How deep a ball at (x, z) is inside a part that stands still [u]; 0 if it is not."""
     depth, radius = 0.0, board.ball_radius
     for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
         c = colliders[index]
-        if not is_off(c, x, z, radius):
+        if not is_outside_box(c, x, z, radius):
             depth = max(depth, radius - part_gap(c, 0.0, x, z))
     return depth
 
@@ -134,7 +134,7 @@ def depth_in_paddle(c: Any, angle: float, x: float, z: float, radius: float) -> 
 
 
 @kernel
-def depth_in_each_other(world: Any, radius: float) -> float:
+def depth_in_other_ball(world: Any, radius: float) -> float:
     """How deep the two balls are inside each other [u]; 0 if they are not."""
     a, b = world.ball[0], world.ball[1]
     if a.id == 0 or b.id == 0:
@@ -145,14 +145,14 @@ def depth_in_each_other(world: Any, radius: float) -> float:
 @kernel
 def deepest(world: Any, board: Any, colliders: Any) -> float:
     """How deep any ball is inside any part, border or other ball [u]; 0 if none is."""
-    depth = depth_in_each_other(world, board.ball_radius)
+    depth = depth_in_other_ball(world, board.ball_radius)
     paddles = board.collider_first + Part.LEFT_PADDLE
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
         depth = max(depth, depth_in_borders(board, colliders, ball.x, ball.z))
-        depth = max(depth, depth_in_standing(board, colliders, ball.x, ball.z))
+        depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
         for side in range(2):
             angle = world.paddle[side].angle
             inside = depth_in_paddle(colliders[paddles + side], angle, ball.x, ball.z, board.ball_radius)

@@ -11,13 +11,13 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.physics.bounce import capped
-from silverball.physics.event_log import leave, mark, record
+from silverball.physics.bounce import clamp_speed
+from silverball.physics.event_log import flight_checksum, log_event, store_checksum
 from silverball.physics.kernel import internal, kernel
-from silverball.physics.motion import depart
+from silverball.physics.motion import start_flight
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
+from silverball.physics.records import BALL_COUNT, NOTHING, Contact, EventKind, Kind, Outcome, Part
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
 from silverball.physics.trigonometry import sine_cosine
@@ -70,7 +70,7 @@ def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
 
 
 @internal
-def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[bool, float, float, int]:
+def find_free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[bool, float, float, int]:
     """A free place for a ball, and how many random numbers it took to find it."""
     count = board.place_end - board.place_first
     size = board.place_size
@@ -97,16 +97,16 @@ def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[boo
 @kernel
 def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
     """A new ball at (x, z) in an empty slot of the world."""
-    is_known = mark(world) == log.mark
+    is_known = flight_checksum(world) == log.checksum
     world.created += 1
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = world.created
-    depart(ball, board, 0.0)
+    start_flight(ball, board, 0.0)
     if is_known:
-        leave(world, log)
-    record(log, EventKind.CREATED + 0, ball, NOTHING + 0, world.tick, 0.0, 0.0, 0.0, 0.0)
+        store_checksum(world, log)
+    log_event(log, EventKind.CREATED + 0, ball, world.tick, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
 
 
 @kernel
@@ -128,7 +128,7 @@ def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -
     slot = empty_slot(world, board)
     if slot < 0:
         return Outcome.BOARD_FULL + 0
-    found, x, z, draws = free_place(world, board, colliders, places)
+    found, x, z, draws = find_free_place(world, board, colliders, places)
     if not found:
         return Outcome.NO_ROOM + 0
     world.draws = draws
@@ -147,13 +147,15 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
         world.draws += 1
         ball.vx += board.jitter * sine
         ball.vz += board.jitter * cosine
-        ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
-        depart(ball, board, 0.0)
-        record(log, EventKind.JITTER + 0, ball, NOTHING + 0, world.tick, 0.0, sine, cosine, board.jitter)
+        ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
+        start_flight(ball, board, 0.0)
+        log_event(
+            log, EventKind.JITTER + 0, ball, world.tick, Contact(0.0, NOTHING, sine, cosine), board.jitter
+        )
 
 
 @kernel
-def part_balls(world: Any, board: Any, colliders: Any) -> bool:
+def separate_balls(world: Any, board: Any, colliders: Any) -> bool:
     """Split an overlap of the two balls equally between them.
 
     Only a state from outside holds one; an exact step never makes it.

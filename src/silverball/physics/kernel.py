@@ -34,8 +34,8 @@ import numba
 import numba.core.config
 from numba.core.registry import CPUDispatcher
 
-from silverball.physics.code_cache import INDEX, CodeCache, code_of, discard, remove, sweep
-from silverball.physics.compile_thread import aside
+from silverball.physics.code_cache import INDEX, CodeCache, discard, read_code, remove, sweep
+from silverball.physics.compile_thread import run_in_compiler_thread
 
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
@@ -54,7 +54,7 @@ class Compiled(CPUDispatcher):
 
     def compile(self, signature: Any) -> Any:
         """The machine code for arguments of these types."""
-        return aside(super().compile, signature)
+        return run_in_compiler_thread(super().compile, signature)
 
 
 class Internal(Compiled):
@@ -87,7 +87,7 @@ def inlined(function: F) -> F:
     return _compile(function, no_cpython_wrapper=True, forceinline=True)
 
 
-def pasted(function: F) -> F:
+def ir_inlined(function: F) -> F:
     """Put a helper into its callers before they are compiled, so that it is not compiled by itself.
 
     For what has one caller, or makes an array: without reference counting no compiled function returns one.
@@ -95,7 +95,7 @@ def pasted(function: F) -> F:
     return _compile(function, inline="always")
 
 
-def straight(function: Any, *arguments: Any) -> Callable[..., Any]:
+def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
     """A kernel without Numba's look at the types of its arguments, which takes longer than a tick does.
 
     Args:
@@ -145,7 +145,7 @@ def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> b
     folder = cache_folder(packages)
     if folder is None:
         return False
-    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if code_of(index) is not None]
+    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if read_code(index) is not None]
     if folder not in _swept:
         _swept.add(folder)
         if not sweep(folder):
@@ -172,7 +172,7 @@ def _machine() -> tuple[Any, ...]:
     return sys.implementation.cache_tag, numba.__version__, processor, bool(SETTINGS.BOUNDSCHECK)
 
 
-def forget_old_code() -> None:
+def evict_old_code() -> None:
     """Remove the machine code of sources that nobody has run for a month."""
     folder = cache_folder()
     if folder is None:

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BOARD, LOG, LOG_SIZE, WORLD, Part, records
-from silverball.physics.skip_ahead import free_ticks
-from silverball.physics.step import end_ticks, is_inside, is_ready, play_tick, turn_paddles
+from silverball.physics.records import BOARD, LOG, LOG_SIZE, WORLD, BoardGeometry, Lane, Part, records
+from silverball.physics.skip_ahead import event_free_ticks
+from silverball.physics.step import advance_paddles, are_balls_on_board, can_step, finish_ticks, play_tick
 from silverball.players.plan import (
     PLAN,
     clear_plan,
@@ -182,8 +182,8 @@ def plan_worlds(
         logs[index].count = LOG_SIZE  # full: nothing is written down
         copies[2 * index] = worlds[index]
         root = copies[2 * index]
-        if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(
-            root, board, colliders, grid, logs[index], length
+        if (root.ball[0].id != 0 or root.ball[1].id != 0) and can_step(
+            root, BoardGeometry(board, colliders, grid), logs[index], length
         ):
             dry = (world.tick - memory.scored_tick) * tick
             left, right = decide(
@@ -282,7 +282,7 @@ def look_ahead(
     line = board.paddle_top + RISE
     a, b = world.ball[0], world.ball[1]
     low_a, low_b, rises_a, rises_b = a.x < line, b.x < line, 0, 0
-    while step < horizon and low < lowest and is_inside(world, board):
+    while step < horizon and low < lowest and are_balls_on_board(world, board):
         if not is_above(world, board):
             low += 1
             if scouts:
@@ -292,14 +292,14 @@ def look_ahead(
         most = horizon - step
         if now < plan.until:
             most = min(most, next_change(plan, now) - now)
-        free = free_ticks(board, colliders, grid, a, b, length, most)
+        free = event_free_ticks(BoardGeometry(board, colliders, grid), a, b, length, most)
         if free == 0:
-            play_tick(world, board, colliders, grid, log, tally, left, right, length)
+            play_tick(Lane(world, log, tally), BoardGeometry(board, colliders, grid), left, right, length)
             step += 1
         else:
             for _ in range(free):
-                turn_paddles(world, board, colliders, left, right, length)
-            end_ticks(world, board, length, free)
+                advance_paddles(world, board, colliders, left, right, length)
+            finish_ticks(world, board, length, free)
             step += free
         memory.steps += 1
         if world.score != score:

@@ -95,8 +95,8 @@ def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        dx = ball.x + (ball.vx + 0.5 * ball.pull_x * ahead) * ahead - c.x
-        dz = (ball.z + (ball.vz + 0.5 * ball.pull_z * ahead) * ahead - c.z) * c.side
+        dx = ball.x + (ball.vx + 0.5 * ball.accel_x * ahead) * ahead - c.x
+        dz = (ball.z + (ball.vz + 0.5 * ball.accel_z * ahead) * ahead - c.z) * c.side
         along = dx * sine + dz * cosine  # from the pivot to the tip
         above = dx * cosine - dz * sine - board.ball_radius
         if NEAR_SHARE * c.z1 < along < c.z1 + board.ball_radius and -0.5 < above < STRIKE_HEIGHT:

@@ -16,15 +16,15 @@ import numpy as np
 
 from silverball.physics.audit import (
     depth_in_borders,
-    depth_in_each_other,
+    depth_in_other_ball,
     depth_in_paddle,
-    depth_in_standing,
+    depth_in_stationary,
     gap_to,
     is_out_of_reach,
     turned_for,
 )
 from silverball.physics.kernel import kernel
-from silverball.physics.records import BALL_COUNT, EventKind, Fault, Part
+from silverball.physics.records import BALL_COUNT, BoardGeometry, EventKind, Fault, Lane, Part
 from silverball.physics.step import step_world
 from silverball.soak.driver import act, choose
 from silverball.soak.regions import BLOCKED, MAIN_GROUND, OFF_BOARD, ground_of, is_narrow, mark_at
@@ -117,13 +117,13 @@ def look_at_places(world: Any, board: Any, colliders: Any, site: Any, marks: Any
             note(world, watch, Found.ESCAPE + 0, slot, now, 0.0)
         depth = depth_in_borders(board, colliders, ball.x, ball.z)
         if is_narrow(mark):
-            depth = max(depth, depth_in_standing(board, colliders, ball.x, ball.z))
+            depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
         for side in range(2):
             c = colliders[first + Part.LEFT_PADDLE + side]
             inside = depth_in_paddle(c, world.paddle[side].angle, ball.x, ball.z, board.ball_radius)
             depth = max(depth, inside)
         if slot == 0:
-            depth = max(depth, depth_in_each_other(world, board.ball_radius))
+            depth = max(depth, depth_in_other_ball(world, board.ball_radius))
         watch.deepest = max(watch.deepest, depth)
         if depth > DEPTH:
             note(world, watch, Found.PENETRATION + 0, slot, now, depth)
@@ -176,8 +176,8 @@ def greatest_sag(board: Any, tick: float) -> float:
     At most a quarter of the tick times all that the velocity changes by on the way: by gravity, by friction,
     and, where a slipping ball begins to roll, by what gravity does in a tick once more.
     """
-    pull = sqrt(board.pull_x * board.pull_x + board.pull_z * board.pull_z)
-    changes: float = tick * (2.0 * pull + board.friction * board.press)
+    pull = sqrt(board.accel_x * board.accel_x + board.accel_z * board.accel_z)
+    changes: float = tick * (2.0 * pull + board.friction * board.normal_accel)
     return 0.25 * tick * changes
 
 
@@ -205,7 +205,7 @@ def depth_on_the_way(
         share = number / count
         x, z = was.x + share * dx, was.z + share * dz
         if is_narrow(mark_at(site, marks, x, z)):
-            depth = max(depth, depth_in_standing(board, colliders, x, z))
+            depth = max(depth, depth_in_stationary(board, colliders, x, z))
         if at_paddle:
             for side in range(2):
                 c = colliders[paddles + side]
@@ -287,7 +287,7 @@ def watched_tick(
     was_a, was_b = Was(a.id, a.x, a.z), Was(b.id, b.x, b.z)
     before = (world.paddle[0].angle, world.paddle[1].angle)
     left, right, shove = action.left != 0, action.right != 0, action.shove != 0
-    step_world(world, board, colliders, grid, log, tally, left, right, shove, tick)
+    step_world(Lane(world, log, tally), BoardGeometry(board, colliders, grid), left, right, shove, tick)
     watch.frames += 1
     if world.fault != Fault.NONE:
         note(world, watch, Found.FAULT + 0, 0, world.tick, 0.0)

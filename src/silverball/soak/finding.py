@@ -21,7 +21,7 @@ from silverball.errors import StateError
 from silverball.game.replay.reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.records import BALL_COUNT, NOTHING, Motion
-from silverball.physics.validation import is_sound
+from silverball.physics.validation import validate_world
 from silverball.soak.checks import Found, watched_tick
 from silverball.soak.json_file import STRICT, Amount, Count, file_text, made_from
 from silverball.soak.rounds import KINDS, Options, Place, Soaked, soaked_round
@@ -214,10 +214,10 @@ def _is_possible(soaked: Soaked) -> bool:
     numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
     return bool(
         not any(map(math.isnan, numbers))  # a time may be infinite: never
-        and ((balls["meets"] >= NOTHING) & (balls["meets"] < parts)).all()
+        and ((balls["contact_part"] >= NOTHING) & (balls["contact_part"] < parts)).all()
         and np.isin(balls["motion"], list(Motion)).all()
         and state["tick"] >= 0
-        and is_sound(state, board)
+        and validate_world(state, board)
     )
 
 

@@ -3,7 +3,7 @@
 Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
 addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
 there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
-types of the arguments again (`straight`), since they are always the same.
+types of the arguments again (`bind_types`), since they are always the same.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, kernel, straight
-from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
+from silverball.physics.kernel import SETTINGS, bind_types, kernel
+from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, BatchGeometry, Lanes
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
 
@@ -81,13 +81,17 @@ class SingleStepper:
         """Move the world on with these buttons held, for ticks as `run_worlds` takes them; its fault."""
         if SETTINGS.DISABLE_JIT:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
-            cast(Any, run_worlds)(*self._arrays, 0, 1, ticks, self._tick)
+            state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
+            run_worlds(
+                Lanes(state, board_of, logs, tallies), BatchGeometry(board, colliders, grid),
+                action, 0, 1, ticks, self._tick,
+            )  # fmt: skip
             return int(self._arrays[0][0]["fault"])
         return self._step(self._addresses, buttons, ticks)
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
         """Make the step; it is compiled now, and no earlier."""
-        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        self._step = step = bind_types(step_alone, addresses, buttons, ticks)
         fault: int = step(addresses, buttons, ticks)
         return fault
 
@@ -131,18 +135,16 @@ def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
     action[0, 0, 0] = buttons & LEFT != 0
     action[0, 0, 1] = buttons & RIGHT != 0
     action[0, 0, 2] = buttons & JITTER != 0
-    run_worlds(
+    lanes = Lanes(
         worlds,
-        array_at(at.board, (1,), BOARD),
         array_at(at.board_of, (1,), INT),
-        array_at(at.collider, (at.colliders,), COLLIDER),
-        array_at(at.grid, (at.numbers,), SHORT_INT),
         array_at(at.log, (1,), LOG),
         array_at(at.tally, (1, at.parts), INT),
-        action,
-        0,
-        1,
-        ticks,
-        at.tick,
     )
+    geometries = BatchGeometry(
+        array_at(at.board, (1,), BOARD),
+        array_at(at.collider, (at.colliders,), COLLIDER),
+        array_at(at.grid, (at.numbers,), SHORT_INT),
+    )
+    run_worlds(lanes, geometries, action, 0, 1, ticks, at.tick)
     return int(worlds[0].fault)
