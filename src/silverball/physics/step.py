@@ -17,7 +17,7 @@ from typing import Any
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_off_held, exchange
 from silverball.physics.contact import first_contact, is_near, resolve
-from silverball.physics.event_log import leave, record
+from silverball.physics.event_log import begin_step, leave, record
 from silverball.physics.flight import flight_to_ball, flown
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.motion import depart, end_flight, hold, land, let_go
@@ -256,14 +256,14 @@ def run_worlds(
         board_of: The board of each world [world].
         colliders: COLLIDER records of all boards.
         grid: The grids of all boards.
-        logs: LOG records [world]; emptied first.
+        logs: LOG records [world]; the events of the step before are dropped first.
         tallies: Hits of each part [world, part], added to.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
         ticks: How many ticks; below zero: so many more, as if the call before this one went on. Logs are
-            then not emptied, and with one row there is no jitter.
+            then left as they are, and with one row there is no jitter.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
@@ -273,7 +273,7 @@ def run_worlds(
         world, log, tally = worlds[index], logs[index], tallies[index]
         board = boards[board_of[index]]
         if not goes_on:
-            log.count, log.lost = 0, 0
+            begin_step(log)
         if ticks == 0 or not is_ready(world, board, colliders, grid, log, tick):
             continue
         step = 0
@@ -297,3 +297,4 @@ def run_worlds(
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
         leave(world, log)
+        log.done = log.count

@@ -22,7 +22,8 @@ from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
 from silverball.world import saved_world as states
 from silverball.world.compile import Boards, compile_tables
-from silverball.world.snapshot import Index, Snapshot, put_back, taken
+from silverball.world.events import Event, read_events
+from silverball.world.snapshot import Index, Snapshot, checked_row, put_back, taken
 from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
@@ -48,7 +49,7 @@ class WorldBatch:
         table: Table | str | os.PathLike[str] | Sequence[Table],
         count: int = 1,
         seed: int | Sequence[int] = 0,
-        tick_rate: int = 60,
+        tick_rate: int = 240,
         threads: int | None = None,
     ) -> None:
         """Make `count` worlds.
@@ -175,6 +176,27 @@ class WorldBatch:
         created: NDArray[np.bool_] = outcomes == Outcome.CREATED
         return created
 
+    def events(self, index: int) -> tuple[Event, ...]:
+        """What happened in one world, as `World.events` gives it.
+
+        Args:
+            index: The number of the world, 0 to count − 1; negative numbers count from the end.
+
+        Raises:
+            ValueError: There is no such world.
+
+        Example:
+            >>> import numpy as np, silverball as sb
+            >>> batch = sb.WorldBatch("classic", count=3)
+            >>> created = batch.create_balls()
+            >>> batch.step(np.zeros((3, 3), bool))
+            >>> [event.kind for event in batch.events(2)]
+            ['created']
+        """
+        row = checked_row(index, self.count)
+        board = self.board_of[row]
+        return read_events(self.logs[row], self.boards.names[board], self.tables[board].board.height)
+
     def save(self, index: Index = None) -> Snapshot:
         """Copy the state of some worlds, random generators included, for `restore`.
 
@@ -205,7 +227,8 @@ class WorldBatch:
         """
         digests, board_of = self.boards.digests, self.board_of
         rows = put_back(snapshot, self.state, digests, board_of, self.tick_rate, index)
-        self.logs["count"][rows] = self.logs["lost"][rows] = 0
+        for name in ("count", "lost", "carried", "done"):
+            self.logs[name][rows] = 0
 
     def digests(self) -> list[str]:
         """The digest of each world, as `World.digest` gives it; about half a microsecond each."""

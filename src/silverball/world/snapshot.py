@@ -180,7 +180,7 @@ def chosen(index: Index, count: int) -> slice | NDArray[np.int64]:
     if isinstance(index, slice):
         return index
     if isinstance(index, int) and not isinstance(index, bool):
-        return slice(row := _checked_row(index, count), row + 1)
+        return slice(row := checked_row(index, count), row + 1)
     try:
         rows = np.asarray(index)
     except ValueError:
@@ -196,14 +196,14 @@ def chosen(index: Index, count: int) -> slice | NDArray[np.int64]:
             f"index must be None, a whole number, a slice, a list of whole numbers or a mask, got {index!r}"
         )
     if rows.ndim == 0:
-        return slice(row := _checked_row(int(rows), count), row + 1)
-    _checked_row(int(rows.min()), count)
-    _checked_row(int(rows.max()), count)
+        return slice(row := checked_row(int(rows), count), row + 1)
+    checked_row(int(rows.min()), count)
+    checked_row(int(rows.max()), count)
     rows = rows.astype(np.int64)
     return np.where(rows < 0, rows + count, rows)
 
 
-def _checked_row(row: int, count: int) -> int:
+def checked_row(row: int, count: int) -> int:
     """A row of `count`, counted from the end if negative."""
     if not -count <= row < count:
         raise ValueError(f"index {row} is out of range: there are {count} worlds")
