@@ -27,7 +27,8 @@ from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
 from silverball.physics.validation import is_sound
 from silverball.table import Table
 from silverball.world import saved_world as states
-from silverball.world.batch import WorldBatch, checked_int
+from silverball.world.arguments import checked_int
+from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
 from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
 
