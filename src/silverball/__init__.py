@@ -1,4 +1,4 @@
-"""Silverball: a pinball table in Python, exact, fast and deterministic.
+"""A pinball table in Python: exact, fast and deterministic.
 
     import silverball as sb
 
@@ -6,7 +6,7 @@
     world.create_ball()
     world.step(left=True, ticks=24)
 
-Everything public is reachable from here and loaded when first used: `import silverball` costs nothing.
+Every public name is reachable from here and loaded on first use, so `import silverball` is fast.
 """
 
 from __future__ import annotations
@@ -58,6 +58,9 @@ if TYPE_CHECKING:
         load_table as load_table,
     )
     from silverball.table import (
+        parts as parts,
+    )
+    from silverball.table import (
         save_table as save_table,
     )
     from silverball.table import (
@@ -89,7 +92,9 @@ _HOME = {
         "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError",
         "StateError", "TableError", "UnknownTable",
     ),
-    "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
+    "silverball.table": (
+        "Table", "check_table", "generate_table", "load_table", "parts", "save_table", "table_names",
+    ),
     "silverball.world": ("BallState", "Event", "PaddleState", "Snapshot", "World", "WorldBatch"),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}

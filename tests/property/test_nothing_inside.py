@@ -95,7 +95,7 @@ def soak(tables: list[Table], ticks: int, tick_rate: int = 60, seed: int = 0, wi
             ball["vx"] = np.where(thrown, speed * np.sin(turn), ball["vx"])
             ball["vz"] = np.where(thrown, speed * np.cos(turn), ball["vz"])
         before = batch.state["paddle"]["angle"].copy()
-        batch.run(held, 1)
+        batch.step_unchecked(held, 1)
         _look(
             batch.state, batch.boards.board, batch.board_of, batch.boards.collider, batch.logs, before, seen
         )

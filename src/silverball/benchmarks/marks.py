@@ -100,14 +100,14 @@ def _play(
     for _ in range(FILL):
         batch.create_balls()
     if frames < FRAMES:  # the balls must be spread over the board first
-        batch.run(random_actions(random, FRAMES, count), FRAMES)
+        batch.step_unchecked(random_actions(random, FRAMES, count), FRAMES)
 
     def one_round() -> float:
         for _ in range(FILL):
             batch.create_balls()
         actions = np.repeat(random_actions(random, frames, count), ticks, axis=0)
         started = time.perf_counter()
-        batch.run(actions, frames * ticks)
+        batch.step_unchecked(actions, frames * ticks)
         return (time.perf_counter() - started) / (count * frames)
 
     return one_round
@@ -129,7 +129,7 @@ def _rolling_cost(rounds: int) -> Figure:
     for _ in range(rounds + 2):
         for _ in range(FILL):
             slides.create_balls()
-        slides.run(random_actions(random, FRAMES, WORLDS), FRAMES)
+        slides.step_unchecked(random_actions(random, FRAMES, WORLDS), FRAMES)
         rolls.state[:] = slides.state
         ball = rolls.state["ball"]
         ball["spin_x"], ball["spin_z"] = ball["vz"] / radius, -ball["vx"] / radius
@@ -137,7 +137,7 @@ def _rolling_cost(rounds: int) -> Figure:
         times = []
         for batch in (slides, rolls):
             started = time.perf_counter()
-            batch.run(actions, FRAMES)
+            batch.step_unchecked(actions, FRAMES)
             times.append(time.perf_counter() - started)
         shares.append(times[1] / times[0])
     return Figure("rolling costs from the same places", statistics.median(shares[2:]), "×")
@@ -149,7 +149,7 @@ def _rest() -> Callable[[], float]:
     batch = WorldBatch("classic", count, 0, FRAME_RATE, 1)
     raised = np.zeros((1, count, 3), np.bool_)
     raised[..., :2] = True
-    batch.run(raised, FRAMES)
+    batch.step_unchecked(raised, FRAMES)
     one = World("classic", tick_rate=FRAME_RATE)
     one.step(left=True, right=True, ticks=FRAMES)
     for z in (-2.9, 2.9):
@@ -160,7 +160,7 @@ def _rest() -> Callable[[], float]:
 
     def one_round() -> float:
         started = time.perf_counter()
-        batch.run(raised, FRAMES)
+        batch.step_unchecked(raised, FRAMES)
         return (time.perf_counter() - started) / (count * FRAMES)
 
     return one_round

@@ -33,7 +33,7 @@ from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
 from silverball.physics.records import WORLD, Part, records
-from silverball.world.threads import pool_of_threads
+from silverball.world.threads import thread_pool
 
 FORMAT = 3  # of saved states
 MARK = 16  # bytes that say of which boards and which version a saved state is
@@ -207,7 +207,7 @@ class Engine:
             self.move(self.addresses, 0, self.count, number)
             return
         edges = [self.count * slice_ // threads for slice_ in range(threads + 1)]
-        workers = pool_of_threads(self.batch.threads)
+        workers = thread_pool(self.batch.threads)
         others: list[Future[Any]] = [
             workers.submit(self.move, self.addresses, first, end, number)
             for first, end in itertools.pairwise(edges[1:])

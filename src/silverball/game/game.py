@@ -410,7 +410,7 @@ class Game:
 
     def _apply(self, events: tuple[Event, ...]) -> None:
         """Let the rules see what happened."""
-        self._events.extend(events)
+        self._events.extend(event for event in events if event.kind != "created")  # reported when it happened
         untold = self.world.score - self._world_score  # points of hits that found no room in the log
         self._world_score += untold
         for event in events:

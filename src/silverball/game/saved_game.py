@@ -22,7 +22,7 @@ def pack_game(mode: str, ended: str, world: bytes, rules_text: str) -> bytes:
     """A game as bytes."""
     header = HEADER.pack(MAGIC, states.FORMAT, PHYSICS_VERSION, len(world))
     words = f"{mode} {ended} {rules_text}".encode("ascii")
-    return states.sealed(header + world + words)
+    return states.seal(header + world + words)
 
 
 def unpack_game(state: bytes) -> tuple[str, str, bytes, tuple[RuleState, Watch, Own]]:
@@ -31,7 +31,7 @@ def unpack_game(state: bytes) -> tuple[str, str, bytes, tuple[RuleState, Watch, 
     Raises:
         StateError: The bytes are damaged or of another version.
     """
-    body = states.opened(state, MAGIC, HEADER, "Game.save")
+    body = states.unseal(state, MAGIC, HEADER, "Game.save")
     *_, size = HEADER.unpack_from(body)
     world, words = body[HEADER.size : HEADER.size + size], body[HEADER.size + size :]
     try:

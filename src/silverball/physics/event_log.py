@@ -5,13 +5,27 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import LOG_RESERVE, LOG_SIZE, Contact, EventKind
+from silverball.physics.records import BALL_COUNT, LOG_LENGTH, LOG_RESERVE, LOG_SIZE, Contact, EventKind
+
+
+@internal
+def begin_step(log: Any) -> None:
+    """Drop the events of the previous step, but not the balls created since it ended."""
+    carried = min(max(log.count - log.done, 0), BALL_COUNT)
+    first = log.count - carried
+    for number in range(carried):
+        log.event[number] = log.event[first + number]
+    log.count, log.carried, log.done, log.lost = carried, carried, carried, 0
 
 
 @internal
 def log_event(log: Any, kind: int, ball: Any, tick: int, contact: Contact, speed: float) -> None:
     """Append an event of a ball where it is (see `records.EVENT`) to a world's log, or count it as lost."""
-    room = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
+    room = log.carried + LOG_SIZE
+    if kind <= EventKind.BALL_TOUCH:
+        room -= LOG_RESERVE
+    elif kind == EventKind.CREATED:
+        room = LOG_LENGTH + 0
     if log.count >= room:
         log.lost += 1
         return

@@ -23,7 +23,10 @@ BALL_COUNT = 2
 """Balls in a world record; a table may allow one or two (`max_balls`)."""
 
 LOG_SIZE = 64
-"""Events that the log of one world holds; later ones are counted as lost."""
+"""Events that the log of one world holds of one step; later ones are counted as lost."""
+
+LOG_LENGTH = LOG_SIZE + 2 * BALL_COUNT
+"""Events that fit into a log: those of a step, and the balls created before it and after it."""
 
 
 LOG_RESERVE = 8
@@ -217,8 +220,10 @@ EVENT = np.dtype(
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
+        ("carried", "i8"),  # the first events are balls created before the last step
+        ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "f8"),  # of the flights and angles that the last call left (see validation.py)
-        ("event", EVENT, (LOG_SIZE,)),
+        ("event", EVENT, (LOG_LENGTH,)),
     ],
     align=True,
 )  # fmt: skip

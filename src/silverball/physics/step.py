@@ -17,7 +17,7 @@ from typing import Any
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
 from silverball.physics.contact import first_contact, is_near, resolve
-from silverball.physics.event_log import log_event, store_checksum
+from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
@@ -268,14 +268,14 @@ def run_worlds(
     """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
-        lanes: The worlds; their logs are emptied first, their tallies added to.
+        lanes: The worlds; their logs lose the events of the previous step, their tallies are added to.
         geometries: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
         ticks: How many ticks; below zero: so many more, as if the call before this one went on. Logs are
-            then not emptied, and with one row there is no jitter.
+            then left as they are, and with one row there is no jitter.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
@@ -287,7 +287,7 @@ def run_worlds(
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)
         if not continues_flight:
-            log.count, log.lost = 0, 0
+            begin_step(log)
         if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
         step = 0
@@ -311,3 +311,4 @@ def run_worlds(
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # names the fault
         store_checksum(world, log)
+        log.done = log.count

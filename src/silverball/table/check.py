@@ -12,7 +12,7 @@ question is whether they make a table. Whether a recipe makes boards is tried ou
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,12 +21,10 @@ from silverball.table.geometry import (
     BORDER_NAMES,
     Floats,
     Shapes,
-    Standing,
     border_gaps,
     distances,
     near_pairs,
     offsets,
-    outline,
     side_of,
 )
 from silverball.table.parts import (
@@ -35,13 +33,16 @@ from silverball.table.parts import (
     Paddle,
     RandomRecipe,
     SlantWall,
-    Table,
+    StandingPart,
     TriangularPrism,
 )
 from silverball.table.placement_rules import recipe_problems
 from silverball.table.reach import PASSAGE, Space, creation_floor, space
 from silverball.table.sweep import CLEARANCE, touches_border, touches_paddle, touches_shape
 from silverball.table.traps import level_faces, pockets
+
+if TYPE_CHECKING:
+    from silverball.table.table import Table
 
 FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may reach over an edge of the board
@@ -86,7 +87,7 @@ class Measured(NamedTuple):
     """The standing parts of a layout that have an extent, ready to be measured."""
 
     paths: list[str]
-    parts: list[Standing]
+    parts: list[StandingPart]
     shapes: Shapes
 
 
@@ -106,7 +107,7 @@ def check_layout(layout: Layout) -> list[Problem]:
         problems.append(Problem("", f"and {len(meetings) - TANGLE:,} more overlaps"))
     problems += _sweep_problems(layout, standing)
     paddles = tuple(paddle for _, paddle in layout.paddles)
-    outlines = [outline(part) for part in standing.parts]
+    outlines = [part.outline() for part in standing.parts]
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
     problems += _way_problems(layout, paddles, ball_space)
@@ -197,8 +198,8 @@ def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
     """The standing parts that have an extent, and the problems of those that have none or stick out."""
     problems: list[Problem] = []
     paths: list[str] = []
-    parts: list[Standing] = []
-    everything: tuple[tuple[str, Standing], ...] = (
+    parts: list[StandingPart] = []
+    everything: tuple[tuple[str, StandingPart], ...] = (
         *layout.slant_walls,
         *layout.triangular_prisms,
         *layout.cylinders,
@@ -210,11 +211,11 @@ def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
             parts.append(part)
         if problem is not None:
             problems.append(problem)
-    return Measured(paths, parts, Shapes.of([outline(part) for part in parts])), problems
+    return Measured(paths, parts, Shapes.of([part.outline() for part in parts])), problems
 
 
-def _own_problem(path: str, part: Standing, board: Board) -> Problem | None:
-    core, radius = outline(part)
+def _own_problem(path: str, part: StandingPart, board: Board) -> Problem | None:
+    core, radius = part.outline()
     points = np.array(core)
     path = f"{path}.{_place_key(part)}"
     if isinstance(part, SlantWall):
@@ -239,7 +240,7 @@ def _height(corners: Floats) -> float:
     return abs(twice_area) / longest if longest > 0.0 else 0.0
 
 
-def _place_key(part: Standing) -> str:
+def _place_key(part: StandingPart) -> str:
     """The key that says where a part is."""
     if isinstance(part, SlantWall):
         return "end"
@@ -294,10 +295,10 @@ def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
     return Problem(path, message)
 
 
-def _cross(one: Standing, other: Standing) -> bool:
+def _cross(one: StandingPart, other: StandingPart) -> bool:
     """Whether two slant walls cross in the middle of both: neither has an end near the other."""
-    (a, b, _), near = outline(one)
-    (c, d, _), far = outline(other)
+    (a, b, _), near = one.outline()
+    (c, d, _), far = other.outline()
     points = [np.array(point) for point in (a, b, c, d)]
     if side_of(points[0], points[1], points[2]) * side_of(points[0], points[1], points[3]) >= 0.0:
         return False
@@ -336,7 +337,7 @@ def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
         if border is not None:
             problems.append(_touch(path, border[0], BORDER_NAMES[border[1]]))
         for other_path, part in zip(standing.paths, standing.parts, strict=True):
-            angle = touches_shape(paddle, *outline(part))
+            angle = touches_shape(paddle, *part.outline())
             if angle is not None:
                 problems.append(_touch(path, angle, other_path))
     return problems
@@ -369,7 +370,7 @@ def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space
 def _trap_problems(layout: Layout, standing: Measured, ball_space: Space) -> list[Problem]:
     """The places where a ball would lie for ever; paddles count as they rest."""
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for _, paddle in layout.paddles]
-    shapes = Shapes.of([*(outline(part) for part in standing.parts), *resting])
+    shapes = Shapes.of([*(part.outline() for part in standing.parts), *resting])
     paths = [*standing.paths, *(path for path, _ in layout.paddles)]
     keys = [*(_place_key(part) for part in standing.parts), *("rest_angle" for _ in layout.paddles)]
     problems = []

@@ -18,26 +18,18 @@ import os
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import tomli_w
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.plain import plain
-from silverball.table.check import Layout, check_layout
-from silverball.table.explain import PART_KINDS, explain
-from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table, TriangularPrism
-from silverball.table.trial import try_recipe
+from silverball.table.parts import PART_KINDS, Arcade, Board
+from silverball.table.table import Table, checked_table
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
-MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
-
-_Part: TypeAlias = TriangularPrism | Cylinder
-
-# Without these a layout cannot be measured; chosen to be what `check` needs to know of a board.
-_MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
 
 
 def table_names() -> tuple[str, ...]:
@@ -78,32 +70,7 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
     Raises:
         TableError: The text has problems; all of them are in `problems`.
     """
-    data = _parse_toml(text, source)
-    table: Table | None = None
-    problems: list[Problem] = []
-    try:
-        table = Table.model_validate(data)
-        layout: Layout | None = Layout.of(table)
-    except ValidationError as error:
-        problems += explain(error)
-        layout = _what_is_left(data, error)
-    if layout is not None:
-        layout, footprint_problems = _with_footprints(layout, folder or Path())
-        problems += footprint_problems
-        problems += check_layout(layout)
-    if problems or table is None or layout is None:
-        raise TableError(source, problems)
-    if _has_mesh(table):
-        table = table.model_copy(
-            update={
-                "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
-                "cylinder": tuple(part for _, part in layout.cylinders),
-            }
-        )
-    problems = try_recipe(table)
-    if problems:
-        raise TableError(source, problems)
-    return table
+    return checked_table(_parse_toml(text, source), source, folder)
 
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:
@@ -147,11 +114,10 @@ def table_digest(table: Table) -> str:
 
     Equal tables have equal digests, on any machine and in any process; a mesh counts by its footprint.
     """
-    prisms = [part.resolved() for part in table.triangular_prism]
-    cylinders = [part.resolved() for part in table.cylinder]
-    whole = table.model_copy(update={"triangular_prism": tuple(prisms), "cylinder": tuple(cylinders)})
     unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as before there was this section
-    text = json.dumps(whole.model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":"))
+    text = json.dumps(
+        table.resolved().model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":")
+    )
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
@@ -197,78 +163,6 @@ def _parse_toml(text: str, source: str) -> dict[str, Any]:
         raise _unreadable(source, "is not a table file: its brackets are nested too deeply") from error
     except ValueError as error:  # TOMLDecodeError, and numbers of more than 4,300 digits
         raise _unreadable(source, f"is not valid TOML: {str(error)[:200]}") from error
-
-
-def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None:
-    """The parts without mistakes, under their own paths, so that they can be checked all the same.
-
-    None if the board itself cannot be measured.
-    """
-    broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
-    if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
-        return None
-    bad_keys = {place[1] for place in broken if place[0] == "board"}
-    # Each key that is left is good, but perhaps not beside the default of one that is not (`rolling` needs
-    # `friction`): the board is put together without being validated again.
-    board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
-    left: dict[str, list[tuple[str, Any]]] = {}
-    for kind, model in PART_KINDS.items():
-        usable = (kind,) not in broken
-        bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
-        left[kind] = [
-            (f"{kind}[{index}]", model.model_validate(item))
-            for index, item in enumerate(data.get(kind, []) if usable else [])
-            if index not in bad
-        ]
-    recipe = None
-    if "random" in data and not any(place[0] == "random" for place in broken):
-        recipe = RandomRecipe.model_validate(data["random"])
-    parts = {f"{kind}s": tuple(left[kind]) for kind in PART_KINDS}
-    return Layout(board=board, random=recipe, **parts)
-
-
-def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
-    """The layout with every mesh replaced by its footprint; parts whose mesh is no good are left out."""
-    problems: list[Problem] = []
-    known: dict[tuple[type, str], _Part | TableError] = {}  # a file that many parts name is read once
-
-    def resolved(part: _Part) -> _Part | TableError:
-        assert part.mesh is not None
-        key = (type(part), part.mesh)
-        if key not in known and len(known) >= MESHES_LIMIT:
-            message = (
-                f"is one mesh too many: a table reads at most {MESHES_LIMIT}: give its footprint instead"
-            )
-            return TableError(part.mesh, [Problem("mesh", message)])
-        if key not in known:
-            try:
-                known[key] = part.resolved(folder)
-            except TableError as error:
-                known[key] = error
-        found = known[key]
-        if isinstance(found, TableError):
-            return found
-        place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
-        return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
-
-    def solid(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
-        kept: list[tuple[str, _Part]] = []
-        for path, part in parts:
-            found = part if part.mesh is None else resolved(part)
-            if isinstance(found, TableError):
-                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
-            else:
-                kept.append((path, found))
-        return tuple(kept)
-
-    whole = layout._replace(
-        triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
-    )
-    return whole, problems
-
-
-def _has_mesh(table: Table) -> bool:
-    return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
 
 
 def _block(head: str, model: BaseModel) -> str:

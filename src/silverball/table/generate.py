@@ -9,9 +9,9 @@ from numbers import Integral
 from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
 from silverball.table.file import load_table
-from silverball.table.parts import Table
 from silverball.table.placement import board_of
 from silverball.table.quantity import shown
+from silverball.table.table import Table
 
 
 def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random") -> Table:

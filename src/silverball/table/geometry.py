@@ -8,21 +8,19 @@ counter-clockwise with z to the right and x up. Nothing here changes its argumen
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.table.parts import Board, Cylinder, Paddle, Point, SlantWall, Triangle, TriangularPrism
+if TYPE_CHECKING:
+    from silverball.table.parts import Board, Outline, Paddle, Point
 
 Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.signedinteger[Any]]
 
 AT_ONCE = 4096  # pairs of shapes, or balls and shapes, that are measured in one go, to bound the memory
-
-Standing: TypeAlias = SlantWall | TriangularPrism | Cylinder
-"""A part that stands still."""
 
 
 class Shapes(NamedTuple):
@@ -37,7 +35,7 @@ class Shapes(NamedTuple):
     radius: Floats
 
     @classmethod
-    def of(cls, outlines: list[tuple[Triangle, float]]) -> Shapes:
+    def of(cls, outlines: list[Outline]) -> Shapes:
         """The shapes of a list of outlines."""
         core = np.array([points for points, _ in outlines], dtype=np.float64).reshape(-1, 3, 2)
         return cls(core, np.array([radius for _, radius in outlines], dtype=np.float64))
@@ -49,27 +47,15 @@ class Shapes(NamedTuple):
         return center, spread + self.radius
 
 
-def outline(part: Standing) -> tuple[Triangle, float]:
-    """The core of a standing part, always three points, and the radius around it."""
-    if isinstance(part, SlantWall):
-        return (part.start, part.end, part.end), part.thickness
-    if isinstance(part, TriangularPrism):
-        return part.corners(), 0.0
-    x, z, radius = part.circle()
-    return ((x, z), (x, z), (x, z)), radius
-
-
 def paddle_cores(paddle: Paddle, angles: Floats) -> Floats:
     """The corners of a paddle at many angles [deg], shape [angle, 3, 2]: `Paddle.corners`, vectorised."""
-    side = 1.0 if paddle.side == "left" else -1.0
-    pivot = np.array([paddle.pivot[0], side * paddle.pivot[1]])
     turn = np.radians(angles)
-    along = np.stack([np.sin(turn), np.cos(turn)], axis=-1)
-    across = np.stack([np.cos(turn), -np.sin(turn)], axis=-1) * (0.5 * paddle.base)
-    corners = np.stack([pivot - across, pivot + paddle.length * along, pivot + across], axis=-2)
-    if side < 0.0:
-        corners = corners[:, ::-1, :] * np.array([1.0, -1.0])
-    return corners
+    sine, cosine = np.sin(turn)[:, None], np.cos(turn)[:, None]
+    across, along = np.array(paddle.local_corners()).T
+    x = paddle.pivot[0] + (across * cosine + along * sine)
+    z = paddle.pivot[1] + paddle.direction * (along * cosine - across * sine)
+    corners = np.stack([x, z], axis=-1)
+    return corners if paddle.direction > 0.0 else corners[:, ::-1, :]
 
 
 def offsets(points: Floats, core: Floats) -> Floats:

@@ -16,6 +16,7 @@ import os
 import stat
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,7 +24,9 @@ from silverball.errors import Problem, TableError
 from silverball.plain import plain
 from silverball.table.geometry import Floats
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
-from silverball.table.parts import Point, Triangle
+
+if TYPE_CHECKING:
+    from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
 CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle among them is found in a second

@@ -1,24 +1,28 @@
-"""What is a table made of? One model per part; the attributes are the keys of the TOML file.
+"""The parts of a table: one frozen model per part, whose attributes are the keys of the TOML file.
 
-Every field carries its unit, its range and its default, and a default stands nowhere else. Points are
-written ``[x, z]``: x runs up the table, z to the player's right, the origin is the centre of the board.
-Lengths are table units [u], times seconds, angles degrees, counter-clockwise as the player sees the
-board, from +z (right) towards +x (up). All models are frozen: change one with ``model_copy(update=...)``.
+    import silverball as sb
 
-A part says what it is (`Paddle`) and where its outline lies (`Paddle.corners`); whether the parts fit
-together is the question of `check.py`. The trade says flipper for paddle, bumper for cylinder, drain
-for gutter and nudge for jitter.
+    bumper = sb.parts.Cylinder(center=(5.0, 1.5), radius=0.6)
+    table = sb.load_table("classic").replace(cylinder=[bumper], board={"gravity": 12.0})
+
+Every field states its unit, its range and its default. Points are (x, z): x runs up the table, z to the
+player's right, and the origin is the centre of the board. Lengths are in table units [u], times in seconds,
+angles in degrees, counter-clockwise as the player sees the board, from +z (right) towards +x (up).
+
+A constructor refuses unknown names and values out of range with pydantic's `ValidationError`, a `ValueError`.
+`replace` makes a changed copy. Whether the parts fit together is checked by `check_table`. Other words for
+the same things: flipper for paddle, bumper for cylinder, drain for gutter, nudge for jitter.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import (
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Field,
     ValidationInfo,
@@ -28,14 +32,29 @@ from pydantic import (
 
 from silverball.table.quantity import COORDINATE, POINT, Count, Interval, Quantity, Several, refuse, shown
 
-FORMAT: Literal[1] = 1  # the version of the file format that this module describes
-PARTS_LIMIT = 256  # parts of one kind in a table; chosen: ten times a rich table, checked in a second
+__all__ = [
+    "Arcade",
+    "Board",
+    "Cylinder",
+    "CylinderSurface",
+    "Paddle",
+    "PrismSurface",
+    "RandomRecipe",
+    "SlantWall",
+    "TriangularPrism",
+]
 
 Point: TypeAlias = tuple[float, float]
 """A place on the board, (x, z) [u]."""
 
 Triangle: TypeAlias = tuple[Point, Point, Point]
 """Three corners, (x, z) [u] each."""
+
+Outline: TypeAlias = tuple[Triangle, float]
+"""The three points of a convex core (x, z) and the radius around it [u]; fewer points are repeated."""
+
+SineCosine: TypeAlias = Callable[[float], tuple[float, float]]
+"""The sine and the cosine of an angle [rad]."""
 
 _Place = Annotated[Point, POINT]
 _Corners = Annotated[Triangle, Several(POINT, 3, "[[x, z], [x, z], [x, z]]")]
@@ -44,7 +63,7 @@ _Falloff = Annotated[float, Quantity(0.0, 10.0, "s/u")]
 _SpeedFactor = Annotated[float, Quantity(0.1, 3.0)]
 _Points = Annotated[int, Count(0, 1_000_000, "points")]
 _Radius = Annotated[float, Quantity(0.05, 10.0, "u")]
-_Name = Annotated[str, Field(max_length=80)]
+Name = Annotated[str, Field(max_length=80)]
 
 
 def _counter_clockwise(corners: Triangle) -> Triangle:
@@ -55,20 +74,37 @@ def _counter_clockwise(corners: Triangle) -> Triangle:
     return (a, b, c) if turn >= 0.0 else (a, c, b)
 
 
-class _Model(BaseModel):
-    """What all models share: frozen, and no key that is not known."""
+def _libm(angle: float) -> tuple[float, float]:
+    return math.sin(angle), math.cos(angle)
+
+
+class Model(BaseModel):
+    """The base of all models: frozen, and without unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
+    def replace(self, **changes: Any) -> Self:
+        """Make a copy with some fields changed, validated as by the constructor.
 
-class _Part(_Model):
-    """What everything that a ball can hit has in common."""
+        Raises:
+            ValidationError: A name is unknown, or a value has the wrong type or is out of range.
 
-    name: _Name = ""
+        Example:
+            >>> import silverball as sb
+            >>> sb.parts.Cylinder(center=(5.0, 1.5), radius=0.6).replace(points=250).points
+            250
+        """
+        return type(self)(**(self.model_dump(exclude_defaults=True) | changes))
+
+
+class _Part(Model):
+    """The base of everything that a ball can hit."""
+
+    name: Name = ""
     """A name for people; it changes nothing in play."""
 
 
-class Board(_Model):
+class Board(Model):
     """The board itself, its borders (left, right, top) and what holds for every ball on it."""
 
     length: Annotated[float, Quantity(4.0, 50.0, "u")] = 20.0
@@ -133,6 +169,10 @@ class SlantWall(_Part):
     """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
     points: _Points = 0
     """Points for a hit."""
+
+    def outline(self) -> Outline:
+        """The two ends as a core, and the thickness as its radius."""
+        return (self.start, self.end, self.end), self.thickness
 
     def inward_normal(self, board: Board) -> Point:
         """The unit normal (x, z) that points towards the board's centre, for either order of the ends.
@@ -200,23 +240,32 @@ class Paddle(_Part):
         turn = math.radians(self.up_angle - self.rest_angle)
         return turn / min(self.stroke, self.return_stroke) * self.reach
 
+    @property
+    def direction(self) -> float:
+        """1 for a left paddle, whose tip points to +z at 0 deg; −1 for a right one."""
+        return 1.0 if self.side == "left" else -1.0
+
+    def local_corners(self) -> Triangle:
+        """The lower base, tip and upper base (x, z) [u] of a left paddle at 0 deg, relative to its pivot."""
+        half = 0.5 * self.base
+        return (-half, 0.0), (0.0, self.length), (half, 0.0)
+
     def corners(self, angle_deg: float) -> Triangle:
-        """The outline (x, z) [u] at an angle [deg], counter-clockwise.
+        """The corners (x, z) [u] at an angle, counter-clockwise.
 
         Args:
-            angle_deg: The mirrored angle: −10 at rest and 45 up, for a left and a right paddle alike.
+            angle_deg: The mirrored angle [deg]: −10 at rest and 45 up, for a left and a right paddle alike.
         """
-        side = 1.0 if self.side == "left" else -1.0
-        x, z = self.pivot[0], side * self.pivot[1]
-        sine, cosine = math.sin(math.radians(angle_deg)), math.cos(math.radians(angle_deg))
-        half = 0.5 * self.base
-        lower = (x - half * cosine, side * (z + half * sine))
-        tip = (x + self.length * sine, side * (z + self.length * cosine))
-        upper = (x + half * cosine, side * (z - half * sine))
+        sine, cosine = _libm(math.radians(angle_deg))
+        x, z = self.pivot
+        lower, tip, upper = (
+            (x + (across * cosine + along * sine), z + self.direction * (along * cosine - across * sine))
+            for across, along in self.local_corners()
+        )
         return (lower, tip, upper) if self.side == "left" else (upper, tip, lower)
 
 
-class PrismSurface(_Model):
+class PrismSurface(Model):
     """How a triangular prism answers a ball: it takes speed away."""
 
     restitution: _Restitution = 0.8
@@ -281,8 +330,13 @@ class TriangularPrism(PrismSurface, _Part):
         vertices = triangle_footprint((folder or Path()) / self.mesh)
         return self.model_copy(update={"mesh": None, "vertices": vertices})
 
-    def corners(self) -> Triangle:
-        """The three corners (x, z) [u], counter-clockwise, whichever way the prism was given."""
+    def corners(self, sine_cosine: SineCosine = _libm) -> Triangle:
+        """The three corners (x, z) [u], counter-clockwise, whichever way the prism was given.
+
+        Args:
+            sine_cosine: The functions that turn an equilateral prism. The physics passes its own, which give
+                the same bits on every machine.
+        """
         if self.vertices is not None:
             return _counter_clockwise(self.vertices)
         if self.mesh is not None:
@@ -290,12 +344,16 @@ class TriangularPrism(PrismSurface, _Part):
         assert self.center is not None
         assert self.size is not None
         x, z = self.center
-        turns = [math.radians(self.rotation + third) for third in (0.0, 120.0, 240.0)]
-        a, b, c = ((x + self.size * math.sin(turn), z + self.size * math.cos(turn)) for turn in turns)
+        angles = (sine_cosine(math.radians(self.rotation + third)) for third in (0.0, 120.0, 240.0))
+        a, b, c = ((x + self.size * sine, z + self.size * cosine) for sine, cosine in angles)
         return (a, b, c)
 
+    def outline(self) -> Outline:
+        """The corners as a core, without a radius."""
+        return self.corners(), 0.0
 
-class CylinderSurface(_Model):
+
+class CylinderSurface(Model):
     """How a cylinder answers a ball: it gives speed."""
 
     restitution: _Restitution = 0.9
@@ -349,8 +407,25 @@ class Cylinder(CylinderSurface, _Part):
         assert self.radius is not None
         return (*self.center, self.radius)
 
+    def outline(self) -> Outline:
+        """The centre as a core, and the radius."""
+        x, z, radius = self.circle()
+        return ((x, z), (x, z), (x, z)), radius
 
-class RandomRecipe(_Model):
+
+StandingPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
+"""A part that does not move."""
+
+PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {
+    "slant_wall": SlantWall,
+    "paddle": Paddle,
+    "triangular_prism": TriangularPrism,
+    "cylinder": Cylinder,
+}
+"""The sections of a table file that hold a list of parts, and the model of each."""
+
+
+class RandomRecipe(Model):
     """What to place afresh for every seed, and the rules it is placed by."""
 
     triangular_prisms: Annotated[int, Count(0, 32, "prisms")] = 4
@@ -386,7 +461,7 @@ class RandomRecipe(_Model):
         return area
 
 
-class Arcade(_Model):
+class Arcade(Model):
     """The rules of an arcade game on this table; free play knows none of them."""
 
     balls: Annotated[int, Count(1, 99, "balls")] = 3
@@ -423,32 +498,3 @@ class Arcade(_Model):
     stall: Annotated[float, Quantity(1.0, 600.0, "s")] = 20.0
     """[s] without a hit that scores after which the machine shoves in any case, so that a ball cannot be held
     for ever; longer than any player needs to aim."""
-
-
-def _known_format(value: Any) -> Any:
-    if value != FORMAT or isinstance(value, bool):
-        refuse(f"must be {FORMAT}, got {shown(value)}: a newer file needs a newer Silverball")
-    return FORMAT
-
-
-class Table(_Model):
-    """A whole table. With a `random` section it is a recipe, of which every seed makes a finished table."""
-
-    format: Annotated[Literal[1], BeforeValidator(_known_format)] = FORMAT
-    """The version of the file format."""
-    name: _Name = "Untitled"
-    """What people call it."""
-    board: Board = Board()
-    """The board and its borders."""
-    slant_wall: Annotated[tuple[SlantWall, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The slant walls."""
-    paddle: Annotated[tuple[Paddle, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The paddles, at most one per side."""
-    triangular_prism: Annotated[tuple[TriangularPrism, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The triangular prisms."""
-    cylinder: Annotated[tuple[Cylinder, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The cylinders."""
-    random: RandomRecipe | None = None
-    """What to place afresh for every seed, if anything."""
-    arcade: Arcade = Arcade()
-    """The rules of an arcade game."""

@@ -12,21 +12,32 @@ are drawn from a list of tenths of a degree.
 from __future__ import annotations
 
 import functools
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
-from silverball.table.geometry import Floats, Standing
-from silverball.table.parts import Cylinder, RandomRecipe, Table, TriangularPrism
+from silverball.table.geometry import Floats
+from silverball.table.parts import Cylinder, RandomRecipe, TriangularPrism
 from silverball.table.placement_rules import Surroundings, allowed_rotations, circle_distances
+
+if TYPE_CHECKING:
+    from silverball.table.table import Table
 
 PLACES = 64  # random places that are tried for one obstacle in one layout
 LAYOUTS = 500  # layouts that are started before giving up
 BOARDS = 20  # finished layouts that may fail the check before giving up
 ROUNDING = 1e-9  # [u] by which the rules are kept more strictly, so that nobody's rounding breaks them
 _DECIMALS = 3  # of lengths [u] in a generated table
+
+# The trial of a recipe spends a tenth of the effort that a game may spend on a board, so that luck decides
+# nothing: a recipe of which one layout in a hundred can be played passes the trial and fails later with a
+# chance of 4 in a million; for every other share the chance is less.
+TRIAL_SHARE = 10
+TRIAL_SEEDS = 8  # that must each make a board
+FEW_TRIAL_SEEDS = 2  # where a board costs up to a second
+MANY_PARTS = 100  # from which it does
 
 
 class _Placed(NamedTuple):
@@ -70,12 +81,27 @@ def board_of(recipe: Table, seed: int, layouts: int = LAYOUTS, boards: int = BOA
     raise TableError(kit.table.name, [_no_board(problems[0], boards)])
 
 
+def try_recipe(table: Table) -> list[Problem]:
+    """Try whether a recipe with valid parts makes boards.
+
+    Returns:
+        The problems of the first seed that makes no board; an empty list for a finished table.
+    """
+    if table.random is None:
+        return []
+    for seed in range(TRIAL_SEEDS if len(table.standing_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
+        try:
+            board_of(table, seed, layouts=LAYOUTS // TRIAL_SHARE, boards=BOARDS // TRIAL_SHARE)
+        except TableError as error:
+            return list(error.problems)
+    return []
+
+
 @functools.lru_cache(maxsize=16)
 def _prepare(table: Table) -> _Kit:
     """A recipe with what all its seeds share."""
     assert table.random is not None
-    parts: tuple[Standing, ...] = (*table.slant_wall, *table.triangular_prism, *table.cylinder)
-    around = Surroundings.of(table.board, parts, table.paddle)
+    around = Surroundings.of(table.board, table.standing_parts, table.paddle)
     return _Kit(table, table.random, around, np.array(allowed_rotations(table.random)))
 
 

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.table.geometry import Floats, Shapes, Standing, border_gaps, distances, outline
-from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall
+from silverball.table.geometry import Floats, Shapes, border_gaps, distances
+from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StandingPart
 from silverball.table.reach import PASSAGE
 
 EDGE_ANGLE = 10  # [deg] that every edge of a placed prism keeps off both axes
@@ -45,12 +45,12 @@ class Surroundings(NamedTuple):
     def of(
         cls,
         board: Board,
-        parts: Sequence[Standing],
+        parts: Sequence[StandingPart],
         paddles: Sequence[Paddle],
     ) -> Surroundings:
         """The surroundings that some parts and paddles make."""
-        walls = Shapes.of([outline(part) for part in parts if isinstance(part, SlantWall)])
-        others = Shapes.of([outline(part) for part in parts if not isinstance(part, SlantWall)])
+        walls = Shapes.of([part.outline() for part in parts if isinstance(part, SlantWall)])
+        others = Shapes.of([part.outline() for part in parts if not isinstance(part, SlantWall)])
         center, radius = others.bounds()
         circles = np.concatenate([center, radius[:, None]], axis=1)
         turning = [(*paddle.pivot, paddle.reach) for paddle in paddles]
@@ -87,7 +87,7 @@ def allowed_rotations(recipe: RandomRecipe) -> list[float]:
 
 def recipe_problems(
     board: Board,
-    parts: Sequence[Standing],
+    parts: Sequence[StandingPart],
     paddles: Sequence[Paddle],
     recipe: RandomRecipe,
 ) -> list[Problem]:

@@ -13,13 +13,16 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.table.geometry import Bools, Floats, Standing, outline
-from silverball.table.parts import Board, Paddle, Table, Triangle
+from silverball.table.geometry import Bools, Floats
+from silverball.table.parts import Board, Outline, Paddle, Triangle
+
+if TYPE_CHECKING:
+    from silverball.table.table import Table
 
 CELL = 1.25  # [ball radii] side of a cell in which a ball may be created
 SAMPLES = 4  # samples along each side of a cell
@@ -112,11 +115,10 @@ def ball_places(table: Table) -> tuple[Floats, float]:
         The centres of the cells (x, z) [u], shape [cell, 2], in rows from the paddles up to the top, each
         from left to right; and the side of a cell [u].
     """
-    parts: tuple[Standing, ...] = (*table.slant_wall, *table.triangular_prism, *table.cylinder)
-    return space(table.board, table.paddle, [outline(part) for part in parts]).places()
+    return space(table.board, table.paddle, [part.outline() for part in table.standing_parts]).places()
 
 
-def space(board: Board, paddles: tuple[Paddle, ...], standing: list[tuple[Triangle, float]]) -> Space:
+def space(board: Board, paddles: tuple[Paddle, ...], standing: list[Outline]) -> Space:
     """The space for a ball between the standing parts and the paddles at rest."""
     grid = Grid.of(board, paddles)
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in paddles]

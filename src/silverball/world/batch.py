@@ -21,14 +21,15 @@ from silverball.physics.records import LOG, WORLD, BatchGeometry, Fault, Lanes, 
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
 from silverball.world import saved_world as states
+from silverball.world.arguments import Index, checked_int, checked_row, checked_seeds
 from silverball.world.compile import Boards, compile_tables
-from silverball.world.snapshot import Index, Snapshot, put_back, taken
+from silverball.world.events import Event, read_events
+from silverball.world.snapshot import Snapshot, put_back, taken
 from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
 LEAST_SLICE = 512  # world-ticks below which a slice costs more to hand out than to run
 PIECE_WORK = 2**16  # world-ticks a thread: Python hears of Ctrl-C between two pieces, which take some 50 ms
-GREATEST_SEED = 2**63 - 1
 
 
 class WorldBatch:
@@ -48,7 +49,7 @@ class WorldBatch:
         table: Table | str | os.PathLike[str] | Sequence[Table],
         count: int = 1,
         seed: int | Sequence[int] = 0,
-        tick_rate: int = 60,
+        tick_rate: int = 240,
         threads: int | None = None,
     ) -> None:
         """Make `count` worlds.
@@ -69,7 +70,7 @@ class WorldBatch:
         self.count = checked_int("count", count, 1, 2**22)
         self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
         self.threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
-        seeds = _seeds(seed, self.count)
+        seeds = checked_seeds(seed, self.count)
         self.tables, self.board_of = _finished(table, seeds, self.count)
         self.boards: Boards = compile_tables(self.tables)
         self.state: NDArray[Any] = records(self.count, WORLD)
@@ -112,9 +113,9 @@ class WorldBatch:
                 f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), "
                 f"got {np.shape(actions)}"
             )
-        self.run(held, ticks)
+        self.step_unchecked(held, ticks)
 
-    def run(self, held: NDArray[np.bool_], ticks: int) -> None:
+    def step_unchecked(self, held: NDArray[np.bool_], ticks: int) -> None:
         """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
         if ticks > 1 and ticks > (piece := PIECE_WORK * self.threads // self.count or 1):
             self._run_pieces(held, ticks, piece)
@@ -132,7 +133,7 @@ class WorldBatch:
             rows = held if len(held) == 1 else held[begun:end]
             if len(rows) < len(held) and len(rows) == 1:
                 rows = rows.repeat(2, axis=0)  # a single row would be one that is held, without its jitter
-            self.run(rows, end - begun if begun == 0 else begun - end)
+            self.step_unchecked(rows, end - begun if begun == 0 else begun - end)
 
     def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
         """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays.
@@ -173,6 +174,27 @@ class WorldBatch:
         created: NDArray[np.bool_] = outcomes == Outcome.CREATED
         return created
 
+    def events(self, index: int) -> tuple[Event, ...]:
+        """What happened in one world, as `World.events` gives it.
+
+        Args:
+            index: The number of the world, 0 to count − 1; negative numbers count from the end.
+
+        Raises:
+            ValueError: There is no such world.
+
+        Example:
+            >>> import numpy as np, silverball as sb
+            >>> batch = sb.WorldBatch("classic", count=3)
+            >>> created = batch.create_balls()
+            >>> batch.step(np.zeros((3, 3), bool))
+            >>> [event.kind for event in batch.events(2)]
+            ['created']
+        """
+        row = checked_row(index, self.count)
+        board = self.board_of[row]
+        return read_events(self.logs[row], self.boards.names[board], self.tables[board].board.height)
+
     def save(self, index: Index = None) -> Snapshot:
         """Copy the state of some worlds, random generators included, for `restore`.
 
@@ -203,7 +225,8 @@ class WorldBatch:
         """
         digests, board_of = self.boards.digests, self.board_of
         rows = put_back(snapshot, self.state, digests, board_of, self.tick_rate, index)
-        self.logs["count"][rows] = self.logs["lost"][rows] = 0
+        for name in ("count", "lost", "carried", "done"):
+            self.logs[name][rows] = 0
 
     def digests(self) -> list[str]:
         """The digest of each world, as `World.digest` gives it; about half a microsecond each."""
@@ -226,27 +249,6 @@ def _create_balls(
         if wanted[index] and worlds[index].fault == Fault.NONE:
             board = boards[board_of[index]]
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
-
-
-def checked_int(name: str, value: Any, least: int, greatest: int) -> int:
-    """The value as an int, if it is a whole number in the range; else a ValueError that says so."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
-        raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
-    return int(value)
-
-
-def _seeds(seed: int | Sequence[int], count: int) -> list[int]:
-    if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
-        first = checked_int("seed", seed, 0, GREATEST_SEED - count + 1)
-        return [first + index for index in range(count)]
-    if isinstance(seed, (bool, float, str)) or seed is None:
-        raise ValueError(
-            f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}"
-        )
-    seeds = [checked_int("seed", value, 0, GREATEST_SEED) for value in seed]
-    if len(seeds) != count:
-        raise ValueError(f"seed must be one number or {count} of them, one for each world, got {len(seeds)}")
-    return seeds
 
 
 def _finished(

@@ -41,7 +41,7 @@ assert _field_bytes(WORLD) == WORLD.itemsize, "a world record has padding: hash 
 def pack(record: Any, table: str, tick_rate: int) -> bytes:
     """A world's record with its header and checksum."""
     header = HEADER.pack(MAGIC, FORMAT, PHYSICS_VERSION, tick_rate, bytes.fromhex(table))
-    return sealed(header + record.tobytes())
+    return seal(header + record.tobytes())
 
 
 def unpack(state: bytes, table: str, tick_rate: int) -> Any:
@@ -50,7 +50,7 @@ def unpack(state: bytes, table: str, tick_rate: int) -> Any:
     Raises:
         StateError: The bytes are damaged, or belong to another table, tick rate or version.
     """
-    data = opened(state, MAGIC, HEADER, "World.save")
+    data = unseal(state, MAGIC, HEADER, "World.save")
     expected = HEADER.size + WORLD.itemsize
     if len(data) != expected:
         raise StateError(f"the state is damaged: {len(data)} bytes where {expected} are expected")
@@ -64,12 +64,12 @@ def unpack(state: bytes, table: str, tick_rate: int) -> Any:
     return np.frombuffer(data[HEADER.size :], WORLD)[0]
 
 
-def sealed(body: bytes) -> bytes:
+def seal(body: bytes) -> bytes:
     """A frame with its checksum behind it."""
     return body + hashlib.sha256(body).digest()[:CHECKSUM]
 
 
-def opened(state: Any, magic: bytes, header: struct.Struct, maker: str) -> bytes:
+def unseal(state: Any, magic: bytes, header: struct.Struct, maker: str) -> bytes:
     """The frame of saved bytes without its checksum, if they are what `maker` made in this version.
 
     Raises:

@@ -13,25 +13,22 @@ from __future__ import annotations
 
 import hashlib
 import struct
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.records import WORLD, records
 from silverball.world import saved_world as states
+from silverball.world.arguments import Index, resolve_index
 
 MAGIC = b"SILVERSN"
 HEADER = struct.Struct("<8sqqqqq")  # magic, format, physics version, tick rate, tables, records
 TABLE_HASH = hashlib.sha256().digest_size
 WHOLE_RECORD = np.dtype((np.void, WORLD.itemsize))  # a record as plain bytes, copied in one piece
-
-Index = int | slice | Sequence[int] | ArrayLike | None
-"""Which worlds: None (all), one number, a slice, numbers, or a mask bool [world]."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -77,7 +74,7 @@ class Snapshot:
         tables = b"".join(bytes.fromhex(self.tables[number]) for number in used)
         header = HEADER.pack(MAGIC, states.FORMAT, PHYSICS_VERSION, self.tick_rate, len(used), len(self))
         numbers = table_of.astype("<i8").tobytes()
-        return states.sealed(header + tables + numbers + self.records.tobytes())
+        return states.seal(header + tables + numbers + self.records.tobytes())
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Snapshot:
@@ -86,7 +83,7 @@ class Snapshot:
         Raises:
             StateError: The bytes are damaged, or of another version of the physics.
         """
-        body = states.opened(data, MAGIC, HEADER, "bytes(snapshot)")
+        body = states.unseal(data, MAGIC, HEADER, "bytes(snapshot)")
         *_, tick_rate, table_count, count = HEADER.unpack_from(body)
         numbers_at = HEADER.size + table_count * TABLE_HASH
         records_at = numbers_at + count * 8
@@ -119,7 +116,7 @@ def taken(
     Raises:
         ValueError: The index is none, or out of range.
     """
-    rows = chosen(index, len(worlds))
+    rows = resolve_index(index, len(worlds))
     saved = worlds.view(WHOLE_RECORD)[rows].copy().view(worlds.dtype, type(worlds))
     return Snapshot(saved, tables, table_of[rows].copy(), tick_rate)
 
@@ -155,7 +152,7 @@ def put_back(
         raise StateError(
             f"the snapshot was saved at {snapshot.tick_rate} ticks a second, these worlds run at {tick_rate}"
         )
-    rows = chosen(index, len(worlds))
+    rows = resolve_index(index, len(worlds))
     count = len(range(*rows.indices(len(worlds)))) if isinstance(rows, slice) else len(rows)
     if len(snapshot) not in (1, count):
         raise ValueError(
@@ -167,47 +164,6 @@ def put_back(
     worlds.view(WHOLE_RECORD)[rows] = snapshot.records.view(WHOLE_RECORD)
     table_of[rows] = numbers
     return rows
-
-
-def chosen(index: Index, count: int) -> slice | NDArray[np.int64]:
-    """The rows that an index means among `count`, checked: a slice, or numbers from 0 to count − 1.
-
-    Raises:
-        ValueError: It is no index, or out of range; slices end at the last row, as everywhere in Python.
-    """
-    if index is None:
-        return slice(0, count)
-    if isinstance(index, slice):
-        return index
-    if isinstance(index, int) and not isinstance(index, bool):
-        return slice(row := _checked_row(index, count), row + 1)
-    try:
-        rows = np.asarray(index)
-    except ValueError:
-        rows = np.empty((0, 0))  # lists of different lengths: refused below
-    if rows.dtype == np.bool_ and rows.shape == (count,):
-        return np.flatnonzero(rows)
-    if rows.dtype == np.bool_ and rows.ndim == 1:
-        raise ValueError(f"a mask must have the shape ({count},), got {rows.shape}")
-    if rows.shape == (0,):
-        return np.empty(0, np.int64)
-    if rows.dtype.kind not in "iu" or rows.ndim > 1:
-        raise ValueError(
-            f"index must be None, a whole number, a slice, a list of whole numbers or a mask, got {index!r}"
-        )
-    if rows.ndim == 0:
-        return slice(row := _checked_row(int(rows), count), row + 1)
-    _checked_row(int(rows.min()), count)
-    _checked_row(int(rows.max()), count)
-    rows = rows.astype(np.int64)
-    return np.where(rows < 0, rows + count, rows)
-
-
-def _checked_row(row: int, count: int) -> int:
-    """A row of `count`, counted from the end if negative."""
-    if not -count <= row < count:
-        raise ValueError(f"index {row} is out of range: there are {count} worlds")
-    return row % count
 
 
 def _numbers_here(snapshot: Snapshot, tables: tuple[str, ...]) -> NDArray[np.int64]:

@@ -63,7 +63,7 @@ def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -
     while not work.over.is_set():
         try:
             for _ in range(min(threads, len(slices))):
-                pool_of_threads(threads).submit(work.work)
+                thread_pool(threads).submit(work.work)
             while not work.over.wait(WAIT_SECONDS):
                 pass
         except RuntimeError:  # Python ends: no thread begins any more
@@ -77,10 +77,10 @@ def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -
 
 
 @cache
-def pool_of_threads(threads: int) -> ThreadPoolExecutor:
+def thread_pool(threads: int) -> ThreadPoolExecutor:
     """So many threads, which wait for work."""
     return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
 
 
 if hasattr(os, "register_at_fork"):  # threads do not survive a fork; the child makes its own
-    os.register_at_fork(after_in_child=pool_of_threads.cache_clear)
+    os.register_at_fork(after_in_child=thread_pool.cache_clear)

@@ -27,7 +27,8 @@ from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
 from silverball.physics.validation import validate_world
 from silverball.table import Table
 from silverball.world import saved_world as states
-from silverball.world.batch import WorldBatch, checked_int
+from silverball.world.arguments import checked_int
+from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
 from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
 
@@ -161,7 +162,20 @@ class World:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """What happened in the last step, in order; at most 64 events, see `events_lost`."""
+        """What happened since the step before the last one ended, in order.
+
+        These are the balls created before the last step, what happened in that step, and the balls created
+        since. So a loop that reads after each step sees every event once. A step holds at most 64 events,
+        see `events_lost`.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic", seed=7)
+            >>> ball = world.create_ball(position=(0.0, 1.0))
+            >>> world.step(jitter=True)
+            >>> [event.kind for event in world.events]
+            ['created', 'jitter']
+        """
         return read_events(self._log, self._names, self._height)
 
     @property

@@ -18,7 +18,7 @@ CRADLE = (SlantWall(start=(0.0, 0.0), end=(1.5, -1.5)), SlantWall(start=(0.0, 0.
 
 def cradled() -> WorldBatch:
     """Two worlds in which a ball lies for ever."""
-    batch = WorldBatch(table_of(*CRADLE), count=2)
+    batch = WorldBatch(table_of(*CRADLE), count=2, tick_rate=60)
     batch.state["created"] = batch.state["ball"]["id"][:, 0] = 1
     batch.state["ball"]["x"][:, 0] = 1.0
     return batch
@@ -50,7 +50,7 @@ def test_a_ball_that_makes_no_points_is_lost_after_fifteen_seconds() -> None:
 def test_both_paddles_held_up_for_ever_do_not_win() -> None:
     lives = {}
     for kind in (PlayerKind.HOLD, PlayerKind.REFLEX):
-        lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50), kind, 60.0)
+        lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50, tick_rate=60), kind, 60.0)
     held, reflex = lives[PlayerKind.HOLD], lives[PlayerKind.REFLEX]
     assert held.stalled > 0
     assert held.mean[0] < reflex.mean[0]
@@ -99,5 +99,5 @@ def test_the_median_of_a_worked_example() -> None:
 
 
 def test_a_board_with_paddles_and_nothing_else_gives_no_points() -> None:
-    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1), PlayerKind.REFLEX, 20.0)
+    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1, tick_rate=60), PlayerKind.REFLEX, 20.0)
     assert times.score[0] == times.score_per_minute[0] == 0.0

@@ -160,8 +160,8 @@ def test_obstacles_change_nothing_of_what_it_presses():
 
 @pytest.mark.parametrize("paddles", [(), (LEFT,)], ids=["none", "left"])
 def test_a_paddle_that_is_missing_is_seen_as_zeros(paddles):
-    batch = WorldBatch(table_of(*paddles), 2, 1)
-    batch.run(np.ones((1, 2, 3), bool), 5)
+    batch = WorldBatch(table_of(*paddles), 2, 1, tick_rate=60)
+    batch.step_unchecked(np.ones((1, 2, 3), bool), 5)
     with np.errstate(all="raise"):
         raw = look(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
     assert (raw[:, Raw.RIGHT_ANGLE :] == 0.0).all()
@@ -170,9 +170,9 @@ def test_a_paddle_that_is_missing_is_seen_as_zeros(paddles):
 
 
 def test_it_looks_at_the_lowest_ball_and_rests_with_none():
-    batch = WorldBatch("classic", 2)
+    batch = WorldBatch("classic", 2, tick_rate=60)
     batch.create_balls(np.array([True, False]))
-    batch.run(np.zeros((1, 2, 3), bool), 240)
+    batch.step_unchecked(np.zeros((1, 2, 3), bool), 240)
     batch.create_balls(np.array([True, False]))
     raw = look(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
     lowest = batch.state["ball"]["x"][0].min() / batch.boards.board["half_length"][0]

@@ -16,8 +16,7 @@ import tomli_w
 
 from silverball.errors import TableError
 from silverball.table import Table, parse_table
-from silverball.table.explain import PART_KINDS
-from silverball.table.parts import Arcade, Board, RandomRecipe
+from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
 
 GOOD = {
     "name": "Everything",

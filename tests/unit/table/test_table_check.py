@@ -25,7 +25,7 @@ from silverball.table import (
     parse_table,
 )
 from silverball.table.check import HOP
-from silverball.table.geometry import Shapes, core_distances, distances, outline, paddle_cores
+from silverball.table.geometry import Shapes, core_distances, distances, paddle_cores
 from silverball.table.reach import space
 from silverball.table.traps import pockets
 
@@ -294,7 +294,7 @@ def test_a_pocket_that_no_ball_can_reach_is_none():
 
 def naive_distance(point, part):
     """From a point to a part's surface, by brute force along its edges."""
-    core, radius = outline(part)
+    core, radius = part.outline()
     best = math.inf
     for a, b in zip(core, (*core[1:], core[0]), strict=True):
         share = np.linspace(0.0, 1.0, 2001)[:, None]
@@ -322,7 +322,7 @@ def random_clutter(seed):
 
 
 def exact_pockets(table):
-    standing = [outline(part) for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
+    standing = [part.outline() for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in table.paddle]
     shapes = Shapes.of(standing + resting)
     where = space(table.board, table.paddle, standing)
@@ -365,7 +365,7 @@ def _is_lowest(center, centers, step):
 
 def _beside_a_slit(table, center):
     parts = [*table.slant_wall, *table.triangular_prism, *table.cylinder]
-    near = [outline(part) for part in parts if naive_distance(center, part) < 0.5]
+    near = [part.outline() for part in parts if naive_distance(center, part) < 0.5]
     gaps = [
         float(core_distances(np.array(a), np.array(b))) - r - s
         for index, (a, r) in enumerate(near)

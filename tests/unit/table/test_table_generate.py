@@ -19,7 +19,7 @@ from silverball.table import (
     table_digest,
 )
 from silverball.table import placement as placing
-from silverball.table.trial import try_recipe
+from silverball.table.placement import try_recipe
 
 RECIPE = load_table("random")
 RULES = RECIPE.random

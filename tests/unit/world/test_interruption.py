@@ -146,7 +146,7 @@ def test_every_slice_is_done_once_when_an_interruption_comes_at_any_point(monkey
 
         failing, slices = Pool(), [(first, first + 1) for first in range(9)]
         with ThreadPoolExecutor(2) as pool, monkeypatch.context() as patch:
-            patch.setattr(threads, "pool_of_threads", lambda _, failing=failing: failing)
+            patch.setattr(threads, "thread_pool", lambda _, failing=failing: failing)
             try:
                 threads.run_on_threads(lambda *slice_, done=done: done.append(slice_), slices, 3)
             except StopError:

@@ -209,7 +209,7 @@ class Reader:
         except RecursionError:
             self.refuse(part.first, "the table's brackets are nested too deeply")
         except ValidationError as error:
-            self.refuse(part.first, f"the table cannot be used: {explain(error)[0]}")
+            self.refuse(part.first, f"the table cannot be used: {explain(error, Table)[0]}")
         except ValueError as error:
             self.refuse(part.first, f"the table is not valid TOML: {str(error)[:200]}")
         if table.random is not None:
