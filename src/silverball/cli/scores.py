@@ -106,7 +106,7 @@ def chosen(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
 
 def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     """Write the replay of a score to a file."""
-    from silverball.cli.output import file_name
+    from silverball.cli.options import file_name
     from silverball.errors import OutputError
     from silverball.wholefile import write_whole
 
