@@ -211,7 +211,10 @@ def test_scores_at_both_ends_of_the_calendar_are_shown(silverball, folder, zone)
         assert result.stderr == ""
 
 
-def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(silverball, scores, folder):
+def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(
+    silverball, scores, folder, monkeypatch
+):
+    monkeypatch.setattr("silverball.game.scores.database.BUSY_SECONDS", 0.3)
     with held(folder / FILE, ALONE):
         assert_refused(silverball("scores"), "another program holds it")
     with held(folder / FILE):
