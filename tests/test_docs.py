@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+import typer.main
 
 from silverball.cli.app import app
 from silverball.table import parse_table
@@ -17,7 +18,7 @@ DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 
 
 def test_readme_names_every_command():
-    commands = [command.callback.__name__ for command in app.registered_commands if command.callback]
+    commands = typer.main.get_command(app).commands
     assert [name for name in commands if f"silverball {name}" not in README] == []
 
 

@@ -1,4 +1,4 @@
-"""`silverball bench --peers`: what it says, writes and refuses, and what a missing peer costs."""
+"""`silverball bench peers`: what it says, writes and refuses, and what a missing peer costs."""
 
 from __future__ import annotations
 
@@ -77,8 +77,8 @@ def test_progress_is_reported_as_often_as_announced():
 
 
 def test_help_shows_an_example_of_the_comparison(capsys):
-    assert run(["bench", "--peers", "--help"]) == 0
-    assert "silverball bench --peers --out" in " ".join(capsys.readouterr().out.split())
+    assert run(["bench", "peers", "--help"]) == 0
+    assert "silverball bench peers --out" in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_missing_peer_is_named_with_the_remedy_and_the_others_play_on(
@@ -96,7 +96,7 @@ def test_a_missing_peer_is_named_with_the_remedy_and_the_others_play_on(
     monkeypatch.setattr(contest, "run", run_instead)
     monkeypatch.setattr(contest, "units", lambda plan, engines: 1)
     page = tmp_path / "peers.md"
-    assert run(["bench", "--peers", "--out", str(page)]) == 0
+    assert run(["bench", "peers", "--out", str(page)]) == 0
     printed = capsys.readouterr()
     assert "pymunk is not installed: pip install 'silverball[bench]'" in printed.err
     assert played == ["Box2D v3", "Box2D 2.3"]
@@ -106,7 +106,7 @@ def test_a_missing_peer_is_named_with_the_remedy_and_the_others_play_on(
 
 def test_without_any_peer_the_command_ends_with_2_and_names_all(monkeypatch, capsys):
     without(monkeypatch, *(peer.imported for peer in contestants.PEERS))
-    assert run(["bench", "--peers", "--quick"]) == 2
+    assert run(["bench", "peers", "--quick"]) == 2
     said = capsys.readouterr().err
     for peer in contestants.PEERS:
         assert f"{peer.package} is not installed: pip install 'silverball[bench]'" in said
@@ -117,19 +117,22 @@ def test_without_mpmath_the_command_ends_with_2(monkeypatch, capsys):
     monkeypatch.setattr(
         contestants.util, "find_spec", lambda name: None if name == "mpmath" else importlib.machinery
     )
-    assert run(["bench", "--peers", "--quick"]) == 2
+    assert run(["bench", "peers", "--quick"]) == 2
     assert "mpmath is not installed" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
-        ("--quick", "--peers"),
-        ("--out a.md", "--peers"),
-        ("--peers --threads 2", "--threads"),
-        ("--peers --out a.gif", ".png or .md"),
-        ("--peers --out nowhere/a.md", "nowhere"),
-        ("--peers --table clasic", "classic"),
+        ("step --quick", "--quick"),
+        ("step --out a.md", "--out"),
+        ("step --worlds 1000000 --frames 10000", "300,000,000"),
+        ("peers --threads 2", "--threads"),
+        ("peers --out a.gif", ".png or .md"),
+        ("peers --out nowhere/a.md", "nowhere"),
+        ("peers --table clasic", "classic"),
+        ("envs --out a.png", ".md"),
+        ("planner --table clasic", "classic"),
     ],
 )
 def test_what_does_not_fit_together_is_refused_in_words(arguments, word, capsys):
@@ -150,7 +153,7 @@ def test_a_quick_comparison_writes_its_table_and_shows_silverball_ahead(tmp_path
     if not any(peer.is_installed for peer in contestants.PEERS):
         pytest.skip("no peer is installed: pip install 'silverball[bench]'")
     page = tmp_path / "peers.md"
-    assert run(["bench", "--peers", "--quick", "--json", "--out", str(page)]) == 0
+    assert run(["bench", "peers", "--quick", "--json", "--out", str(page)]) == 0
     told = json.loads(capsys.readouterr().out)
     assert min(told["orders_ahead"]) >= 9
     assert page.read_text(encoding="utf-8").count("\n| ") > len(told["rows"])

@@ -24,20 +24,20 @@ from silverball.soak.campaign import soak
 from silverball.soak.finding import Finding, again
 from silverball.table import dump_table, load_table
 
-SOAK = ("simulate", "--soak", "--worlds", "1", "--frames", "1")
+SOAK = ("soak", "--worlds", "1", "--frames", "1")
 
 READERS: dict[str, Callable[[str], list[str]]] = {
     "check": lambda path: ["check", path],
     "show": lambda path: ["show", "--out", "x.png", "--table", path],
     "demo": lambda path: ["demo", "--out", "x.gif", "--table", path],
     "simulate": lambda path: ["simulate", "--table", path],
-    "feel": lambda path: ["simulate", "--feel", "--table", path],
+    "feel": lambda path: ["feel", "--table", path],
     "soak": lambda path: [*SOAK, "--table", path],
     "generate": lambda path: ["generate", "--table", path],
-    "bench": lambda path: ["bench", "--table", path],
+    "bench": lambda path: ["bench", "step", "--table", path],
     "play": lambda path: ["play", "--table", path],
     "replay": lambda path: ["replay", path],
-    "again": lambda path: ["simulate", "--soak", "--again", path],
+    "again": lambda path: ["soak", "--again", path],
     "progress": lambda path: [*SOAK, "--progress", path],
 }
 """Every command that reads a file, and how."""
@@ -339,7 +339,7 @@ def test_every_damaged_finding_is_refused_in_one_sentence(refused, soaked: Path)
     assert len(bad) > 200
     for what, text in bad.items():
         Path("finding.json").write_text(text, encoding="utf-8")
-        message = refused("simulate", "--soak", "--again", "finding.json", why=what)
+        message = refused("soak", "--again", "finding.json", why=what)
         assert message.startswith("finding.json: "), what
         assert len(message.splitlines()) == 1, what
         assert len(message) < 400, what
@@ -364,8 +364,7 @@ def test_every_damaged_progress_file_is_refused_in_one_sentence_and_kept(refused
     assert len(bad) > 200
     options = options_of()
     command = [
-        "simulate",
-        "--soak",
+        "soak",
         "--frames",
         "1",
         "--worlds",

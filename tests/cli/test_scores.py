@@ -128,7 +128,7 @@ def test_what_a_terminal_would_obey_is_shown_as_its_escape_and_can_be_asked_for(
 
 
 def test_more_scores_than_are_shown_are_counted(silverball, scores):
-    assert "and 1 more; --limit shows them" in silverball("scores", "--limit", "1", "--mode", "arcade").stdout
+    assert "and 1 more (see --limit)" in silverball("scores", "--limit", "1", "--mode", "arcade").stdout
 
 
 def test_two_versions_of_a_table_are_told_apart(silverball, scores, folder):
@@ -171,7 +171,7 @@ def test_a_mistake_ends_in_one_sentence(silverball, scores, tmp_path):
     assert_refused(silverball("scores", "--replay", "1"), "--replay ID --export FILE")
     assert_refused(silverball("scores", "--export", out), "--replay ID --export FILE")
     assert_refused(silverball("scores", "--replay", "1", "--export", str(tmp_path)), "folder")
-    assert_refused(silverball("scores", "--replay", "1", "--export", f"{out}/x/y"), "there is no folder")
+    assert_refused(silverball("scores", "--replay", "1", "--export", f"{out}/x/y"), "does not exist")
     assert_refused(silverball("scores", "--remove", "1", "--json"), "--json does not go with --remove")
     assert_refused(silverball("scores", "--verify", "--remove", "1"), "--verify does not go with --remove")
     assert_refused(silverball("scores", "--force"), "--force is for --export")
@@ -211,7 +211,10 @@ def test_scores_at_both_ends_of_the_calendar_are_shown(silverball, folder, zone)
         assert result.stderr == ""
 
 
-def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(silverball, scores, folder):
+def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(
+    silverball, scores, folder, monkeypatch
+):
+    monkeypatch.setattr("silverball.game.scores.database.BUSY_SECONDS", 0.3)
     with held(folder / FILE, ALONE):
         assert_refused(silverball("scores"), "another program holds it")
     with held(folder / FILE):

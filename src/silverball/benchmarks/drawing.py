@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from silverball.benchmarks.marks import Figure
+from silverball.benchmarks.speed import Figure
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.picture_cache import Store
 from silverball.drawing.renderer import rgb_surface

@@ -13,11 +13,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from silverball.benchmarks.speed import FILL, FRAME_RATE, boards_of, random_actions
+from silverball.benchmarks.speed import FILL, FRAME_RATE, Figure, boards_of, random_actions
 from silverball.table import Cylinder, SlantWall, Table, load_table
 from silverball.world import World, WorldBatch
 
@@ -37,14 +37,6 @@ made = time.perf_counter()
 world.step()
 print(imported - started, time.perf_counter() - started, time.perf_counter() - made)
 """
-
-
-class Figure(NamedTuple):
-    """One measured figure: what, how much, in which unit."""
-
-    name: str
-    value: float
-    unit: str
 
 
 def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:

@@ -1,4 +1,4 @@
-"""How many frames a second does the step make here?"""
+"""Speed of the step on this machine, in frames of 1/60 s per second."""
 
 from __future__ import annotations
 
@@ -19,6 +19,14 @@ FRAME_RATE = 60
 HOLD = 6  # frames for which a random button stays as it is
 BOARDS = 16  # distinct random boards of a benchmark on a recipe
 FILL = 2  # balls in every world
+
+
+class Figure(NamedTuple):
+    """One measured figure: its name, its value, and the unit of the value."""
+
+    name: str
+    value: float
+    unit: str
 
 
 class Speed(NamedTuple):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from silverball.cli.say import say
+from silverball.cli.console import say
 from silverball.plain import plain
 
 if TYPE_CHECKING:

@@ -46,7 +46,7 @@ REWARD_THRESHOLDS = {
     "silverball/PinballPixels-v0": 110.0,
 }
 """The mean return from which an environment counts as solved, with the default options: what the trained
-player makes there, rounded down to tens. Source: `python benchmarks/thresholds.py`."""
+player makes there, rounded down to tens. Source: `silverball bench thresholds`."""
 
 for _id in set(IDS) - set(gymnasium.registry):
     gymnasium.register(

@@ -46,6 +46,13 @@ class Plan(NamedTuple):
     scenes: int = accuracy.SCENES
     energy_seconds: int = energy.SECONDS
 
+    def shortened(self) -> Plan:
+        """The plan of rough figures in ten seconds."""
+        return self._replace(
+            worlds=min(self.worlds, 512), rounds=min(self.rounds, 3), seconds=0.1, calls=1, boards=2,
+            frames=1000, scenes=3, energy_seconds=30,
+        )  # fmt: skip
+
 
 class Row(NamedTuple):
     """What one engine did with one stepping.

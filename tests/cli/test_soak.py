@@ -1,4 +1,4 @@
-"""`silverball simulate --soak`: what it prints, how it ends, and that it goes on where it was stopped."""
+"""`silverball soak`: what it prints, how it ends, and that it continues where it was stopped."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from holed import Holed
 from silverball.cli.app import run
 from silverball.soak import rounds as soak_module
 
-SMALL = ["simulate", "--soak", "--worlds", "2", "--frames", "1"]  # one round: 2 worlds, 600 s
+SMALL = ["soak", "--worlds", "2", "--frames", "1"]  # one round: 2 worlds, 600 s
 
 
 def test_a_soak_prints_what_it_did_and_does_not_do_it_twice(silverball, tmp_path):
@@ -54,12 +54,12 @@ def test_a_finding_ends_in_exit_code_1_and_can_be_done_again(tmp_path, monkeypat
     name = next(line for line in printed.splitlines() if "--again" in line).split()[-1]
     kind = json.loads(Path(name).read_text(encoding="utf-8"))["kind"]
     assert f", {kind} 0," not in printed
-    assert run(["simulate", "--soak", "--again", name]) == 1
+    assert run(["soak", "--again", name]) == 1
     assert "happens again" in capsys.readouterr().out
     monkeypatch.undo()
-    assert run(["simulate", "--soak", "--again", name]) == 0
+    assert run(["soak", "--again", name]) == 0
     assert "does not happen any more" in capsys.readouterr().out
-    assert run(["simulate", "--soak", "--again", name, "--json"]) == 0
+    assert run(["soak", "--again", name, "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {
         "kind": kind, "found": "nothing", "happens_again": False,
     }  # fmt: skip
@@ -67,7 +67,7 @@ def test_a_finding_ends_in_exit_code_1_and_can_be_done_again(tmp_path, monkeypat
 
 def test_ctrl_c_costs_at_most_a_round(silverball, tmp_path):
     path = tmp_path / "soak.json"
-    options = ["simulate", "--soak", "--worlds", "2", "--progress", str(path)]
+    options = ["soak", "--worlds", "2", "--progress", str(path)]
     process = started(*options, "--frames", "1000000000000")
     limit = time.monotonic() + 300.0  # a first use compiles
     while not path.exists() and time.monotonic() < limit:
@@ -87,21 +87,18 @@ def test_ctrl_c_costs_at_most_a_round(silverball, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("--soak --player random", ("--player", "soak")),
-        ("--soak --seconds 5", ("--seconds", "soak")),
-        ("--frames 5", ("--frames", "--soak")),
-        ("--hostile", ("--hostile", "--soak")),
-        ("--again there.json", ("--again", "--soak")),
-        ("--soak --hostile --table classic", ("--table", "--hostile")),
-        ("--soak --again nowhere.json", ("nowhere.json", "no such file")),
-        ("--soak --again broken.json", ("broken.json", "not a finding")),
-        ("--soak --frames 1 --progress broken.json", ("broken.json", "not a progress file")),
-        ("--soak --table nowhere.toml", ("nowhere.toml",)),
+        ("--player random", ("--player", "silverball soak")),
+        ("--hostile --table classic", ("--table", "--hostile")),
+        ("--hostile --table random", ("--table", "--hostile")),
+        ("--again nowhere.json", ("nowhere.json", "no such file")),
+        ("--again broken.json", ("broken.json", "not a finding")),
+        ("--frames 1 --progress broken.json", ("broken.json", "not a progress file")),
+        ("--table nowhere.toml", ("nowhere.toml",)),
     ],
 )
 def test_a_mistake_is_one_clear_sentence(silverball, tmp_path, arguments, words):
     (tmp_path / "broken.json").write_text("{", encoding="utf-8")
-    result = silverball("simulate", *arguments.split(), cwd=tmp_path)
+    result = silverball("soak", *arguments.split(), cwd=tmp_path)
     assert result.returncode == 2
     assert "Traceback" not in result.stderr
     for word in words:

@@ -1,4 +1,4 @@
-"""`simulate --ball-time` and the planner through the real entry point."""
+"""`silverball ball-time`, and the planner in `simulate` and `demo`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-OF_REFLEX = "simulate --ball-time --table random --seed 3 --worlds 40 --seconds 60 --player reflex".split()
+OF_REFLEX = "ball-time --table random --seed 3 --worlds 40 --seconds 60 --player reflex".split()
 
 
 def test_the_ball_times_of_a_player_are_printed_with_their_intervals(silverball) -> None:
@@ -22,7 +22,7 @@ def test_the_ball_times_of_a_player_are_printed_with_their_intervals(silverball)
 
 
 def test_a_median_beyond_the_time_is_called_so(silverball) -> None:
-    few = "simulate --ball-time --worlds 3 --seconds 0.5 --player idle".split()
+    few = "ball-time --worlds 3 --seconds 0.5 --player idle".split()
     assert json.loads(silverball(*few, "--json").stdout)["median"] is None
     assert "median life       beyond 0.5 s" in silverball(*few).stdout
 
@@ -41,10 +41,9 @@ def test_the_planner_plays_in_simulate_and_in_the_demo(silverball, tmp_path) -> 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("simulate --ball-time --balls 2", ("--balls", "--ball-time")),
-        ("simulate --ball-time --no-audit", ("--audit", "--ball-time")),
-        ("simulate --ball-time --soak", ("--ball-time", "soak")),
-        ("simulate --ball-time --player planer", ("planner",)),
+        ("ball-time --balls 2", ("--balls", "silverball ball-time")),
+        ("ball-time --seconds 0.01 --tick-rate 10", ("--seconds", "tick")),
+        ("ball-time --player planer", ("planner",)),
         ("demo --player planer --out a.png", ("planner",)),
     ],
 )
