@@ -28,9 +28,9 @@ def reflex(mode: Mode, seed: int, seconds: float) -> Game:
     game, player = Game("classic", seed, mode), make_player("reflex")
     while not game.is_over and game.tick < seconds * game.tick_rate:
         wanted = 2 if mode is Mode.FREE else 1
-        if game.tick % 60 == 0 and game.face.on_board < wanted:
+        if game.tick % 60 == 0 and game.view.on_board < wanted:
             bring(game)
-        game.advance(*player.press(game.world))
+        game.step(*player.press(game.world))
     return game
 
 
@@ -43,9 +43,9 @@ def frantic(seed: int, seconds: float, presses: float = 6.0) -> Game:
             if game.tick >= change[side]:
                 held[side] = not held[side]
                 change[side] = game.tick + max(1, round(game.tick_rate / presses * draw.uniform(0.5, 1.5)))
-        if game.tick % 240 == 0 and game.face.on_board < 2:
+        if game.tick % 240 == 0 and game.view.on_board < 2:
             bring(game)
-        game.advance(*held)
+        game.step(*held)
     return game
 
 

@@ -38,9 +38,9 @@ def games(seed: int) -> Iterator[Played]:
         number = draw.randrange(1, 2**31)
         game = Game("classic", number)
         while not game.is_over and game.tick < MOST_TICKS:
-            if game.face.on_board == 0:
+            if game.view.on_board == 0:
                 game.create_ball()
-            game.advance(draw.random() < 0.5, draw.random() < 0.5, ticks=20)
+            game.step(draw.random() < 0.5, draw.random() < 0.5, ticks=20)
         game.end()
         yield Played(number, game.score, game.replay.to_text())
 

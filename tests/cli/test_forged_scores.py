@@ -58,12 +58,12 @@ def played(
     """
     game = Game(table, **{"seed": SEED, "mode": "arcade"} | how)
     for tick in range(0, wait, 10):
-        game.advance(left=tap and tick < wait // 2, ticks=10)
+        game.step(left=tap and tick < wait // 2, ticks=10)
     while not game.is_over and game.tick < wait + seconds * game.tick_rate:
-        if not game.face.on_board:
+        if not game.view.on_board:
             game.create_ball()
         phase = (game.tick - wait) % 100
-        game.advance(left=phase < 50, right=phase > 50, ticks=10)
+        game.step(left=phase < 50, right=phase > 50, ticks=10)
     if end:
         game.end()
     return game

@@ -20,11 +20,11 @@ def played() -> Game:
     game = Game("classic", 5, Mode.FREE)
     game.create_ball()
     for second in range(6):
-        game.advance(True, second % 2 == 0, 100)
+        game.step(True, second % 2 == 0, 100)
         if second == 3:
             game.create_ball()
             game.jitter()
-        game.advance(False, False, 140)
+        game.step(False, False, 140)
     return game
 
 

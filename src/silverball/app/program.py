@@ -158,7 +158,7 @@ class Program:
         if self.stage is not None:
             is_played, mode = self.stage.is_played, self.stage.game.mode
             best = self._library.best(self._key, mode) if is_played and self._key is not None else 0
-            below = self.display.frame(self.stage.game.face, seconds, best)
+            below = self.display.frame(self.stage.game.view, seconds, best)
         if not self.menus.is_open and below is None:
             return draw_page(seconds, self.progress)
         dots = self.menus.draw(seconds, below)

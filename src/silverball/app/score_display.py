@@ -86,7 +86,7 @@ class Display:
         for one in news:
             if one.kind is GameEventKind.SCORED and one.value:
                 self._points, self._points_began = one.value, None
-            elif one.kind is GameEventKind.UN_STUCK:
+            elif one.kind is GameEventKind.UNSTUCK:
                 self.say("A SHOVE FOR A STILL BALL")
             else:
                 show = _show_of(one)

@@ -322,7 +322,7 @@ class Window:
         if stage is None:
             return
         world = stage.game.world
-        news, events = stage.take_news(), stage.take_events()
+        news, events = stage.take_game_events(), stage.take_world_events()
         program.display.tell(news)
         self._picture.note(events, world.tick_rate)
         self.debug.note(events, world.tick_rate)
@@ -365,7 +365,7 @@ class Window:
         sounds.resume()
         world = self._stage.game.world
         game = self._stage.game
-        sounds.buttons(*((False, False) if game.face.tilted else game.held))
+        sounds.buttons(*((False, False) if game.view.tilted else game.held))
         balls = rolling_balls(world)
         sounds.rolling(balls, elapsed * program.speed, world.table.board.width)
 

@@ -1,7 +1,7 @@
 """One game: a world, the rules, and a recording of both. No window and no clock in here.
 
-Whoever plays calls `advance` with the buttons that are held, and `create_ball` and `jitter` in between; what
-happens comes back as a `Face`, as news and as events. The same table, seed, mode and inputs give the same
+Whoever plays calls `step` with the buttons that are held, and `create_ball` and `jitter` in between; what
+happens comes back as a `GameView`, as news and as events. The same table, seed, mode and inputs give the same
 game bit for bit, whether its ticks are played one by one or many at once: where the rules must act within,
 the world is stopped there.
 """
@@ -62,8 +62,8 @@ class Game:
         >>> from silverball.game.game import Game
         >>> game = Game("classic", seed=7)
         >>> game.create_ball()
-        >>> game.advance(left=True, ticks=240)
-        >>> game.face.ball
+        >>> game.step(left=True, ticks=240)
+        >>> game.view.ball
         1
     """
 
@@ -115,7 +115,7 @@ class Game:
     # --- what the player does
     # -------------------------------------------------------------------------------------------
 
-    def advance(self, left: bool = False, right: bool = False, ticks: int = 1) -> None:
+    def step(self, left: bool = False, right: bool = False, ticks: int = 1) -> None:
         """Play on with the paddle buttons held or not; a game that is over stands still.
 
         A fault of the world ends the game; `fault` names it.
@@ -187,7 +187,7 @@ class Game:
     # -------------------------------------------------------------------------------------------
 
     @property
-    def face(self) -> GameView:
+    def view(self) -> GameView:
         """What there is to show."""
         now, laws, tick = self._now, self._laws, self.tick
         phase = self.phase
@@ -254,13 +254,13 @@ class Game:
         """Whether a ball has been lying still; in free play the player may shove it."""
         return stuck.still_ball(self._watch, self._laws, self.tick)
 
-    def take_events(self) -> list[Event]:
+    def take_world_events(self) -> list[Event]:
         """What happened to balls since this was last asked, at most the last 4,096 events."""
         events = list(self._events)
         self._events.clear()
         return events
 
-    def take_news(self) -> list[GameEvent]:
+    def take_game_events(self) -> list[GameEvent]:
         """What there is to tell since this was last asked."""
         news = list(self._news)
         self._news.clear()
@@ -371,7 +371,7 @@ class Game:
         """Play ticks in which only hits happen, or one tick in which anything may."""
         before = self._words.copy() if count > 1 else None
         try:
-            self._step(count)
+            self._step_world(count)
         except FaultError as error:
             self.fault = error.fault
         counted = self._counters.tobytes()
@@ -400,7 +400,7 @@ class Game:
             if not self._now.over:
                 self._play(1)
 
-    def _step(self, count: int) -> None:
+    def _step_world(self, count: int) -> None:
         """Move the world; the paddles of a tilted table are dead."""
         shove = self._shove or self._machine
         if self._now.tilted:
@@ -459,7 +459,7 @@ class Game:
         ):
             self._machine = True
             self._watch = stuck.shoved(self._watch, tick)
-            self._news.append(GameEvent(GameEventKind.UN_STUCK, tick))
+            self._news.append(GameEvent(GameEventKind.UNSTUCK, tick))
 
     def _end_second(self, tick: int) -> None:
         self._next_second = tick + self.tick_rate

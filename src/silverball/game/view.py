@@ -36,7 +36,7 @@ class GameEventKind(StrEnum):
     BALL_LOST = "ball_lost"  # value: the number of the ball that is lost
     WARNING = "warning"  # value: warnings of this ball so far; one more shove too many is a tilt
     TILT = "tilt"  # paddles are dead until the board is empty
-    UN_STUCK = "un_stuck"  # a still ball was shoved by the machine
+    UNSTUCK = "un_stuck"  # a still ball was shoved by the machine
     OVER = "over"  # value: the score
 
 

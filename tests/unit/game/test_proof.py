@@ -22,9 +22,9 @@ def played(name: Table | str, seed: int = SEED, mode: str = "arcade") -> tuple[S
     table = load_table(name) if isinstance(name, str) else name
     game = Game(table, seed=seed, mode=mode)
     while not game.score:
-        if not game.face.on_board:
+        if not game.view.on_board:
             game.create_ball()
-        game.advance(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
+        game.step(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
     game.end()
     now = datetime.now(UTC)
     score = Score(1, "ABC", game.score, mode, table.name, table_digest(table), seed, now, None, "", True)

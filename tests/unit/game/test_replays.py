@@ -88,7 +88,7 @@ def test_a_minute_of_play_takes_no_more_than_two_kilobytes():
 def test_games_of_any_length_can_be_played_again(ticks: int):
     game = Game("classic", 3)
     game.create_ball()
-    game.advance(ticks=ticks)
+    game.step(ticks=ticks)
     game.jitter()
     assert verify(Replay.from_text(game.replay.to_text())).ok
     game.end()
@@ -102,7 +102,7 @@ def test_games_of_any_tick_rate_can_be_played_again(rate: int):
     game = Game("classic", 3, tick_rate=rate)
     game.create_ball()
     for left, right, ticks in ((True, False, 3 * rate), (False, True, rate - 1), (False, False, 2 * rate)):
-        game.advance(left, right, ticks)
+        game.step(left, right, ticks)
     replay = Replay.from_text(game.replay.to_text())
     assert (replay.tick_rate, replay.ticks) == (rate, 6 * rate - 1)
     assert verify(replay).ok
@@ -158,7 +158,7 @@ def test_a_score_that_was_not_reached_is_named():
 def test_a_longer_replay_than_its_game_says_when_the_game_ended():
     game = Game(bare(balls=1, ball_save=0.0))
     game.create_ball()
-    game.advance(ticks=1000)
+    game.step(ticks=1000)
     assert game.is_over
     longer = replace(game.replay, ticks=game.tick + 10)
     verdict = verify(longer)
@@ -199,7 +199,7 @@ def test_a_game_ends_when_its_recording_is_full(monkeypatch):
     game = Game(bare(*POCKET))
     game.create_ball()
     put(game, *IN_POCKET)
-    game.advance(ticks=5000)
+    game.step(ticks=5000)
     assert (game.tick, game.ended) == (3 * 240, "stopped")
 
 
@@ -210,7 +210,7 @@ def test_a_replay_of_a_table_with_a_mesh_needs_no_other_file(tmp_path):
     post.export(tmp_path / "post.stl")
     game = Game(bare(Cylinder(mesh=str(tmp_path / "post.stl"))))
     game.create_ball()
-    game.advance(ticks=300)
+    game.step(ticks=300)
     text = game.replay.to_text()
     (tmp_path / "post.stl").unlink()
     assert verify(Replay.from_text(text)).ok
@@ -266,7 +266,7 @@ def test_seeking_anywhere_shows_the_same_moment_as_playing_there():
         assert player.tick == tick
         assert player.game is game
         assert game.digest() == expected[tick], tick
-        assert game.take_events() == []
+        assert game.take_world_events() == []
     player.seek(-5)
     assert player.tick == 0
     player.seek(10**9)
@@ -280,8 +280,8 @@ def test_a_button_that_is_held_stays_held_after_seeking():
     game = Game(bare(*PADDLES, *POCKET))
     game.create_ball()
     put(game, *IN_POCKET)
-    game.advance(True, False, 6 * 240)
-    game.advance(False, False, 240)
+    game.step(True, False, 6 * 240)
+    game.step(False, False, 240)
     player = ReplayPlayer(game.replay)
     expected = states(player.replay, [1100, 1500])
     player.seek(1500)
@@ -308,13 +308,13 @@ def test_preparing_plays_ahead_unseen():
 def test_watching_shows_the_news_and_events_of_the_game():
     game = Game(bare(bumper(), *POCKET), 5)
     game.create_ball()
-    game.advance(True, False, 700)
+    game.step(True, False, 700)
     player = ReplayPlayer(game.replay)
     player.advance(700)
-    news = game.take_news()
+    news = game.take_game_events()
     assert GameEventKind.BALL_READY in [one.kind for one in news]
-    assert player.game.take_news() == news
-    assert player.game.take_events() == game.take_events()
+    assert player.game.take_game_events() == news
+    assert player.game.take_world_events() == game.take_world_events()
 
 
 def test_watching_a_replay_of_another_game_stops_with_a_sentence():

@@ -70,7 +70,7 @@ class Playback:
             self._give_inputs()
             following = self._inputs[self._next].tick if self._next < len(self._inputs) else rate
             stop = min(target, self._second * rate + following)
-            self.game.advance(*self._held, ticks=stop - self.tick)
+            self.game.step(*self._held, ticks=stop - self.tick)
 
     def jump(self, state: bytes) -> None:
         """Go on from a moment at the beginning of a second, as `Game.save` gave it."""
@@ -166,8 +166,8 @@ class ReplayPlayer(Playback):
         if not self._ticks[number] <= self.tick <= tick:
             self.jump(self._moments[number])
         self.advance(tick - self.tick)
-        self.game.take_events()
-        self.game.take_news()
+        self.game.take_world_events()
+        self.game.take_game_events()
 
     def _scout_to(self, tick: int) -> None:
         scout = self._scout

@@ -216,7 +216,7 @@ class _Contacts:
 
     def look(self, game: Game) -> None:
         """The game has gone on."""
-        for event in game.take_events():
+        for event in game.take_world_events():
             if event.kind == "created":
                 self._since = event.tick
             elif event.kind in CONTACTS:
