@@ -22,8 +22,8 @@ import pytest
 from silverball.cli.app import run
 from silverball.game.game import TICK_RATE, Game
 from silverball.game.replay.format import Replay
-from silverball.game.replay.lines import read, written
 from silverball.game.replay.reader import checksum
+from silverball.game.replay.recording import format_input, parse_inputs
 from silverball.game.scores.store import FILE, Store
 from silverball.table import Table, dump_table, generate_table, load_table, table_digest
 
@@ -173,9 +173,9 @@ def again(text: str, **changes: Any) -> str:
 
 def with_vain_presses_after_the_end(text: str) -> str:
     replay = Replay.from_text(text)
-    last = max((one.tick for one in read(replay.tail)), default=0)
+    last = max((one.tick for one in parse_inputs(replay.tail)), default=0)
     rest = replay.ticks % TICK_RATE
-    return again(text, tail=replay.tail + written("R", rest - last) + written("R", 0))
+    return again(text, tail=replay.tail + format_input("R", rest - last) + format_input("R", 0))
 
 
 def rich(name: str = "Classic") -> Table:

@@ -208,7 +208,7 @@ class Display:
         _draw_combo_meters(dots, face.combo, seconds)
         _draw_balls(dots, face)
         if self.performer:
-            dots.text(self.performer, 7 * face.most_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
+            dots.text(self.performer, 7 * face.max_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
         if face.multiplier > 1:
             text = f"×{face.multiplier}"
             width = NORMAL.width(text) + 4
@@ -358,5 +358,5 @@ def _draw_balls(dots: Dots, face: GameView) -> None:
     if face.mode is Mode.ARCADE and face.balls:
         dots.text(f"BALL {face.ball}/{face.balls}", 0, STATUS_Y, NORMAL, brightness=HALF)
         return
-    for ball in range(face.most_balls):
+    for ball in range(face.max_balls):
         dots.text("●" if ball < face.on_board else "○", 7 * ball, STATUS_Y, NORMAL)

@@ -13,6 +13,7 @@ from silverball.errors import BoardFull, NoRoom
 from silverball.game.view import GameEvent, GameView, Mode, Phase
 
 if TYPE_CHECKING:
+    from silverball.game.core import GameCore
     from silverball.game.game import Game
     from silverball.game.replay.player import ReplayPlayer
     from silverball.players import Player
@@ -29,7 +30,7 @@ class Session(Protocol):
     """What is going on on the board."""
 
     @property
-    def game(self) -> Game:
+    def game(self) -> GameCore:
         """The game that is seen."""
 
     @property
@@ -162,7 +163,7 @@ class ReplaySession:
         self.player = player
 
     @property
-    def game(self) -> Game:
+    def game(self) -> GameCore:
         """The game as it was at this moment."""
         return self.player.game
 
@@ -186,7 +187,7 @@ class ReplaySession:
 
 def _could_come(face: GameView) -> bool:
     """Whether one of the balls left in a game of so many could come now."""
-    return 0 < face.ball < face.balls and face.on_board < face.most_balls and not face.tilted
+    return 0 < face.ball < face.balls and face.on_board < face.max_balls and not face.tilted
 
 
 def why_no_tick(stage: Session | None) -> str:

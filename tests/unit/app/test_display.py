@@ -22,7 +22,7 @@ FACE = GameView(
     save_left=0.0,
     warnings=0,
     tilted=False,
-    most_balls=2,
+    max_balls=2,
 )
 
 

@@ -10,7 +10,7 @@ from boards import PADDLES
 from silverball.errors import BoardFull, SilverballError
 from silverball.game import rules
 from silverball.game.game import Game
-from silverball.game.stuck import LOOKS
+from silverball.game.stuck import CHECK_RATE
 from silverball.game.view import GameEventKind, Mode, Phase
 from silverball.table import SlantWall, generate_table, load_table
 
@@ -216,7 +216,7 @@ IN_LOW_POCKET = (-6.6, 0.0)
 
 def looks(seconds: float) -> int:
     """The ticks until a ball that lies still from the start must have been shoved: two looks more."""
-    return round((seconds + 2 / LOOKS) * 240)
+    return round((seconds + 2 / CHECK_RATE) * 240)
 
 
 def test_a_still_ball_is_shoved_by_the_machine_again_and_again():

@@ -28,7 +28,7 @@ from silverball.table import Table, generate_table, load_table, table_digest, ta
 from silverball.table.file import SIZE_LIMIT
 
 if TYPE_CHECKING:
-    from silverball.game.game import Game
+    from silverball.game.core import GameCore
     from silverball.game.replay.format import Replay
     from silverball.game.scores.store import Score
 
@@ -103,7 +103,7 @@ def _prove(score: Score, text: str | None, table_text: str, counted: Counted) ->
     _see_that_it_is_the_game(score, replay)
     _see_that_it_is_the_table(score, replay, table_text)
     contacts = _Contacts()
-    verdict = verify(replay, look=contacts.look)
+    verdict = verify(replay, on_second=contacts.look)
     if not verdict.ok:
         raise _NotProven(f"its replay goes another way: {verdict.message}")
     if verdict.score != score.score:
@@ -115,8 +115,10 @@ def _prove(score: Score, text: str | None, table_text: str, counted: Counted) ->
 
 def _see_that_it_is_the_game(score: Score, replay: Replay) -> None:
     """Refuse the replay of another game than a window would have kept under this score."""
-    from silverball.game.game import TICK_RATE
+    from silverball.game.core import TICK_RATE
 
+    if replay.rules:
+        raise _NotProven(f"its replay is of a game with rules of its own, {_shown(replay.rules)}")
     pairs = (
         ("mode", score.mode, str(replay.mode)),
         ("seed", score.seed, replay.seed),
@@ -214,7 +216,7 @@ class _Contacts:
         self.digests = array("q")
         self._since = 0  # the tick in which the last ball came
 
-    def look(self, game: Game) -> None:
+    def look(self, game: GameCore) -> None:
         """The game has gone on."""
         for event in game.take_world_events():
             if event.kind == "created":

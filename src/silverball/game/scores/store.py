@@ -32,6 +32,7 @@ from pathlib import Path
 from typing import Any, Self, TypeVar
 
 from silverball.errors import SilverballError
+from silverball.game.replay.reader import has_own_rules
 from silverball.game.scores import database
 from silverball.game.scores import rows as records
 from silverball.game.scores.database import Database, Held
@@ -209,7 +210,12 @@ class Store:
 
         Returns:
             Its number; one beyond 63 bits if it waits because another program holds the file.
+
+        Raises:
+            SilverballError: The game was scored by rules of its own, so its score cannot be compared.
         """
+        if has_own_rules(replay_text):
+            raise SilverballError("a game with rules of its own has no place in the score lists")
         played = int((when or datetime.now(UTC)).timestamp())
         name = table_name.encode("utf-8", "replace").decode("utf-8")  # a path may have bytes that are no text
 
