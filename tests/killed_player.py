@@ -58,16 +58,16 @@ def show(*words: object) -> None:
 def play(folder: Path, seed: int) -> None:
     """Play games and keep them; what was shown is said as it is shown."""
     with Store(folder) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
         show("opened")
         for count, game in enumerate(games(seed)):
-            store.keep_last_game(f"{count}\n{game.replay}")
+            store.save_last_game(f"{count}\n{game.replay}")
             show("last_game", count)
             id = store.add_score("OLD", game.score, *LIST, game.seed, game.replay)
             show("score", id, game.score, game.seed)
             store.rename(id, initials(id))
             show("renamed", id)
-            store.keep_settings({"initials": initials(id), "count": count, "again": count})
+            store.save_settings({"initials": initials(id), "count": count, "again": count})
             show("settings", count)
 
 
@@ -77,7 +77,7 @@ def add_scores(folder: Path, first: int, count: int) -> None:
         for score in range(first, first + count):
             id = store.add_score("OLD", score, *LIST, 0, "a replay\n" * 100)
             store.rename(id, initials(score))
-        assert (store.trouble, store.keeps) == ("", True)
+        assert (store.warning, store.is_persistent) == ("", True)
 
 
 def main() -> None:

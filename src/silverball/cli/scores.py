@@ -11,8 +11,8 @@ from silverball.game.view import Mode
 from silverball.plain import plain
 
 if TYPE_CHECKING:
-    from silverball.game.scores.proof import Proof
     from silverball.game.scores.store import Score, ScoreList, Store
+    from silverball.game.scores.verify_score import ScoreVerdict
 
 NAME_LENGTH = 60  # characters of a name that are printed
 
@@ -45,9 +45,9 @@ def scores(
 
     refuse_what_does_not_fit(ctx)
     with Store() as store:
-        if store.trouble and not store.is_blind:
-            errors.print(plain(store.trouble, keep="\n"), soft_wrap=True, markup=False, highlight=False)
-        if remove is not None and not store.keeps:
+        if store.warning and not store.is_unreadable:
+            errors.print(plain(store.warning, keep="\n"), soft_wrap=True, markup=False, highlight=False)
+        if remove is not None and not store.is_persistent:
             raise SilverballError(f"{store.path}: nothing was changed, for it cannot be written")
         if verify and not store.has_read:
             raise SilverballError(f"{store.path}: nothing was verified, for it cannot be read")
@@ -128,7 +128,7 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     typer.echo(f"wrote {shown}")
 
 
-def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, Proof]:
+def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, ScoreVerdict]:
     """Try to prove all scores of some lists, the best first, and mark them; what came of it, by number.
 
     A score of another list may be of the same game: those of the same seed are tried too.
@@ -138,19 +138,19 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, P
     from silverball.cli.console import compiling, errors
 
     with compiling():
-        from silverball.game.scores.proof import Counted, prove
+        from silverball.game.scores.verify_score import CountedGames, verify_score
     every = [(score, one.id) for one in store.lists() for score in store.scores(list_id=one.id, limit=-1)]
     numbers = {one.id for one in lists}
     seeds = {(score.seed, score.mode) for score, number in every if number in numbers}
     tried = sorted((one for one in every if (one[0].seed, one[0].mode) in seeds), key=better_first)
     tables = {number: store.table_text(number) for number in {number for _, number in tried}}
-    counted = Counted()
-    proofs: dict[int, Proof] = {}
+    counted = CountedGames()
+    proofs: dict[int, ScoreVerdict] = {}
     try:
         with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
             for score, number in bar.track(tried, description="playing back"):
                 text = store.replay(score.id) if score.has_replay else None
-                proof = prove(score, text, tables[number], counted)
+                proof = verify_score(score, text, tables[number], counted)
                 if number in numbers:
                     proofs[score.id] = proof
                     if not proof.verified and not quiet:
@@ -170,7 +170,7 @@ def better_first(one: tuple[Score, int]) -> tuple[int, int]:
 
 
 def show(
-    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, Proof] | None
+    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, ScoreVerdict] | None
 ) -> None:
     """Print the best scores of some lists."""
     if as_json:
@@ -187,7 +187,7 @@ def show(
 
 
 def ranked(
-    store: Store, one: ScoreList, limit: int, proofs: dict[int, Proof] | None
+    store: Store, one: ScoreList, limit: int, proofs: dict[int, ScoreVerdict] | None
 ) -> list[tuple[int, Score]]:
     """The best scores of a list with their places; what was proven just now counts, and not what is noted."""
     if proofs is None:
@@ -216,7 +216,7 @@ def print_list(
     from rich.table import Table
     from rich.text import Text
 
-    from silverball.game.scores.proof import is_built_in
+    from silverball.game.scores.verify_score import is_built_in
 
     words = [name(one.table_name), name(one.mode)]
     words += ["built-in"] * is_built_in(one.table_digest)
@@ -234,7 +234,7 @@ def print_list(
             str(place), f"{score.score:,}", name(score.initials), str(score.seed),
             score.played("%Y-%m-%d %H:%M"), proof_words(score, is_verified), str(score.id),
         )  # fmt: skip
-        grid.add_row(*map(Text, cells), style="red" if score.is_doubtful else None)
+        grid.add_row(*map(Text, cells), style="red" if score.is_rejected else None)
     Console().print(grid)
     if len(rows) < one.length:
         typer.echo(f"  and {one.length - len(rows)} more; --limit shows them")

@@ -10,9 +10,8 @@ from games import bare, bumper, hit_bumper, kinds, lose, put
 import silverball as sb
 from boards import CLASSIC, table_of
 from silverball.game.replay.player import ReplayPlayer
-from silverball.game.scores.proof import prove
-from silverball.game.scores.score import Score
-from silverball.game.scores.store import Store
+from silverball.game.scores.store import Score, Store
+from silverball.game.scores.verify_score import verify_score
 from silverball.table import SlantWall
 
 
@@ -178,7 +177,7 @@ def test_a_game_with_own_rules_never_enters_the_score_lists(tmp_path: Path):
         row = store.add_score("ABC", 5, "arcade", "Classic", "digest", 1, sb.Game(CLASSIC).replay.to_text())
         forged = store.score(row)
     claim: Score = forged._replace(score=game.score, seed=game.seed)
-    assert prove(claim, text) == (False, "its replay is of a game with rules of its own, 'streak 1'")
+    assert verify_score(claim, text) == (False, "its replay is of a game with rules of its own, 'streak 1'")
 
 
 def test_the_built_in_rules_write_what_they_always_wrote():

@@ -1,17 +1,17 @@
-"""Is a score proven? Its replay, played back, must be that game, on the table of its list, and reach it.
+"""Verification of scores: a score is proven if its replay, played again, reaches it.
 
 *Proven* means: there are inputs that reach this score with this seed on this table, and no other score that
-was proven before it is of the same game. Everything else is *not proven*, with the reason in words:
+was proven before is of the same game. Everything else is *not proven*, with the reason in words:
 
-* the record is damaged, or the replay is missing, cut off, changed, or of a version that is not this one;
-* the table is not at hand: its text is not kept with the list, or is not the one of the list's digest. Of a
-  recipe the board is made anew, with the seed of the score;
-* the list bears the name of a built-in table and is of another one;
-* the mode, the seed, the board or the tick rate is another than that of the score in a window;
+* the record is damaged, or the replay is missing, cut off, changed, or of another version;
+* the table is not available: its text is not kept with the list, or does not have the digest of the list. The
+  board of a recipe is made again, with the seed of the score;
+* the list has the name of a built-in table but is of another table;
+* the mode, seed, board or tick rate is not that of a score in a window, or the game has rules of its own;
 * the game was not over, or ended by a fault;
-* the game has been counted before, be it further or not as far, under other initials, or in another list.
+* the game was counted before, played further or less far, under other initials, or in another list.
 
-What it cannot show is who or what pressed the buttons, how fast the clock ran meanwhile, and when that was.
+Verification cannot show who or what pressed the buttons, how fast the clock ran, or when the game was played.
 """
 
 from __future__ import annotations
@@ -30,37 +30,43 @@ from silverball.table.file import SIZE_LIMIT
 if TYPE_CHECKING:
     from silverball.game.core import GameCore
     from silverball.game.replay.format import Replay
-    from silverball.game.scores.store import Score
+    from silverball.game.scores.records import Score
 
-ENDED = ("over", "stopped")  # the player may stop: to play on would only have brought more points
+COMPLETE = ("over", "stopped")  # a player may stop: playing on could only have brought more points
 CONTACTS = ("hit", "ball_hit")
-SHOWN = 80  # characters of a name in a reason
+NAME_LIMIT = 80  # characters of a name that are shown in a reason
 
 
-class Proof(NamedTuple):
-    """What came of trying to prove a score, as `Store.mark` takes it.
+class ScoreVerdict(NamedTuple):
+    """The result of verifying a score, as `Store.mark` takes it.
 
     Attributes:
-        verified: Whether it is proven.
-        why: Why it is not; else empty.
+        verified: Whether the score is proven.
+        why: The reason why it is not; otherwise empty.
     """
 
     verified: bool
     why: str = ""
 
 
-class Counted:
-    """Which games have been counted; the same one is not counted twice.
+class CountedGames:
+    """The games that have been counted; the same game is not counted twice.
 
-    A game is known by its board, its seed, and all contacts of its balls, each with the time since a ball
-    came: so neither a pause before a ball nor a press that moves nothing makes another game of it.
+    A game is identified by its board, its seed and all contacts of its balls, each with the time since the
+    last ball was created: neither a pause before a ball nor a press that moves nothing makes another game.
     """
 
     def __init__(self) -> None:
         self._games: dict[tuple[str, int, str], list[tuple[int, array[int]]]] = {}
 
-    def before(self, id: int, replay: Replay, contacts: array[int]) -> int | None:
-        """The number of the score under which a game was counted before; if it was not, it is counted now."""
+    def duplicate_of(self, id: int, replay: Replay, contacts: array[int]) -> int | None:
+        """The number of the score with the same game, or None; in that case the game is counted.
+
+        Args:
+            id: The number of the score.
+            replay: Its replay.
+            contacts: The contacts of its balls.
+        """
         games = self._games.setdefault((table_digest(replay.table), replay.seed, str(replay.mode)), [])
         for other, known in games:
             length = min(len(contacts), len(known))
@@ -70,28 +76,32 @@ class Counted:
         return None
 
 
-def prove(score: Score, text: str | None, table_text: str = "", counted: Counted | None = None) -> Proof:
-    """Try to prove a score.
+def verify_score(
+    score: Score, text: str | None, table_text: str = "", counted: CountedGames | None = None
+) -> ScoreVerdict:
+    """Verify a score.
 
     Args:
-        score: What is claimed.
-        text: Its replay; None if it is not kept.
-        table_text: The table of its list as a table file; empty: not kept, so that only a built-in table is
-            at hand.
-        counted: The games that have been counted; this one is added if it proves the score.
+        score: The score that is claimed.
+        text: Its replay; None if it is missing.
+        table_text: The table of its list as a table file; empty: only built-in tables are available.
+        counted: The games that have been counted; the game of a proven score is added.
+
+    Returns:
+        The verdict; no error is raised for a score that cannot be proven.
     """
     try:
-        _prove(score, text, table_text, Counted() if counted is None else counted)
-    except SilverballError as error:  # of the replay, of the recipe, of the game
-        return Proof(False, " ".join(plain(str(error), keep="\n").split()))
-    return Proof(True)
+        _verify(score, text, table_text, CountedGames() if counted is None else counted)
+    except SilverballError as error:  # raised by the replay, the recipe or the game
+        return ScoreVerdict(False, " ".join(plain(str(error), keep="\n").split()))
+    return ScoreVerdict(True)
 
 
 class _NotProven(SilverballError):
     """A score is not proven; the message says why."""
 
 
-def _prove(score: Score, text: str | None, table_text: str, counted: Counted) -> None:
+def _verify(score: Score, text: str | None, table_text: str, counted: CountedGames) -> None:
     from silverball.game.replay.format import Replay
     from silverball.game.replay.verify import verify
 
@@ -100,21 +110,21 @@ def _prove(score: Score, text: str | None, table_text: str, counted: Counted) ->
     if not text:
         raise _NotProven("its replay is not kept")
     replay = Replay.from_text(text, "its replay")
-    _see_that_it_is_the_game(score, replay)
-    _see_that_it_is_the_table(score, replay, table_text)
+    _check_game(score, replay)
+    _check_table(score, replay, table_text)
     contacts = _Contacts()
-    verdict = verify(replay, on_second=contacts.look)
+    verdict = verify(replay, on_second=contacts.collect)
     if not verdict.ok:
         raise _NotProven(f"its replay goes another way: {verdict.message}")
     if verdict.score != score.score:
         raise _NotProven(f"its replay reaches {verdict.score:,}")
-    other = counted.before(score.id, replay, contacts.digests)
+    other = counted.duplicate_of(score.id, replay, contacts.digests)
     if other is not None:
         raise _NotProven(f"it is the same game as score {other}, which is counted")
 
 
-def _see_that_it_is_the_game(score: Score, replay: Replay) -> None:
-    """Refuse the replay of another game than a window would have kept under this score."""
+def _check_game(score: Score, replay: Replay) -> None:
+    """Refuse a replay that does not belong to this score, or not to a complete game in a window."""
     from silverball.game.core import TICK_RATE
 
     if replay.rules:
@@ -126,26 +136,26 @@ def _see_that_it_is_the_game(score: Score, replay: Replay) -> None:
     )
     for what, claimed, found in pairs:
         if claimed != found:
-            expected = plain(str(claimed)[:SHOWN])
+            expected = plain(str(claimed)[:NAME_LIMIT])
             raise _NotProven(f"its replay is of another game: the {what} is {found}, not {expected}")
-    if replay.ended not in ENDED:
+    if replay.ended not in COMPLETE:
         raise _NotProven(f"its replay is of a game that was not over: {replay.ended}")
 
 
-def _see_that_it_is_the_table(score: Score, replay: Replay, table_text: str) -> None:
-    """Refuse a table that is not at hand, or bears another's name, and the replay of another board."""
-    table = _kept(table_text) if table_text else _built_in(score.table_digest)
+def _check_table(score: Score, replay: Replay, table_text: str) -> None:
+    """Refuse a table that is not available or has the name of another, and a replay of another board."""
+    table = _parsed_table(table_text) if table_text else _built_in(score.table_digest)
     if table is None:
         raise _NotProven(
-            "its table is not at hand: it was not kept with the list, as it is now with every new score"
+            "its table is not available: it was not kept with the list, as it is now with every new score"
         )
     if table_digest(table) != score.table_digest:
         raise _NotProven("the table that is kept with the list is not the one that its digest names")
     key = _built_in_keys().get(score.table_digest)
-    if _read_as(score.table_name) not in {_read_as(table.name), key}:
+    if _as_read(score.table_name) not in {_as_read(table.name), key}:
         names = f"{_shown(score.table_name)}, the table that is kept with it {_shown(table.name)}"
         raise _NotProven(f"its list is called {names}")
-    if _read_as(table.name) in _built_in_names() and key is None:
+    if _as_read(table.name) in _built_in_names() and key is None:
         raise _NotProven(
             f"its table is called {_shown(table.name)}, but is not the built-in table of this name"
         )
@@ -161,19 +171,19 @@ def is_built_in(digest: str) -> bool:
     return digest in _built_in_keys()
 
 
-def _read_as(name: str) -> str:
-    """A name as an eye reads it: without capitals, accents, spaces, marks and what cannot be seen."""
+def _as_read(name: str) -> str:
+    """A name as a human reads it: without case, accents, spaces, punctuation and invisible characters."""
     letters = unicodedata.normalize("NFKD", name.casefold())
     return "".join(letter for letter in letters if letter.isalnum()) or name
 
 
 @cache
 def _built_in_names() -> frozenset[str]:
-    return frozenset(_read_as(name) for key in table_names() for name in (key, load_table(key).name))
+    return frozenset(_as_read(name) for key in table_names() for name in (key, load_table(key).name))
 
 
 def _built_in(digest: str) -> Table | None:
-    """The built-in table of a digest."""
+    """The built-in table with a digest, or None."""
     key = _built_in_keys().get(digest)
     return None if key is None else load_table(key)
 
@@ -185,11 +195,11 @@ def _built_in_keys() -> dict[str, str]:
 
 
 @lru_cache(maxsize=16)
-def _kept(text: str) -> Table:
+def _parsed_table(text: str) -> Table:
     """The table whose text is kept with a list.
 
     Raises:
-        _NotProven: The text is no table, or needs another file.
+        _NotProven: The text is not a table, or needs another file.
     """
     from silverball.game.replay.reader import has_mesh
 
@@ -206,24 +216,24 @@ def _kept(text: str) -> Table:
 
 
 class _Contacts:
-    """What the balls of a game met, and how long after a ball had come to the board.
+    """The contacts of the balls of a game, each with the time since the last ball was created.
 
     Attributes:
-        digests: Of every contact, in 64 bits; they are equal within a run of the program only.
+        digests: A hash of every contact, 64 bits; comparable within a run of the program only.
     """
 
     def __init__(self) -> None:
         self.digests = array("q")
-        self._since = 0  # the tick in which the last ball came
+        self._created = 0  # the tick in which the last ball was created
 
-    def look(self, game: GameCore) -> None:
-        """The game has gone on."""
+    def collect(self, game: GameCore) -> None:
+        """Add the contacts since the last call."""
         for event in game.take_world_events():
             if event.kind == "created":
-                self._since = event.tick
+                self._created = event.tick
             elif event.kind in CONTACTS:
-                self.digests.append(hash((event.tick - self._since, event.kind, event.part)))
+                self.digests.append(hash((event.tick - self._created, event.kind, event.part)))
 
 
 def _shown(name: str) -> str:
-    return f"'{plain(name if len(name) <= SHOWN else name[:SHOWN] + '…')}'"
+    return f"'{plain(name if len(name) <= NAME_LIMIT else name[:NAME_LIMIT] + '…')}'"
