@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from holder import ALONE, held
 from silverball.errors import SilverballError
 from silverball.game.scores import sqlite_file
 from silverball.game.scores.store import FILE, SCHEMA, Store
@@ -395,3 +396,17 @@ def test_a_mistake_of_the_caller_is_no_trouble_of_the_file(tmp_path):
         with pytest.raises(SilverballError):
             store.rename(1, "ABC")
         assert (store.warning, store.is_persistent, listed(store)) == ("", True, [])
+
+
+@pytest.mark.filterwarnings("error")
+def test_no_way_of_opening_the_file_uses_what_python_warns_of(tmp_path):
+    path = with_scores(tmp_path, 10)  # written
+    with held(path, ALONE), Store(tmp_path, nonblocking=True) as store:  # locked
+        assert store.has_pending
+    path.write_bytes(b"hello " * 1000)
+    with Store(tmp_path) as store:  # quarantined
+        assert store.is_persistent
+    path.unlink()
+    path.mkdir()
+    with Store(tmp_path) as store:  # in memory
+        assert not store.is_persistent

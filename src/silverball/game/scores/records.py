@@ -72,7 +72,7 @@ REJECTED = (
 """In SQL: whether a row ranks below all others, because it failed verification or is damaged."""
 
 _EPOCH = datetime.fromtimestamp(0, UTC)
-_TYPES = {int: "a whole number", float: "a broken number", str: "text", bytes: "bytes", type(None): "nothing"}
+_TYPES = {int: "an integer", float: "a decimal number", str: "text", bytes: "bytes", type(None): "missing"}
 
 
 class Score(NamedTuple):
