@@ -23,7 +23,7 @@ class Evening:
 
     def __init__(self, folder, settings=None, table=LEAKY) -> None:
         self.said: list[str] = []
-        self.store = Store(folder, at_once=True)  # as a window has it
+        self.store = Store(folder, nonblocking=True)  # as a window has it
         self.library = Catalog(self.store, folder, {table.name: table})
         chosen = settings or Settings(table=table.name)
         self.program = Program(self.store, chosen, self.library, seed=3, say=self.said.append)

@@ -45,6 +45,45 @@ if TYPE_CHECKING:
     from silverball.errors import (
         UnknownTable as UnknownTable,
     )
+    from silverball.game.builtin_rules import (
+        ArcadeRules as ArcadeRules,
+    )
+    from silverball.game.builtin_rules import (
+        FreeRules as FreeRules,
+    )
+    from silverball.game.game import (
+        Game as Game,
+    )
+    from silverball.game.replay.format import (
+        Replay as Replay,
+    )
+    from silverball.game.replay.verify import (
+        Verdict as Verdict,
+    )
+    from silverball.game.rules import (
+        InPlay as InPlay,
+    )
+    from silverball.game.rules import (
+        RuleConfig as RuleConfig,
+    )
+    from silverball.game.rules import (
+        Rules as Rules,
+    )
+    from silverball.game.rules import (
+        RuleState as RuleState,
+    )
+    from silverball.game.view import (
+        GameEvent as GameEvent,
+    )
+    from silverball.game.view import (
+        GameEventKind as GameEventKind,
+    )
+    from silverball.game.view import (
+        GameView as GameView,
+    )
+    from silverball.game.view import (
+        Mode as Mode,
+    )
     from silverball.table import (
         Table as Table,
     )
@@ -92,6 +131,12 @@ _HOME = {
         "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError",
         "StateError", "TableError", "UnknownTable",
     ),
+    "silverball.game.builtin_rules": ("ArcadeRules", "FreeRules"),
+    "silverball.game.game": ("Game",),
+    "silverball.game.replay.format": ("Replay",),
+    "silverball.game.replay.verify": ("Verdict",),
+    "silverball.game.rules": ("InPlay", "RuleConfig", "Rules", "RuleState"),
+    "silverball.game.view": ("GameEvent", "GameEventKind", "GameView", "Mode"),
     "silverball.table": (
         "Table", "check_table", "generate_table", "load_table", "parts", "save_table", "table_names",
     ),

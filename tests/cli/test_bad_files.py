@@ -167,7 +167,7 @@ def test_what_is_no_ordinary_file_is_never_written_over(refused, writer, make):
 
         game = Game("classic", 1)
         game.create_ball()
-        game.advance(True, False, 10)
+        game.step(True, False, 10)
         Path("good.replay").write_text(game.replay.to_text(), encoding="utf-8")
     make(target)
     before = what_is_there()

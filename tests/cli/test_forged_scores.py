@@ -22,8 +22,8 @@ import pytest
 from silverball.cli.app import run
 from silverball.game.game import TICK_RATE, Game
 from silverball.game.replay.format import Replay
-from silverball.game.replay.lines import read, written
 from silverball.game.replay.reader import checksum
+from silverball.game.replay.recording import format_input, parse_inputs
 from silverball.game.scores.store import FILE, Store
 from silverball.table import Table, dump_table, generate_table, load_table, table_digest
 
@@ -58,12 +58,12 @@ def played(
     """
     game = Game(table, **{"seed": SEED, "mode": "arcade"} | how)
     for tick in range(0, wait, 10):
-        game.advance(left=tap and tick < wait // 2, ticks=10)
+        game.step(left=tap and tick < wait // 2, ticks=10)
     while not game.is_over and game.tick < wait + seconds * game.tick_rate:
-        if not game.face.on_board:
+        if not game.view.on_board:
             game.create_ball()
         phase = (game.tick - wait) % 100
-        game.advance(left=phase < 50, right=phase > 50, ticks=10)
+        game.step(left=phase < 50, right=phase > 50, ticks=10)
     if end:
         game.end()
     return game
@@ -173,9 +173,9 @@ def again(text: str, **changes: Any) -> str:
 
 def with_vain_presses_after_the_end(text: str) -> str:
     replay = Replay.from_text(text)
-    last = max((one.tick for one in read(replay.tail)), default=0)
+    last = max((one.tick for one in parse_inputs(replay.tail)), default=0)
     rest = replay.ticks % TICK_RATE
-    return again(text, tail=replay.tail + written("R", rest - last) + written("R", 0))
+    return again(text, tail=replay.tail + format_input("R", rest - last) + format_input("R", 0))
 
 
 def rich(name: str = "Classic") -> Table:

@@ -64,7 +64,7 @@ def told(capfd):
 def played() -> Replay:
     game = Game("classic", 5, Mode.FREE)
     game.create_ball()
-    game.advance(True, False, 300)
+    game.step(True, False, 300)
     return game.replay
 
 

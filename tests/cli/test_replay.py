@@ -20,11 +20,11 @@ def played() -> Game:
     game = Game("classic", 5, Mode.FREE)
     game.create_ball()
     for second in range(6):
-        game.advance(True, second % 2 == 0, 100)
+        game.step(True, second % 2 == 0, 100)
         if second == 3:
             game.create_ball()
             game.jitter()
-        game.advance(False, False, 140)
+        game.step(False, False, 140)
     return game
 
 
@@ -93,7 +93,7 @@ def test_json_tells_what_the_replay_says_of_itself(silverball, good: str, played
         (lambda text: text[: len(text) // 2], "cut off"),
         (lambda text: text.replace("score = ", "score = 9"), "changed or damaged"),
         (lambda text: text.replace("replay 1", "replay 9", 1), "newer Silverball"),
-        (lambda _: "hello\n", "this is no replay"),
+        (lambda _: "hello\n", "this is not a replay"),
         (lambda _: "", "empty"),
     ],
 )
@@ -112,7 +112,7 @@ def test_a_bad_file_is_refused_whatever_is_asked_of_it(silverball, good: str, op
     path.write_text("hello\n", encoding="utf-8")
     result = silverball("replay", good, *options, cwd=path.parent)
     assert (result.returncode, result.stdout) == (2, "")
-    assert "this is no replay" in result.stderr
+    assert "this is not a replay" in result.stderr
     assert not (path.parent / "film.gif").exists()
 
 

@@ -246,9 +246,9 @@ def test_verify_marks_what_is_not_proven_and_ends_with_1(silverball, folder):
         for claimed in (0, 1):
             game = games.Game("classic", seed=5)
             while not game.score:
-                if not game.face.on_board:
+                if not game.view.on_board:
                     game.create_ball()
-                game.advance(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
+                game.step(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
             game.end()
             store.add_score(
                 "ABC",

@@ -83,7 +83,7 @@ def press_once(performer: Performer, table: Table) -> None:
 
     game = Game(table, 0)
     game.create_ball()
-    game.advance(False, False, 1)
+    game.step(False, False, 1)
     make_player(performer.name).press(game.world)
 
 

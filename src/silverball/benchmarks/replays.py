@@ -61,9 +61,9 @@ def reflex_game(mode: Mode, seed: int, seconds: float) -> Game:
     game, player = Game("classic", seed, mode), make_player("reflex")
     wanted = 2 if mode is Mode.FREE else 1
     while not game.is_over and game.tick < seconds * game.tick_rate:
-        if game.tick % 60 == 0 and game.face.on_board < wanted:
+        if game.tick % 60 == 0 and game.view.on_board < wanted:
             create_ball(game)
-        game.advance(*player.press(game.world))
+        game.step(*player.press(game.world))
     return game
 
 
@@ -77,9 +77,9 @@ def frantic_game(seed: int, seconds: float) -> Game:
                 held[side] = not held[side]
                 pause = game.tick_rate / FRANTIC_RATE * draw.uniform(0.5, 1.5)
                 change[side] = game.tick + max(1, round(pause))
-        if game.tick % 240 == 0 and game.face.on_board < 2:
+        if game.tick % 240 == 0 and game.view.on_board < 2:
             create_ball(game)
-        game.advance(*held)
+        game.step(*held)
     return game
 
 

@@ -101,12 +101,12 @@ def filmed(
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
         stage.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
-        events, news = stage.take_events(), stage.take_news()
+        events, news = stage.take_world_events(), stage.take_game_events()
         display.tell(news)
         renderer.note(events, world.tick_rate)
         if sound is not None:
             sound.note(world, events, stage.game.held, news)
-        dots, moment = display.frame(stage.game.face, number / rate), Moment.of(world)
+        dots, moment = display.frame(stage.game.view, number / rate), Moment.of(world)
         if not only_last or number == count:
             yield renderer.array(moment, dots)
         else:

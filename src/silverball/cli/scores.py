@@ -12,8 +12,8 @@ from silverball.game.view import Mode
 from silverball.plain import plain
 
 if TYPE_CHECKING:
-    from silverball.game.scores.proof import Proof
     from silverball.game.scores.store import Score, ScoreList, Store
+    from silverball.game.scores.verify_score import ScoreVerdict
 
 NAME_LENGTH = 60  # printed characters of a name
 
@@ -62,9 +62,9 @@ def scores(
 
     refuse_conflicts(ctx)
     with Store() as store:
-        if store.trouble and not store.is_blind:
-            errors.print(plain(store.trouble, keep="\n"), soft_wrap=True, markup=False, highlight=False)
-        if remove is not None and not store.keeps:
+        if store.warning and not store.is_unreadable:
+            errors.print(plain(store.warning, keep="\n"), soft_wrap=True, markup=False, highlight=False)
+        if remove is not None and not store.is_persistent:
             raise SilverballError(f"{store.path}: nothing was changed: the file cannot be written")
         if verify and not store.has_read:
             raise SilverballError(f"{store.path}: nothing was verified: the file cannot be read")
@@ -157,13 +157,13 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     typer.echo(f"wrote {shown}")
 
 
-def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, Proof]:
+def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, ScoreVerdict]:
     """Verify all scores of some lists, best first, and store the results; returns them by score ID.
 
     Scores of other lists with the same seed are verified too: a game counts in one of its scores only.
     """
     with compiling():
-        from silverball.game.scores.proof import Counted, prove
+        from silverball.game.scores.verify_score import CountedGames, verify_score
     all_scores = [
         (score, one.id) for one in store.lists() for score in store.scores(list_id=one.id, limit=-1)
     ]
@@ -171,13 +171,13 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, P
     seeds = {(score.seed, score.mode) for score, number in all_scores if number in numbers}
     tried = sorted((one for one in all_scores if (one[0].seed, one[0].mode) in seeds), key=better_first)
     tables = {number: store.table_text(number) for number in {number for _, number in tried}}
-    counted = Counted()
-    proofs: dict[int, Proof] = {}
+    counted = CountedGames()
+    proofs: dict[int, ScoreVerdict] = {}
     try:
         with progress_bar() as bar:
             for score, number in bar.track(tried, description="verifying"):
                 text = store.replay(score.id) if score.has_replay else None
-                proof = prove(score, text, tables[number], counted)
+                proof = verify_score(score, text, tables[number], counted)
                 if number in numbers:
                     proofs[score.id] = proof
                     if not proof.verified and not quiet:
@@ -197,7 +197,7 @@ def better_first(one: tuple[Score, int]) -> tuple[int, int]:
 
 
 def show(
-    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, Proof] | None
+    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, ScoreVerdict] | None
 ) -> None:
     """Print the best scores of some lists."""
     if as_json:
@@ -214,7 +214,7 @@ def show(
 
 
 def ranked(
-    store: Store, one: ScoreList, limit: int, proofs: dict[int, Proof] | None
+    store: Store, one: ScoreList, limit: int, proofs: dict[int, ScoreVerdict] | None
 ) -> list[tuple[int, Score]]:
     """The best scores of a list with their places; new proofs take precedence over stored ones."""
     if proofs is None:
@@ -243,7 +243,7 @@ def print_list(
     from rich.table import Table
     from rich.text import Text
 
-    from silverball.game.scores.proof import is_built_in
+    from silverball.game.scores.verify_score import is_built_in
 
     words = [name(one.table_name), name(one.mode)]
     words += ["built-in"] * is_built_in(one.table_digest)
@@ -261,7 +261,7 @@ def print_list(
             str(place), f"{score.score:,}", name(score.initials), str(score.seed),
             score.played("%Y-%m-%d %H:%M"), proof_words(score, is_verified), str(score.id),
         )  # fmt: skip
-        grid.add_row(*map(Text, cells), style="red" if score.is_doubtful else None)
+        grid.add_row(*map(Text, cells), style="red" if score.is_rejected else None)
     Console().print(grid)
     if len(rows) < one.length:
         typer.echo(f"  and {one.length - len(rows)} more (see --limit)")

@@ -48,7 +48,7 @@ def test_a_section_with_the_defaults_is_no_section():
 def test_every_board_of_a_recipe_has_the_recipes_rules():
     recipe = load_table("random").model_copy(update={"arcade": Arcade(balls=7)})
     assert generate_table(3, recipe).arcade.balls == 7
-    assert Game(recipe, 3).face.balls == 7
+    assert Game(recipe, 3).view.balls == 7
 
 
 @pytest.mark.parametrize(

@@ -44,7 +44,7 @@ def script(seed: int, length: int) -> list[tuple[str, bool, bool, int]]:
 def act(game: Game, what: str) -> None:
     if what == "ball":
         bring(game)
-    elif what == "shove" and game.face.on_board:
+    elif what == "shove" and game.view.on_board:
         game.jitter()
 
 
@@ -66,18 +66,18 @@ def test_many_ticks_at_once_are_the_bits_news_and_events_of_one_at_a_time(name: 
         for what, left, right, ticks in script(seed, 60):
             act(at_once, what)
             act(singly, what)
-            at_once.advance(left, right, ticks)
+            at_once.step(left, right, ticks)
             for _ in range(ticks):
-                singly.advance(left, right)
+                singly.step(left, right)
             assert at_once.rules_text == singly.rules_text
             assert at_once.digest() == singly.digest()
-            news = at_once.take_news()
+            news = at_once.take_game_events()
             told |= {one.kind for one in news}
-            assert news == singly.take_news()
-            assert at_once.take_events() == singly.take_events()
+            assert news == singly.take_game_events()
+            assert at_once.take_world_events() == singly.take_world_events()
         assert at_once.replay == singly.replay
     if mode is Mode.ARCADE:
-        special = GameEventKind.UN_STUCK if name == "pocket" else GameEventKind.BALL_SAVED
+        special = GameEventKind.UNSTUCK if name == "pocket" else GameEventKind.BALL_SAVED
         assert {GameEventKind.BALL_LOST, GameEventKind.TILT, special} <= told
 
 
@@ -94,11 +94,11 @@ def test_a_leap_that_loses_events_is_played_again_tick_by_tick():
     probe.step(ticks=59)
     assert probe.events_lost > 0
     for _ in range(5):
-        at_once.advance(ticks=59)
+        at_once.step(ticks=59)
         for _ in range(59):
-            singly.advance()
+            singly.step()
         assert at_once.digest() == singly.digest()
-        assert at_once.take_events() == singly.take_events()
+        assert at_once.take_world_events() == singly.take_world_events()
     assert at_once.score == singly.score > 0
 
 
@@ -115,15 +115,15 @@ def test_a_saved_ball_that_finds_no_room_comes_at_the_same_tick_however_ticks_ar
     for game in (at_once, singly):
         game.create_ball()
         put(game, -8.9, 0.0)
-        game.advance(ticks=200)
-        assert game.face.on_board == 0
+        game.step(ticks=200)
+        assert game.view.on_board == 0
         with pytest.raises(SilverballError, match="not yet"):
             game.create_ball()
-    at_once.advance(ticks=150)
+    at_once.step(ticks=150)
     for _ in range(150):
-        singly.advance()
-    assert at_once.face.on_board == 1
-    assert [event.tick for event in singly.take_events() if event.kind == "created"] == [0, 310]
+        singly.step()
+    assert at_once.view.on_board == 1
+    assert [event.tick for event in singly.take_world_events() if event.kind == "created"] == [0, 310]
     assert at_once.digest() == singly.digest()
 
 
@@ -138,13 +138,13 @@ def test_a_restored_game_goes_on_with_the_same_bits(name: str):
         other = Game(TABLES[name], 3)
         other.restore(state)
         assert other.digest() == game.digest()
-        assert other.face == game.face
-        game.take_news()
+        assert other.view == game.view
+        game.take_game_events()
         for one in (game, other):
-            one.advance(left, right, ticks)
+            one.step(left, right, ticks)
         assert other.digest() == game.digest()
         assert other.save() == game.save()
-        assert other.take_news() == game.take_news()
+        assert other.take_game_events() == game.take_game_events()
 
 
 def test_a_game_that_is_over_is_over_after_it_was_restored():
@@ -185,7 +185,7 @@ def test_other_seeds_give_other_games():
     def played(seed: int, table: Table) -> str:
         game = Game(table, seed)
         game.create_ball()
-        game.advance(ticks=200)
+        game.step(ticks=200)
         return game.digest()
 
     table = TABLES["crowded"]

@@ -31,9 +31,9 @@ HUGE = ("0", "-1", "1e400", "nan", "9" * 18, "9" * 400, str(2**63), "1_0", "٣",
 def short_game() -> Game:
     game = Game(bare(bumper(), balls=1, ball_save=1.0), 5)
     game.create_ball()
-    game.advance(True, False, 100)
+    game.step(True, False, 100)
     game.jitter()
-    game.advance(False, True, 5000)
+    game.step(False, True, 5000)
     return game
 
 

@@ -27,8 +27,8 @@ def add(store: Store, score: int, initials: str = "AAA", **other: object) -> int
 def store(tmp_path: Path):
     with Store(tmp_path) as one:
         yield one
-        assert one.trouble == ""
-        assert one.keeps
+        assert one.warning == ""
+        assert one.is_persistent
 
 
 def test_a_score_is_there_with_all_it_consists_of_when_the_file_is_opened_again(tmp_path):
@@ -96,7 +96,7 @@ def test_all_boards_of_a_recipe_share_a_list_that_shows_their_seeds(store):
 
 def test_a_high_score_is_one_that_comes_into_the_list_that_is_shown(store):
     def place(score: int) -> int | None:
-        return store.is_high(score, "arcade", BOARD["table_digest"])
+        return store.high_score_rank(score, "arcade", BOARD["table_digest"])
 
     assert place(1) == 1
     assert place(0) is None
@@ -106,12 +106,12 @@ def test_a_high_score_is_one_that_comes_into_the_list_that_is_shown(store):
     assert place(10 + PLACES - 1) == 2  # the equal one came first
     assert place(11) == PLACES
     assert place(10) is None
-    assert store.is_high(1, "free", BOARD["table_digest"]) == 1
+    assert store.high_score_rank(1, "free", BOARD["table_digest"]) == 1
 
 
 def test_the_place_that_is_promised_is_the_place_that_is_got(store):
     for score in (50, 20, 50, 70, 20, 60, 10):
-        promised = store.is_high(score, "arcade", BOARD["table_digest"])
+        promised = store.high_score_rank(score, "arcade", BOARD["table_digest"])
         number = add(store, score)
         listed = [one.id for one in store.scores("arcade", BOARD["table_digest"])]
         assert listed.index(number) + 1 == promised
@@ -147,7 +147,7 @@ def test_a_score_that_was_tried_in_vain_stands_below_all_others_and_is_in_nobody
     assert [score.score for score in store.scores()] == [70, 60, 90, 80]
     for score in (95, 85, 65, 5):
         expected = sum(other >= score for other in (70, 60)) + 1
-        assert store.is_high(score, "arcade", BOARD["table_digest"]) == expected
+        assert store.high_score_rank(score, "arcade", BOARD["table_digest"]) == expected
 
 
 def test_a_removed_score_is_gone_and_its_number_is_never_given_again(store):
@@ -190,8 +190,8 @@ def test_a_list_goes_by_the_last_name_of_its_table(store):
 def test_the_last_game_is_kept_and_only_the_last(tmp_path):
     with Store(tmp_path) as store:
         assert store.last_game() is None
-        store.keep_last_game("first")
-        store.keep_last_game("second\n")
+        store.save_last_game("first")
+        store.save_last_game("second\n")
     with Store(tmp_path) as store:
         assert store.last_game() == "second\n"
 
@@ -238,23 +238,23 @@ def test_settings_come_back_as_they_were(tmp_path):
     )
     with Store(tmp_path) as store:
         assert Settings.of(store.settings()) == Settings()
-        store.keep_settings(settings.model_dump())
+        store.save_settings(settings.model_dump())
     with Store(tmp_path) as store:
         assert Settings.of(store.settings()) == settings
 
 
 def test_settings_that_are_not_named_stay_as_they_are(store):
-    store.keep_settings({"volume": 3, "of_a_newer_program": {"a": [1, None]}})
-    store.keep_settings({"volume": 4})
+    store.save_settings({"volume": 3, "of_a_newer_program": {"a": [1, None]}})
+    store.save_settings({"volume": 4})
     assert store.settings() == {"volume": 4, "of_a_newer_program": {"a": [1, None]}}
 
 
 def test_settings_are_kept_all_or_none(store):
-    store.keep_settings({"volume": 3, "muted": True})
+    store.save_settings({"volume": 3, "muted": True})
     with pytest.raises(TypeError):
-        store.keep_settings({"volume": 4, "muted": object()})
+        store.save_settings({"volume": 4, "muted": object()})
     with pytest.raises(sqlite3.Error):
-        store.keep_settings({"volume": 4, object(): 1})  # type: ignore[dict-item]
+        store.save_settings({"volume": 4, object(): 1})  # type: ignore[dict-item]
     assert store.settings() == {"volume": 3, "muted": True}
 
 
@@ -263,12 +263,12 @@ def test_settings_are_kept_all_or_none(store):
 )
 def test_a_damaged_setting_is_replaced_by_its_default_and_the_others_stay(tmp_path, value):
     with Store(tmp_path) as store:
-        store.keep_settings(Settings(volume=3, muted=True).model_dump())
+        store.save_settings(Settings(volume=3, muted=True).model_dump())
     with closing(sqlite3.connect(tmp_path / FILE)) as connection, connection:
         connection.execute("UPDATE setting SET value = ? WHERE name = 'volume'", (value,))
     with Store(tmp_path) as store:
         assert Settings.of(store.settings()) == Settings(muted=True)
-        assert store.trouble == ""
+        assert store.warning == ""
 
 
 # ── versions of the file ────────────────────────────────────────────────────────────────────────────────
@@ -287,7 +287,7 @@ def test_a_file_of_an_older_version_is_brought_to_the_present_one_with_all_that_
     monkeypatch.setattr(stores, "SCHEMA", NEXT)
     for _ in range(2):
         with Store(tmp_path) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             assert store.score(number).score == 42
             assert store._database.read("SELECT balls FROM score") == [(3,)]
 
@@ -307,7 +307,7 @@ def test_scores_of_a_file_of_version_1_are_all_there_and_without_a_table(tmp_pat
             )
     for _ in range(2):
         with Store(tmp_path) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             assert [(one.score, one.has_replay) for one in store.scores()] == [(20, True), (10, False)]
             assert store.table_text(3) == ""
             with pytest.raises(SilverballError, match="its replay was not kept"):
@@ -321,5 +321,5 @@ def test_a_file_stays_at_its_version_when_bringing_it_to_the_present_one_fails(t
     with pytest.raises(sqlite3.OperationalError, match="nowhere"):
         Database(tmp_path / FILE, broken)
     with Store(tmp_path) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
         assert [score.score for score in store.scores()] == [42]

@@ -85,7 +85,7 @@ class Expected:
             assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
         last = shown[-1] if shown else ("",)
         with Store(folder) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             there = {score.id: score for score in store.scores(limit=-1)}
             unseen = set(there) - set(self.scores)
             assert len(unseen) <= (last[0] == "last_game")

@@ -8,6 +8,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+import time
 from contextlib import closing
 from pathlib import Path
 
@@ -47,18 +48,18 @@ def folder(tmp_path: Path) -> Path:
     with Store(tmp_path) as store:
         add(store, 20)
         add(store, 10)
-        store.keep_last_game("before")
-        store.keep_settings({"volume": 9, "muted": True})
+        store.save_last_game("before")
+        store.save_settings({"volume": 9, "muted": True})
     return tmp_path
 
 
 def play_on(store: Store) -> int:
     """All that a game asks of a store works and shows; the number of the new score."""
     number = add(store, 15)
-    assert store.is_high(16, *LIST[::2]) == 2
+    assert store.high_score_rank(16, *LIST[::2]) == 2
     store.rename(number, "NEW")
-    store.keep_last_game("now")
-    store.keep_settings({"volume": 2})
+    store.save_last_game("now")
+    store.save_settings({"volume": 2})
     assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
     assert store.score(number).initials == "NEW"
     assert store.replay(number) == f"15\n{REPLAY}"
@@ -70,34 +71,34 @@ def assert_all_is_saved(folder: Path) -> None:
     assert in_the_file(folder) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
     assert waiting_files(folder) == []
     with Store(folder) as store:
-        assert (store.trouble, store.keeps, store.is_held) == ("", True, False)
+        assert (store.warning, store.is_persistent, store.has_pending) == ("", True, False)
         assert (store.last_game(), store.settings()) == ("now", {"volume": 2, "muted": True})
         assert [store.table_text(one.id) for one in store.lists()] == ["the table"]
         assert store.replay(store.scores()[1].id) == f"15\n{REPLAY}"
 
 
 def test_a_store_that_is_not_to_wait_has_sqlite_not_wait(folder):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         assert store._database._connection.execute("PRAGMA busy_timeout").fetchone() == (0,)
 
 
 def test_what_comes_while_the_file_is_held_waits_on_the_disk_and_is_saved_when_it_is_free(folder):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             number = play_on(store)
-            assert store.is_held
-            assert store.is_safe
-            assert store.keeps
+            assert store.has_pending
+            assert store.is_spooled
+            assert store.is_persistent
             (file,) = waiting_files(folder)
             assert "15" in file.read_text()
-            assert not store.try_again()
+            assert not store.retry_pending()
             assert in_the_file(folder) == [(20, "AAA"), (10, "AAA")]
-        assert store.try_again()
-        assert not store.is_held
+        assert store.retry_pending()
+        assert not store.has_pending
         assert store.score(number).score == 15  # the number that was given out stays good
         assert store.replay(number) == f"15\n{REPLAY}"
         store.rename(number, "NEW")
-        assert store.trouble == ""
+        assert store.warning == ""
     assert_all_is_saved(folder)
 
 
@@ -105,19 +106,19 @@ def test_what_comes_while_the_file_is_held_waits_on_the_disk_and_is_saved_when_i
 def test_a_file_that_is_held_at_the_start_is_used_when_it_is_free(folder, how, monkeypatch):
     monkeypatch.setattr(database, "BEGIN_SECONDS", 0.05)
     with held(folder / FILE, how):
-        store = Store(folder, at_once=True)
-        assert "another program holds it" in store.trouble
-        assert store.is_blind == (how == ALONE)
+        store = Store(folder, nonblocking=True)
+        assert "another program holds it" in store.warning
+        assert store.is_unreadable == (how == ALONE)
         if how == WRITES:
             play_on(store)
         else:
             store.rename(add(store, 15), "NEW")
-            store.keep_last_game("now")
-            store.keep_settings({"volume": 2})
+            store.save_last_game("now")
+            store.save_settings({"volume": 2})
             assert listed(store) == [(15, "NEW")]
-        assert store.is_safe
-    assert store.try_again()
-    assert store.trouble == ""
+        assert store.is_spooled
+    assert store.retry_pending()
+    assert store.warning == ""
     assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
     store.close()
     assert_all_is_saved(folder)
@@ -125,18 +126,18 @@ def test_a_file_that_is_held_at_the_start_is_used_when_it_is_free(folder, how, m
 
 def test_what_still_waits_at_the_end_is_there_at_the_next_start(folder):
     with held(folder / FILE):
-        with Store(folder, at_once=True) as store:
+        with Store(folder, nonblocking=True) as store:
             play_on(store)
         (file,) = waiting_files(folder)
-        assert file.name in store.farewell
-    Store(folder, at_once=True).close()
+        assert file.name in store.exit_warning
+    Store(folder, nonblocking=True).close()
     assert_all_is_saved(folder)
 
 
 def test_what_waits_survives_a_kill(folder):
     code = (
         "import os, signal, sys; from pathlib import Path; from test_store_held import play_on, Store\n"
-        "store = Store(Path(sys.argv[1]), at_once=True); play_on(store)\n"
+        "store = Store(Path(sys.argv[1]), nonblocking=True); play_on(store)\n"
         "os.kill(os.getpid(), signal.SIGKILL)"
     )
     paths = os.environ | {"PYTHONPATH": os.pathsep.join([*sys.path, str(Path(__file__).parent)])}
@@ -150,12 +151,12 @@ def test_what_waits_survives_a_kill(folder):
 
 
 def test_a_program_that_is_killed_between_saving_and_tidying_up_saves_nothing_twice(folder):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             play_on(store)
             (file,) = waiting_files(folder)
             content = file.read_text()
-        store.try_again()
+        store.retry_pending()
     for initials in ("NEW", "XYZ"):
         file.write_text(content.replace('"NEW"', f'"{initials}"'))
         with Store(folder) as store:
@@ -164,7 +165,7 @@ def test_a_program_that_is_killed_between_saving_and_tidying_up_saves_nothing_tw
 
 
 def test_another_program_may_take_in_what_this_one_has_waiting(folder):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             number = play_on(store)
         with Store(folder) as other:
@@ -177,7 +178,7 @@ def test_another_program_may_take_in_what_this_one_has_waiting(folder):
 
 def test_what_is_added_after_another_program_has_taken_in_the_rest_is_not_lost(folder):
     with held(folder / FILE):
-        store = Store(folder, at_once=True)
+        store = Store(folder, nonblocking=True)
         play_on(store)
     Store(folder).close()
     with held(folder / FILE):
@@ -188,15 +189,15 @@ def test_what_is_added_after_another_program_has_taken_in_the_rest_is_not_lost(f
 
 
 def test_initials_for_a_score_that_was_saved_before_wait_too(folder):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         number = add(store, 15)
         with held(folder / FILE):
             store.rename(number, "NEW")
             assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
             assert store.score(number).initials == "NEW"
             assert in_the_file(folder)[1] == (15, "AAA")
-            kept = store._room.path.read_text()
-        assert store.try_again()
+            kept = store._spool.path.read_text()
+        assert store.retry_pending()
         assert in_the_file(folder)[1] == (15, "NEW")
         store.rename(number, "ZZZ")
     (folder / f"{NAME}1.json").write_text(kept)  # as after a kill
@@ -205,7 +206,7 @@ def test_initials_for_a_score_that_was_saved_before_wait_too(folder):
 
 
 def test_lists_that_were_read_before_are_shown_while_the_file_cannot_even_be_read(folder):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         store._database._connection.execute("PRAGMA journal_mode = DELETE").fetchall()  # readers are kept out
         before = store.scores(*LIST[::2])
         id = before[0].id
@@ -213,11 +214,11 @@ def test_lists_that_were_read_before_are_shown_while_the_file_cannot_even_be_rea
             assert store.scores(*LIST[::2]) == before
             with pytest.raises(SilverballError, match="another program holds it"):
                 store.replay(id)
-            assert store.is_held
-            assert store.is_high(15, *LIST[::2]) == 2
+            assert store.has_pending
+            assert store.high_score_rank(15, *LIST[::2]) == 2
             play = add(store, 15)
             assert [one.id for one in store.scores(*LIST[::2])] == [before[0].id, play, before[1].id]
-        assert store.try_again()
+        assert store.retry_pending()
         assert store.replay(id) == f"20\n{REPLAY}"
     assert [score for score, _ in in_the_file(folder)] == [20, 15, 10]
 
@@ -242,25 +243,25 @@ def full(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
 
 
 def test_what_is_only_in_the_memory_is_not_called_kept_and_is_saved_when_the_file_is_free(folder, full):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             play_on(store)
-            assert not store.is_safe
-            assert not store.keeps
-            assert not store.try_again()
-        assert store.try_again()
-        assert store.is_safe
-        assert store.keeps
+            assert not store.is_spooled
+            assert not store.is_persistent
+            assert not store.retry_pending()
+        assert store.retry_pending()
+        assert store.is_spooled
+        assert store.is_persistent
     assert_all_is_saved(folder)
 
 
 def test_what_is_only_in_the_memory_is_written_beside_it_as_soon_as_there_is_room(folder, full):
     with held(folder / FILE):
-        store = Store(folder, at_once=True)
+        store = Store(folder, nonblocking=True)
         play_on(store)
         full[0] = False
-        assert not store.try_again()
-        assert store.is_safe
+        assert not store.retry_pending()
+        assert store.is_spooled
         store.close()
     Store(folder).close()
     assert_all_is_saved(folder)
@@ -268,13 +269,11 @@ def test_what_is_only_in_the_memory_is_written_beside_it_as_soon_as_there_is_roo
 
 def test_at_the_end_what_is_only_in_the_memory_is_tried_for_some_time(folder, full, monkeypatch):
     with held(folder / FILE) as program:
-        store = Store(folder, at_once=True)
+        store = Store(folder, nonblocking=True)
         play_on(store)
-        monkeypatch.setattr(
-            database.time, "sleep", lambda seconds: program.communicate()
-        )  # it ends meanwhile
+        monkeypatch.setattr(time, "sleep", lambda seconds: program.communicate())  # it ends meanwhile
         store.close()
-        assert store.farewell == ""
+        assert store.exit_warning == ""
     monkeypatch.undo()
     assert_all_is_saved(folder)
 
@@ -282,23 +281,23 @@ def test_at_the_end_what_is_only_in_the_memory_is_tried_for_some_time(folder, fu
 def test_what_is_lost_in_the_end_is_said_to_be_lost(folder, full, monkeypatch):
     monkeypatch.setattr(database, "BUSY_SECONDS", 0.1)
     with held(folder / FILE):
-        store = Store(folder, at_once=True)
+        store = Store(folder, nonblocking=True)
         play_on(store)
         store.close()
-        assert "is lost" in store.farewell
+        assert "is lost" in store.exit_warning
 
 
 def test_a_disk_that_is_full_when_the_file_is_free_leaves_what_waits_where_it_is(folder, monkeypatch):
-    with Store(folder, at_once=True) as store:
+    with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             play_on(store)
         connection = store._database._connection
         connection.execute(f"PRAGMA max_page_count = {connection.execute('PRAGMA page_count').fetchone()[0]}")
-        store._room.waiting.scores[0].replay += "x" * 100_000
-        store._room.keep()
-        assert store.try_again()
-        assert not store.keeps
-        assert "the disk is full" in store.trouble
+        store._spool.pending.scores[0].replay += "x" * 100_000
+        store._spool.write()
+        assert store.retry_pending()
+        assert not store.is_persistent
+        assert "the disk is full" in store.warning
         assert listed(store) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
         assert len(waiting_files(folder)) == 1
     Store(folder).close()
@@ -310,7 +309,7 @@ def test_a_disk_that_is_full_when_the_file_is_free_leaves_what_waits_where_it_is
 
 
 def waiting_content(folder: Path) -> dict:
-    with held(folder / FILE), Store(folder, at_once=True) as store:
+    with held(folder / FILE), Store(folder, nonblocking=True) as store:
         play_on(store)
     (file,) = waiting_files(folder)
     content = json.loads(file.read_text())
@@ -348,13 +347,13 @@ def test_a_waiting_file_that_cannot_be_read_is_set_aside_with_a_sentence(folder,
     text = text if isinstance(text, bytes) else text.encode()
     (folder / f"{NAME}1.json").write_bytes(text)
     with Store(folder) as store:
-        assert len(store.trouble.splitlines()) == 1
+        assert len(store.warning.splitlines()) == 1
         (aside,) = folder.glob("silverball-set-aside-*.json")
-        assert aside.name in store.trouble
+        assert aside.name in store.warning
         assert aside.read_bytes() == text
-        assert store.keeps
+        assert store.is_persistent
     with Store(folder) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
     assert in_the_file(folder) == [(20, "AAA"), (10, "AAA")]
 
 
@@ -364,7 +363,7 @@ def test_what_is_no_file_is_left_alone(folder):
     (folder / f"{NAME}2.json").mkdir()
     (folder / f"{NAME}3.json").symlink_to("/dev/zero")
     with Store(folder) as store:
-        assert (store.trouble, store.keeps) == ("", True)
+        assert (store.warning, store.is_persistent) == ("", True)
 
 
 # ── whoever waits ───────────────────────────────────────────────────────────────────────────────────────

@@ -15,8 +15,9 @@ from pathlib import Path
 
 import pytest
 
+from holder import ALONE, held
 from silverball.errors import SilverballError
-from silverball.game.scores import database
+from silverball.game.scores import sqlite_file
 from silverball.game.scores.store import FILE, SCHEMA, Store
 
 REPLAY = "a line of a replay\n" * 100
@@ -34,11 +35,11 @@ def listed(store: Store) -> list[int]:
 def assert_play_goes_on(store: Store) -> None:
     """All that a game asks of a store works, whether it lasts or not."""
     number = add(store, 123_456)
-    assert store.is_high(123_457, "arcade", "d" * 64) == 1
+    assert store.high_score_rank(123_457, "arcade", "d" * 64) == 1
     store.rename(number, "NEW")
     store.mark({number: (True, "")})
-    store.keep_last_game("last")
-    store.keep_settings({"volume": 2})
+    store.save_last_game("last")
+    store.save_settings({"volume": 2})
     assert store.scores()[0][:3] == (number, "NEW", 123_456)
     assert store.replay(number) == REPLAY
     assert store.last_game() == "last"
@@ -47,11 +48,11 @@ def assert_play_goes_on(store: Store) -> None:
 
 def assert_told(store: Store, *words: str, keeps: bool) -> None:
     """One sentence with the place, what is wrong and, if nothing is kept, what to do."""
-    assert len(store.trouble.splitlines()) == 1
+    assert len(store.warning.splitlines()) == 1
     remedy = () if keeps else ("nothing of this run is kept", "SILVERBALL_DATA")
     for word in (str(store.path), *words, *remedy):
-        assert word in store.trouble
-    assert store.keeps == keeps
+        assert word in store.warning
+    assert store.is_persistent == keeps
 
 
 @pytest.fixture
@@ -82,7 +83,7 @@ def with_scores(folder: Path, *scores: int) -> Path:
     with Store(folder) as store:
         for score in scores:
             add(store, score)
-        store.keep_settings({"volume": 9, "muted": True})
+        store.save_settings({"volume": 9, "muted": True})
     return folder / FILE
 
 
@@ -152,7 +153,7 @@ def fill(store: Store, most: int = 3000) -> list[int]:
     kept = []
     for score in range(1, most):
         add(store, score, REPLAY + "x" * score)
-        if not store.keeps:
+        if not store.is_persistent:
             return kept
         kept.append(score)
     raise AssertionError("the disk never was full")
@@ -161,7 +162,7 @@ def fill(store: Store, most: int = 3000) -> list[int]:
 def assert_all_goes_on_on_a_full_disk(folder: Path, word: str) -> list[int]:
     """Fill it up, play on, and see that all that was kept is there; what was kept."""
     with Store(folder) as store:
-        store.keep_settings({"volume": 9})
+        store.save_settings({"volume": 9})
         kept = fill(store)
         assert_told(store, word, keeps=False)
         assert listed(store) == [len(kept) + 1, *reversed(kept)]  # the last one as long as the program runs
@@ -179,7 +180,7 @@ def test_a_limit_to_the_size_of_files_is_met_in_the_middle(tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
     with Store(tmp_path) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
         assert listed(store) == kept[::-1]
 
 
@@ -205,8 +206,8 @@ def test_the_disk_is_full_from_the_beginning(small_disk):
     with pytest.raises(OSError, match="No space"):
         (small_disk / "other").write_bytes(b"x" * 2**20)
     with Store(small_disk) as store:
-        assert len(store.trouble.splitlines()) == 1
-        assert not store.keeps
+        assert len(store.warning.splitlines()) == 1
+        assert not store.is_persistent
         assert_play_goes_on(store)
 
 
@@ -263,7 +264,7 @@ def test_a_file_that_cannot_be_used_is_set_aside_and_a_new_one_begun(tmp_path, d
         assert listed(store) == []
         assert_play_goes_on(store)
     with Store(tmp_path) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
         assert listed(store) == [123_456]
 
 
@@ -273,13 +274,13 @@ def test_letters_that_are_damaged_hide_nothing_else(tmp_path):
         connection.execute("UPDATE score SET initials = CAST(x'41ff42' AS TEXT) WHERE score = 20")
     with Store(tmp_path) as store:
         assert [score.initials for score in store.scores()] == ["A\ufffdB", "AAA"]
-        assert store.trouble == ""
+        assert store.warning == ""
 
 
 def test_an_empty_file_is_a_new_one(tmp_path):
     (tmp_path / FILE).touch()
     with Store(tmp_path) as store:
-        assert (store.trouble, store.keeps) == ("", True)
+        assert (store.warning, store.is_persistent) == ("", True)
         assert_play_goes_on(store)
 
 
@@ -324,7 +325,7 @@ def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_n
 
     def open_it() -> None:
         with Store(tmp_path) as store:
-            found.append((store.trouble, listed(store)))
+            found.append((store.warning, listed(store)))
 
     with closing(sqlite3.connect(tmp_path / "silverball.mending", isolation_level=None)) as lock:
         lock.execute("BEGIN EXCLUSIVE")  # as the other program does
@@ -342,7 +343,7 @@ def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_n
 
 def test_a_file_that_is_busy_when_it_is_opened_is_asked_again(tmp_path, monkeypatch):
     """As when four programs begin a new file at once: SQLite does not wait by itself then."""
-    prepare, calls = database._prepare, []
+    prepare, calls = sqlite_file.prepare, []
 
     def busy_at_first(*arguments: object) -> None:
         calls.append(arguments)
@@ -352,9 +353,9 @@ def test_a_file_that_is_busy_when_it_is_opened_is_asked_again(tmp_path, monkeypa
             raise error
         prepare(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(database, "_prepare", busy_at_first)
+    monkeypatch.setattr(sqlite_file, "prepare", busy_at_first)
     with Store(tmp_path) as store:
-        assert (store.trouble, store.keeps, len(calls)) == ("", True, 3)
+        assert (store.warning, store.is_persistent, len(calls)) == ("", True, 3)
 
 
 def test_a_program_that_reads_the_file_in_the_old_way_is_waited_for(tmp_path):
@@ -366,7 +367,7 @@ def test_a_program_that_reads_the_file_in_the_old_way_is_waited_for(tmp_path):
         later = threading.Timer(0.3, lambda: other.execute("COMMIT"))
         later.start()
         with Store(tmp_path) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             assert listed(store) == [10]
         later.join()
 
@@ -394,4 +395,18 @@ def test_a_mistake_of_the_caller_is_no_trouble_of_the_file(tmp_path):
             add(store, 2**63)
         with pytest.raises(SilverballError):
             store.rename(1, "ABC")
-        assert (store.trouble, store.keeps, listed(store)) == ("", True, [])
+        assert (store.warning, store.is_persistent, listed(store)) == ("", True, [])
+
+
+@pytest.mark.filterwarnings("error")
+def test_no_way_of_opening_the_file_uses_what_python_warns_of(tmp_path):
+    path = with_scores(tmp_path, 10)  # written
+    with held(path, ALONE), Store(tmp_path, nonblocking=True) as store:  # locked
+        assert store.has_pending
+    path.write_bytes(b"hello " * 1000)
+    with Store(tmp_path) as store:  # quarantined
+        assert store.is_persistent
+    path.unlink()
+    path.mkdir()
+    with Store(tmp_path) as store:  # in memory
+        assert not store.is_persistent
