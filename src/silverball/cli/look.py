@@ -30,7 +30,7 @@ def baking() -> Iterator[Callable[[float], None]]:
     from rich.progress import Progress
 
     from silverball.cli.console import errors
-    from silverball.drawing.warm_up import is_compiled
+    from silverball.drawing.background import is_compiled
 
     words = "baking the table" if is_compiled() else "compiling the drawing for this machine, once"
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:

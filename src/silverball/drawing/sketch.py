@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
 from silverball.drawing.corner import corner_behind
+from silverball.drawing.effects import Effects
 from silverball.drawing.kernels.stage import Art
+from silverball.drawing.moment import Moment
 from silverball.drawing.themes import Color, Theme, in_turn
 from silverball.table import Paddle, SlantWall, Table
 
@@ -216,3 +218,43 @@ def _bar(wall: SlantWall) -> list[Point]:
             turn = first + step * math.pi / 6.0
             outline.append((x + thick * math.sin(turn), z + thick * math.cos(turn)))
     return outline
+
+
+class Sketcher:
+    """Draws moments without compiled code.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its look.
+        pixels: The still table if it is at hand, RGB [row, column, 3]; else it is sketched.
+    """
+
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
+    ) -> None:
+        self._paddles = table.paddle
+        self._theme = theme
+        if pixels is None:
+            pixels = sketch(table, camera, theme)
+        self._still = pygame.image.frombuffer(pixels.tobytes(), camera.size, "RGB")
+        self._surface = rgb_surface(camera.size)
+        self._pen = Pen(self._surface, camera)
+
+    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
+        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
+        self._surface.blit(self._still, (0, 0))
+        for _ in effects.trails(moment):
+            pass  # so that they are there when the better picture comes
+        balls = [*moment.balls, *effects.dives(moment.time)]
+        angles = dict(zip(("left", "right"), moment.angles, strict=True))
+        for ball in balls:
+            sketch_ball(self._pen, ball.x, ball.z)
+        for paddle in self._paddles:
+            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
+        return self._surface
+
+
+def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
+    """Return a surface of 24 bits whose bytes are RGB; it needs no display."""
+    return pygame.image.frombuffer(bytearray(3 * size[0] * size[1]), size, "RGB")
