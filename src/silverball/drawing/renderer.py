@@ -106,7 +106,7 @@ class Renderer:
         self._painter: Painter
         if background:
             from silverball.drawing.background import Background
-            from silverball.drawing.lettering import lettering
+            from silverball.drawing.text import lettering
 
             lettering(table.name, self.camera.build)  # here, for fonts are not made for threads
             key = still_key(table, self.camera, self.theme)

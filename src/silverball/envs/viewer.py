@@ -37,7 +37,7 @@ class Screen:
     def __init__(self, rate: int) -> None:
         import pygame
 
-        from silverball.drawing.icon import ball_icon
+        from silverball.drawing.sketch import ball_icon
         from silverball.video_driver import NOT_A_SCREEN, open_video
 
         remedy = 'render_mode="rgb_array" needs none'

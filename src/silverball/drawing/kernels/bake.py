@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.kernels.cells import cell_at
 from silverball.drawing.kernels.march import trace
 from silverball.drawing.kernels.shade import part_glow, radiance
+from silverball.drawing.kernels.solids import cell_at
 from silverball.drawing.kernels.stage import ROOM, Form, Scene
 from silverball.drawing.kernels.surfaces import surface_of
 from silverball.drawing.kernels.tones import RGB, film, plus, scaled

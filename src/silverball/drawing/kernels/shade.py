@@ -10,9 +10,8 @@ from __future__ import annotations
 from math import exp, sqrt
 from typing import Any
 
-from silverball.drawing.kernels.cells import cell_at
 from silverball.drawing.kernels.march import lamp_light, openness, trace
-from silverball.drawing.kernels.solids import footprint, rail_footprint
+from silverball.drawing.kernels.solids import cell_at, footprint, rail_footprint
 from silverball.drawing.kernels.stage import FLOOR, HALO, RAIL, ROOM, Form, Ink, Scene, Vector
 from silverball.drawing.kernels.surfaces import Surface, color_of, surface_of
 from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth, times
