@@ -15,6 +15,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from silverball.drawing import (
+        Renderer as Renderer,
+    )
     from silverball.errors import (
         BoardFull as BoardFull,
     )
@@ -127,6 +130,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOME = {
+    "silverball.drawing": ("Renderer",),
     "silverball.errors": (
         "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError",
         "StateError", "TableError", "UnknownTable",

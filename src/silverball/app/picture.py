@@ -14,8 +14,8 @@ import pygame
 
 from silverball.app.settings import Settings
 from silverball.drawing import Moment, Renderer, best_size
-from silverball.drawing.palette import ROOM
-from silverball.drawing.renderer import rgb_surface
+from silverball.drawing.sketch import rgb_surface
+from silverball.drawing.themes import ROOM
 from silverball.table import Board, Table
 
 if TYPE_CHECKING:

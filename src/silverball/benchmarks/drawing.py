@@ -16,7 +16,7 @@ from typing import Any
 from silverball.benchmarks.speed import Figure
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.picture_cache import Store
-from silverball.drawing.renderer import rgb_surface
+from silverball.drawing.sketch import rgb_surface
 from silverball.table import Table, generate_table, load_table
 from silverball.world import World
 

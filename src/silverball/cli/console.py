@@ -85,7 +85,7 @@ def compiling(kernel: str = "run_worlds", about: str = "ten seconds") -> Iterato
 @contextmanager
 def baking() -> Iterator[Callable[[float], None]]:
     """Show a progress bar while a table is drawn; yields a callback that takes the share done, 0 to 1."""
-    from silverball.drawing.warm_up import is_compiled
+    from silverball.drawing.background import is_compiled
 
     words = "baking the table" if is_compiled() else "compiling the drawing, once on this machine"
     with progress_bar() as bar:

@@ -20,6 +20,7 @@ from silverball.table import Table
 if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
+LAST_KERNEL = "draw_ball"  # the last one that a frame calls: once it is compiled, all are
 COMPILE_SECONDS = 1800.0  # after which compiling is given up; 35 s of a processor, if it gets one
 
 
@@ -88,12 +89,17 @@ class Background:
             self.error = error
 
     def _compile(self) -> bool:
-        """Whether compiled code is there, after it has been made if need be."""
-        from silverball.drawing.warm_up import is_compiled
-
+        """Compile the drawing if it is not compiled yet; return whether it is now."""
         if is_compiled():
             return True
         return _compiler.finish(self._stop, COMPILE_SECONDS) and is_compiled()
+
+
+def is_compiled() -> bool:
+    """Return whether the machine code of the drawing is on disk."""
+    from silverball.physics import kernel
+
+    return kernel.is_compiled(LAST_KERNEL, kernel.DRAWING)
 
 
 _compiler = Compiler("silverball.drawing.warm_up")  # one for all renderers

@@ -15,7 +15,7 @@ from silverball.drawing.bake_table import to_bytes, without_obstacles
 from silverball.drawing.bake_threads import Workshop
 from silverball.drawing.camera import Camera
 from silverball.drawing.kernels.bake import new_canvas
-from silverball.drawing.kernels.cells import list_cells
+from silverball.drawing.kernels.solids import list_cells
 from silverball.drawing.kernels.stage import HALO, NEAR, Scene
 from silverball.drawing.pictures import PaddleSprite
 from silverball.drawing.scene import make_scene

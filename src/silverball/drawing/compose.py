@@ -18,6 +18,7 @@ from silverball.drawing.camera import Camera
 from silverball.drawing.effects import Effects, Spot
 from silverball.drawing.kernels.chrome import cast_shadow, draw_ball
 from silverball.drawing.kernels.patches import add_light, add_spots, lay_paddle
+from silverball.drawing.kernels.stage import Box
 from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.pictures import PaddleSprite, Still
 from silverball.drawing.scene import make_scene
@@ -27,8 +28,6 @@ from silverball.table import Paddle, Table
 
 MOST_SPOTS = 64  # of one trail or one hit
 TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
-
-Box = tuple[int, int, int, int]  # left, top, right, bottom [pixel]; the last two excluded
 
 
 class Composer:
@@ -124,7 +123,7 @@ class Composer:
         box = self._camera.box(
             ball.x - 2.8 * r, ball.x + 2.2 * r, ball.z - 2.2 * r, ball.z + 2.2 * r, 0.0, 2.0 * r
         )
-        cast_shadow(self._frame, self._height, self._stage, ball.x, ball.z, r, *box)
+        cast_shadow(self._frame, self._height, self._stage, (ball.x, ball.z, r), box)
         self._changed.append(box)
 
     def _draw_ball(self, ball: BallAt) -> None:
@@ -133,7 +132,7 @@ class Composer:
         rows, columns = box[3] - box[1], box[2] - box[0]
         if rows > self._before.shape[0] or columns > self._before.shape[1]:
             self._before = np.zeros((rows + 4, columns + 4, 3), np.uint8)
-        draw_ball(self._frame, self._height, self._before, self._stage, self._inks, ball.x, ball.z, r, *box)
+        draw_ball(self._frame, self._height, self._before, self._stage, self._inks, (ball.x, ball.z, r), box)
         self._changed.append(box)
 
     def _add_spots(self, spots: Sequence[Spot], color: Color, light: float) -> None:

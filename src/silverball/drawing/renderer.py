@@ -1,74 +1,91 @@
-"""How does a moment of play become a picture, at once and at its best? The face of the drawing.
+"""Pictures of a table in play: the `Renderer`, and the functions behind `World.render`.
 
 In the foreground (films, pictures for agents, tests) everything is baked before it is needed. In the
-background (a window) there is a picture at once: the one from the store, or a sketch; a thread brings the
-rest, and compiled code is made in another process, for a compiler in a thread would make the game stutter.
+background (a window) there is a picture at once, from the cache or as a sketch; a thread bakes the better
+one. Compiling runs in another process, because a compiler in a thread would make the game stutter.
 """
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Literal, Protocol
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from silverball.drawing.camera import Camera
+from silverball.drawing.camera import Camera, best_size
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.dotmatrix.score_panel import ScorePanel
 from silverball.drawing.effects import Effects
 from silverball.drawing.moment import Moment
 from silverball.drawing.picture_cache import Store
 from silverball.drawing.pictures import load_still, still_key
-from silverball.drawing.sketch import Pen, sketch, sketch_ball, sketch_paddle
+from silverball.drawing.sketch import Sketcher, rgb_surface
 from silverball.drawing.themes import THEMES, Theme
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.background import Background
     from silverball.drawing.picture_provider import Studio
-    from silverball.world import Event
+    from silverball.world import Event, World
+
+DEFAULT_HEIGHT = 480  # [pixel]
+KEPT_RENDERERS = 8  # of `render`; a renderer of the default height takes about 5 MB
 
 
 class Painter(Protocol):
-    """What puts a moment onto a surface of its own."""
+    """Draws a moment onto a surface of its own."""
 
     def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
 
 
 class Renderer:
-    """Draws one table at one size.
+    """Draws one table at one size and in one theme. It needs no display.
+
+    The first renderer of a table bakes its picture, which takes a second or two; baked pictures are kept in
+    the user's cache folder. After that a frame takes a fraction of a millisecond.
 
     Args:
-        table: A finished table.
-        size: Width and height of the picture [pixel]; the table is fitted into it.
-        theme: A name of `THEMES`, or a theme.
-        effects: "full", or "less" for no sparks and trails and weaker flashes.
-        board_seed: Written beside the score if the board was made from it.
-        background: Whether a picture is wanted at once, and the best one as soon as it is baked. Then call
-            `close` when it is wanted no more.
-        progress: Told how much of the baking is done, 0 to 1, in the foreground.
-        store: Where baked pictures are kept; the user's cache directory if not given.
+        table: A finished table, such as `World.table`.
+        size: Width and height of the picture [pixel]; the table is centred in it.
+        height: Height of the picture [pixel], if no size is given; the width follows from the table's shape.
+        theme: "neon", "parlour", "clear", or a `Theme`.
+        effects: "full", or "less" for weaker flashes and neither sparks nor trails.
+        board_seed: Shown beside the score if the board was made from it.
+        background: Return at once and draw a sketch until the table is baked. Call `close` in the end.
+        progress: Called with the share of the baking that is done, 0 to 1; not in the background.
+        store: Where baked pictures are kept; by default the user's cache folder.
 
     Attributes:
-        apron: The plate below the gutter [pixel], under which no play is seen.
+        apron: The plate below the gutter [pixel], which hides the balls below it.
         score_panel: The panel above the board [pixel], 5 by 1.
+
+    Raises:
+        ValueError: Both size and height are given, or a size or height below 1, or the theme is unknown.
 
     Example:
         >>> import silverball as sb
-        >>> from silverball.drawing import Moment, Renderer
-        >>> table = sb.load_table("classic")
-        >>> Renderer(table, (66, 106)).array(Moment.before(table)).shape
-        (106, 66, 3)
+        >>> world = sb.World("classic", seed=7)
+        >>> renderer = sb.Renderer(world.table, height=160)
+        >>> frames = []
+        >>> for _ in range(3):
+        ...     world.step(left=True, ticks=4)
+        ...     renderer.note(world.events, world.tick_rate)  # flashes and sparks of the hits
+        ...     frames.append(renderer.render(world))
+        >>> frames[0].shape, frames[0].dtype
+        ((160, 100, 3), dtype('uint8'))
     """
 
     def __init__(
         self,
         table: Table,
-        size: tuple[int, int],
+        size: tuple[int, int] | None = None,
         *,
+        height: int | None = None,
         theme: str | Theme = "neon",
         effects: Literal["full", "less"] = "full",
         board_seed: int | None = None,
@@ -77,8 +94,8 @@ class Renderer:
         store: Store | None = None,
     ) -> None:
         self.table = table
-        self.theme = theme if isinstance(theme, Theme) else THEMES[theme]
-        self.camera = Camera(table.board, size)
+        self.theme = _theme(theme)
+        self.camera = Camera(table.board, _size(table, size, height))
         self.effects = Effects(table.board.ball_radius, is_full=effects == "full")
         self.score_panel = self.camera.panel
         self.apron = _apron_area(self.camera)
@@ -89,7 +106,7 @@ class Renderer:
         self._painter: Painter
         if background:
             from silverball.drawing.background import Background
-            from silverball.drawing.lettering import lettering
+            from silverball.drawing.text import lettering
 
             lettering(table.name, self.camera.build)  # here, for fonts are not made for threads
             key = still_key(table, self.camera, self.theme)
@@ -124,6 +141,14 @@ class Renderer:
         target = rgb_surface(self.camera.size)
         self.draw(moment, target, dots)
         return target
+
+    def render(self, world: World) -> NDArray[np.uint8]:
+        """Draw a world as it is now: RGB, uint8 `[height, width, 3]`.
+
+        Call `note` with the world's events first if the picture is to show their flashes and sparks. Balls
+        leave trails from one call to the next.
+        """
+        return self.array(Moment.of(world)).copy()
 
     def array(self, moment: Moment, dots: Dots | None = None) -> NDArray[np.uint8]:
         """A moment as RGB, uint8, shape [row, column, 3]."""
@@ -164,44 +189,42 @@ class Renderer:
         return Composer(self.table, self.camera, self.theme, studio.still(), studio.baked_paddle)
 
 
-class Sketcher:
-    """Draws moments without compiled code.
+_lock = threading.Lock()  # a renderer draws one picture at a time
 
-    Args:
-        table: A finished table.
-        camera: The view of it.
-        theme: Its look.
-        pixels: The still table if it is at hand, RGB [row, column, 3]; else it is sketched.
+
+def render(table: Table, record: Any, tick_rate: int, height: int, theme: str) -> NDArray[np.uint8]:
+    """Draw a WORLD record, without effects of what came before: RGB, uint8 `[height, width, 3]`.
+
+    The renderers of the last few tables are kept, so that calls after the first are fast.
     """
-
-    def __init__(
-        self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
-    ) -> None:
-        self._paddles = table.paddle
-        self._theme = theme
-        if pixels is None:
-            pixels = sketch(table, camera, theme)
-        self._still = pygame.image.frombuffer(pixels.tobytes(), camera.size, "RGB")
-        self._surface = rgb_surface(camera.size)
-        self._pen = Pen(self._surface, camera)
-
-    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
-        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
-        self._surface.blit(self._still, (0, 0))
-        for _ in effects.trails(moment):
-            pass  # so that they are there when the better picture comes
-        balls = [*moment.balls, *effects.dives(moment.time)]
-        angles = dict(zip(("left", "right"), moment.angles, strict=True))
-        for ball in balls:
-            sketch_ball(self._pen, ball.x, ball.z)
-        for paddle in self._paddles:
-            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
-        return self._surface
+    with _lock:
+        return _renderer(table, height, theme).array(Moment.of_record(record, tick_rate)).copy()
 
 
-def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
-    """A surface of 24 bits whose bytes are RGB; it needs no display."""
-    return pygame.image.frombuffer(bytearray(3 * size[0] * size[1]), size, "RGB")
+@lru_cache(maxsize=KEPT_RENDERERS)
+def _renderer(table: Table, height: int, theme: str) -> Renderer:
+    return Renderer(table, height=height, theme=theme, effects="less")
+
+
+def _theme(theme: str | Theme) -> Theme:
+    if isinstance(theme, Theme):
+        return theme
+    if theme not in THEMES:
+        raise ValueError(f"theme must be one of {', '.join(THEMES)}, or a Theme, got {theme!r}")
+    return THEMES[theme]
+
+
+def _size(table: Table, size: tuple[int, int] | None, height: int | None) -> tuple[int, int]:
+    if size is not None and height is not None:
+        raise ValueError(f"give either size or height, got size {size} and height {height}")
+    if size is None:
+        height = DEFAULT_HEIGHT if height is None else height
+        if height < 2:
+            raise ValueError(f"height must be at least 2 pixels, got {height}")
+        return best_size(table.board, height)[0], height
+    if min(size) < 1:
+        raise ValueError(f"size must be at least 1 by 1 pixel, got {size}")
+    return size
 
 
 def _apron_area(camera: Camera) -> pygame.Rect:

@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.corner import corner_behind
-from silverball.drawing.dimensions import Build
-from silverball.drawing.kernels.cells import list_cells
+from silverball.drawing.dimensions import Build, corner_behind
+from silverball.drawing.kernels.solids import list_cells
 from silverball.drawing.kernels.stage import CELL, HALO, LIGHT, LOOK, MOST_CELLS, NEAR, STAGE, Form, Scene
-from silverball.drawing.lettering import lettering
+from silverball.drawing.text import lettering
 from silverball.drawing.themes import Color, Theme, in_turn
 from silverball.physics.records import COLLIDER, Kind, Part, records
 from silverball.table import Table

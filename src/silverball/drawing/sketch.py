@@ -15,8 +15,10 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.corner import corner_behind
+from silverball.drawing.dimensions import corner_behind
+from silverball.drawing.effects import Effects
 from silverball.drawing.kernels.stage import Art
+from silverball.drawing.moment import Moment
 from silverball.drawing.themes import Color, Theme, in_turn
 from silverball.table import Paddle, SlantWall, Table
 
@@ -216,3 +218,67 @@ def _bar(wall: SlantWall) -> list[Point]:
             turn = first + step * math.pi / 6.0
             outline.append((x + thick * math.sin(turn), z + thick * math.cos(turn)))
     return outline
+
+
+class Sketcher:
+    """Draws moments without compiled code.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its look.
+        pixels: The still table if it is at hand, RGB [row, column, 3]; else it is sketched.
+    """
+
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
+    ) -> None:
+        self._paddles = table.paddle
+        self._theme = theme
+        if pixels is None:
+            pixels = sketch(table, camera, theme)
+        self._still = pygame.image.frombuffer(pixels.tobytes(), camera.size, "RGB")
+        self._surface = rgb_surface(camera.size)
+        self._pen = Pen(self._surface, camera)
+
+    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
+        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
+        self._surface.blit(self._still, (0, 0))
+        for _ in effects.trails(moment):
+            pass  # so that they are there when the better picture comes
+        balls = [*moment.balls, *effects.dives(moment.time)]
+        angles = dict(zip(("left", "right"), moment.angles, strict=True))
+        for ball in balls:
+            sketch_ball(self._pen, ball.x, ball.z)
+        for paddle in self._paddles:
+            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
+        return self._surface
+
+
+def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
+    """Return a surface of 24 bits whose bytes are RGB; it needs no display."""
+    return pygame.image.frombuffer(bytearray(3 * size[0] * size[1]), size, "RGB")
+
+
+def ball_icon(side: int) -> pygame.Surface:
+    """A ball in a square of a side [pixel], with nothing around it."""
+    middle, radius = 0.5 * side, 0.46 * side
+    offset = (np.arange(side) + 0.5 - middle) / radius
+    right, down = offset[:, None], offset[None, :]  # surfarray: columns first
+    square = right**2 + down**2
+    out = np.sqrt(np.clip(1.0 - square, 0.0, 1.0))
+    up = -down
+    # What the mirrored view meets: sky above, a dark horizon, a bright floor; and the lamp.
+    look = 2.0 * out * up
+    gray = np.where(
+        look > 0.05, 0.55 + 0.45 * np.clip(look, 0.0, 1.0), 0.18 + 0.32 * np.clip(-look, 0.0, 1.0)
+    )
+    gray = gray * (0.45 + 0.55 * np.sqrt(out))
+    glint = np.clip(1.0 - ((right + 0.30) ** 2 + (down + 0.38) ** 2) / 0.06, 0.0, 1.0)
+    gray = np.clip(gray + glint, 0.0, 1.0)
+    image = pygame.Surface((side, side), pygame.SRCALPHA)
+    colors, alpha = pygame.surfarray.pixels3d(image), pygame.surfarray.pixels_alpha(image)
+    colors[:] = np.round(255.0 * gray[:, :, None] * np.array([0.96, 0.98, 1.0]))
+    alpha[:] = np.round(255.0 * np.clip((1.0 - np.sqrt(square)) * radius + 0.5, 0.0, 1.0))
+    del colors, alpha
+    return image

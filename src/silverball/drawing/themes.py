@@ -188,3 +188,16 @@ THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}
 def in_turn(colors: tuple[Color, ...], index: int) -> Color:
     """The colour of the part with that number."""
     return colors[index % len(colors)]
+
+
+# Colours of words, keys and panels that lie over a table of any theme
+ROOM: Color = (7, 6, 13)  # around the table
+
+PANEL: Color = (10, 8, 20)
+PANEL_INNER: Color = (70, 196, 255)
+SCORE: Color = (255, 186, 58)
+LABEL: Color = (112, 220, 255)
+TEXT: Color = (236, 236, 250)
+FAINT_TEXT: Color = (150, 142, 190)
+KEY_FACE: Color = (52, 46, 86)
+KEY_EDGE: Color = (150, 136, 214)

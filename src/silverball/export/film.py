@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from silverball.app.sound.mixdown import Soundtrack
 from silverball.errors import OutputError
-from silverball.export.mp4 import require_ffmpeg, write_mp4
+from silverball.export.mp4 import require_av, write_mp4
 from silverball.wholefile import is_special, write_whole
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> 
 
     Raises:
         OutputError: The ending is unknown, the folder is not there or not writable, or the file exists.
-        MissingExtra: An MP4 needs the package imageio-ffmpeg.
+        MissingExtra: An MP4 needs PyAV, and it is not installed.
     """
     allowed = tuple(endings)
     if path.suffix.lower() not in allowed:
@@ -60,7 +60,7 @@ def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> 
     if not os.access(path.parent, os.W_OK):
         raise OutputError(f"{path}: no permission to write into the folder {str(path.parent)!r}")
     if path.suffix.lower() == ".mp4":
-        require_ffmpeg()
+        require_av()
 
 
 def write_picture(path: Path, picture: Picture) -> None:
@@ -88,12 +88,12 @@ def write_film(
 
     Raises:
         OutputError: It cannot be written.
-        MissingExtra: An MP4 needs the package imageio-ffmpeg.
+        MissingExtra: An MP4 needs PyAV, and it is not installed.
     """
     if path.suffix.lower() == ".gif":
         _write_whole(path, lambda place: _write_gif(place, iter(pictures)))
     else:
-        _write_whole(path, lambda place: _write_mp4(place, iter(pictures), sound))
+        _write_whole(path, lambda place: write_mp4(place, pictures, FILM_RATES[".mp4"], sound))
 
 
 def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
@@ -155,12 +155,6 @@ def _pattern(shape: tuple[int, ...]) -> NDArray[np.int16]:
     # The same evenly spread points as in canvas.to_bytes, here in whole levels around zero.
     even = (0.7548776662 * column + 0.5698402910 * row) % 1.0 - 0.5
     return np.rint(DITHER * even).astype(np.int16)[..., None]
-
-
-def _write_mp4(place: Path, pictures: Iterator[Picture], sound: Callable[[], Soundtrack] | None) -> None:
-    first = next(pictures)
-    size = (first.shape[1], first.shape[0])
-    write_mp4(place, chain([first], pictures), size, FILM_RATES[".mp4"], sound)
 
 
 class _Sink:

@@ -232,6 +232,25 @@ class WorldBatch:
         """The digest of each world, as `World.digest` gives it; about half a microsecond each."""
         return states.digests(self.state)
 
+    def render(self, index: int = 0, height: int = 480, theme: str = "neon") -> NDArray[np.uint8]:
+        """Draw one of the worlds as it is now, as `World.render` does.
+
+        Args:
+            index: Which world.
+            height: Height of the picture [pixel]; the width follows from the table's shape.
+            theme: "neon", "parlour" or "clear".
+
+        Returns:
+            RGB, uint8 `[height, width, 3]`; row 0 is the upper edge.
+
+        Raises:
+            IndexError: There is no such world.
+            ValueError: The height is below 2, or the theme is unknown.
+        """
+        from silverball.drawing.renderer import render
+
+        return render(self.tables[self.board_of[index]], self.state[index], self.tick_rate, height, theme)
+
 
 @kernel
 def _create_balls(

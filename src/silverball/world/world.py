@@ -229,6 +229,33 @@ class World:
         fault = Fault(int(self._record["fault"]))
         return None if fault == Fault.NONE else fault.name.lower()
 
+    def render(self, height: int = 480, theme: str = "neon") -> NDArray[np.uint8]:
+        """Draw the world as it is now, in full quality and without a display.
+
+        The first picture of a table at a size is baked, which takes a second or two (ten more on a machine
+        that has not compiled the drawing yet). Later ones take a millisecond, and the baked picture is kept
+        on disk. A `Renderer` draws the flashes, sparks and trails of play too, and in any size.
+
+        Args:
+            height: Height of the picture [pixel]; the width follows from the table's shape.
+            theme: "neon", "parlour" or "clear".
+
+        Returns:
+            RGB, uint8 `[height, width, 3]`; row 0 is the upper edge.
+
+        Raises:
+            ValueError: The height is below 2, or the theme is unknown.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic")
+            >>> world.render(height=160).shape
+            (160, 100, 3)
+        """
+        from silverball.drawing.renderer import render
+
+        return render(self.table, self._record, self.tick_rate, height, theme)
+
     # --- saving
     # --------------------------------------------------------------------------------------------------
 

@@ -9,9 +9,8 @@ import time
 import numpy as np
 import pytest
 
-from silverball.drawing import Moment, Renderer
+from silverball.drawing import Moment, Renderer, warm_up
 from silverball.drawing import background as background_module
-from silverball.drawing import warm_up as compiling
 from silverball.drawing.picture_cache import Store
 from silverball.table import load_table
 
@@ -23,7 +22,7 @@ PATIENCE = 120.0  # [s], which only a fault takes
 
 @pytest.fixture(scope="module", autouse=True)
 def _compiled():
-    compiling.compile_all()
+    warm_up.compile_all()
 
 
 @pytest.fixture(autouse=True)
@@ -114,7 +113,7 @@ def test_code_that_is_not_there_is_compiled_in_another_process(tmp_path, monkeyp
             return 0
 
     answers = iter([False, True])
-    monkeypatch.setattr(compiling, "is_compiled", lambda: next(answers))
+    monkeypatch.setattr(background_module, "is_compiled", lambda: next(answers))
     monkeypatch.setattr(subprocess, "Popen", Process)
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     assert made_sharp(renderer)
@@ -142,7 +141,7 @@ def test_the_sketch_stays_if_nothing_can_be_compiled(tmp_path, monkeypatch, faul
         def wait(self):
             return 1
 
-    monkeypatch.setattr(compiling, "is_compiled", lambda: False)
+    monkeypatch.setattr(background_module, "is_compiled", lambda: False)
     monkeypatch.setattr(background_module, "COMPILE_SECONDS", 0.3)
     monkeypatch.setattr(subprocess, "Popen", Process)
     renderer = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
@@ -161,7 +160,7 @@ def test_one_compiler_serves_all_renderers_and_is_killed_at_the_end(tmp_path, mo
         processes.append(popen([command[0], "-c", "import time; time.sleep(600)"], **options))
         return processes[-1]
 
-    monkeypatch.setattr(compiling, "is_compiled", lambda: False)
+    monkeypatch.setattr(background_module, "is_compiled", lambda: False)
     monkeypatch.setattr(subprocess, "Popen", start)
     first = Renderer(TABLE, SIZE, background=True, store=Store(tmp_path))
     limit = time.monotonic() + PATIENCE

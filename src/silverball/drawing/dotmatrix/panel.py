@@ -11,7 +11,7 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, Levels
-from silverball.drawing.palette import Color
+from silverball.drawing.themes import Color
 
 AMBER: Color = (255, 140, 24)
 GLASS: Color = (12, 8, 6)

@@ -7,7 +7,7 @@ Paint knows the board and the theme, never the obstacles: random boards share on
 from __future__ import annotations
 
 from math import atan2, cos, exp, pi, sin, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 from silverball.drawing.kernels.stage import Art, Ink
 from silverball.drawing.kernels.tones import (
@@ -29,6 +29,15 @@ EMBLEM_AT = -0.05  # of the board's length, from the centre: where the rays meet
 EMBLEM_SIZE = 0.105  # radius of the emblem by the board's width
 
 
+class Planet(NamedTuple):
+    """A painted planet: centre and radius [u], and whether it has a ring."""
+
+    x: float
+    z: float
+    radius: float
+    is_ringed: bool
+
+
 @internal
 def painted(s: Any, inks: Any, x: float, z: float, pixel: float) -> tuple[RGB, RGB]:
     """The paint of the playfield at (x, z), and the light that comes through it."""
@@ -39,7 +48,7 @@ def painted(s: Any, inks: Any, x: float, z: float, pixel: float) -> tuple[RGB, R
     paint = _ground(s, inks, x, z, rho, angle, pixel)
     light = (0.0, 0.0, 0.0)
     if s.art == Art.COSMOS:
-        paint, light = _sky_of_stars(s, inks, x, z, rho, pixel, paint)
+        paint, light = _starry_sky(s, inks, x, z, pixel, paint)
     paint, light = _pinstripes(s, inks, x, z, pixel, paint, light)
     if rho < 3.2 * size:
         paint, light = _emblem(s, inks, rho, angle, size, pixel, paint, light)
@@ -71,9 +80,7 @@ def _ground(s: Any, inks: Any, x: float, z: float, rho: float, angle: float, pix
 
 
 @internal
-def _sky_of_stars(
-    s: Any, inks: Any, x: float, z: float, rho: float, pixel: float, paint: RGB
-) -> tuple[RGB, RGB]:
+def _starry_sky(s: Any, inks: Any, x: float, z: float, pixel: float, paint: RGB) -> tuple[RGB, RGB]:
     """Clouds of light, two planets and the stars."""
     w = s.half_width
     cloud = noise(2.6 * x / w, 2.6 * z / w) + 0.5 * noise(5.9 * x / w, 5.9 * z / w + 7.0)
@@ -94,22 +101,23 @@ def _sky_of_stars(
             shine = cover(off - radius, pixel + 0.5 * radius) * min(1.0, 2.0 * radius / pixel)
             shine += 0.16 * layer * exp(-off / (2.2 * radius))
             light = plus(light, (0.9, 0.95, 1.0), (0.25 + 2.6 * draw) * shine)
-    paint, light = _planet(s, inks, x, z, 0.60 * w, -0.60 * w, 0.20 * w, True, pixel, paint, light)
-    paint, light = _planet(s, inks, x, z, -0.36 * w, 0.72 * w, 0.11 * w, False, pixel, paint, light)
-    return paint, light
+    large = Planet(0.60 * w, -0.60 * w, 0.20 * w, True)
+    small = Planet(-0.36 * w, 0.72 * w, 0.11 * w, False)
+    paint, light = _planet(inks, large, x, z, pixel, paint, light)
+    return _planet(inks, small, x, z, pixel, paint, light)
 
 
 @internal
 def _planet(
-    s: Any, inks: Any, x: float, z: float, at_x: float, at_z: float, size: float, ringed: bool,
-    pixel: float, paint: RGB, light: RGB,
-) -> tuple[RGB, RGB]:  # fmt: skip
+    inks: Any, planet: Planet, x: float, z: float, pixel: float, paint: RGB, light: RGB
+) -> tuple[RGB, RGB]:
     """A painted ball with bands, lit from above, and perhaps a ring around it."""
-    u, v = (x - at_x) / size, (z - at_z) / size
+    size = planet.radius
+    u, v = (x - planet.x) / size, (z - planet.z) / size
     off = sqrt(u * u + v * v)
     if off > 2.6:
         return paint, light
-    tone = ink(inks, Ink.ORNAMENT_2 if ringed else Ink.ORNAMENT)
+    tone = ink(inks, Ink.ORNAMENT_2 if planet.is_ringed else Ink.ORNAMENT)
     other = ink(inks, Ink.GLOW)
     disc = cover((off - 1.0) * size, pixel)
     lit = clamped(0.45 + 0.55 * (0.75 * u - 0.45 * v)) * (0.55 + 0.45 * sqrt(clamped(1.0 - off * off)))
@@ -118,7 +126,7 @@ def _planet(
     paint = mixed(paint, body, 0.92 * disc)
     light = plus(scaled(light, 1.0 - disc), body, 0.22 * disc)
     light = plus(light, tone, 0.10 * exp(-3.4 * max(off - 1.0, 0.0)) * (1.0 - disc))
-    if ringed:
+    if planet.is_ringed:
         p, q = 0.92 * u + 0.39 * v, -0.39 * u + 0.92 * v
         ring = sqrt((3.2 * p) ** 2 + q * q)
         line = cover((abs(ring - 1.75) - 0.16) * size * 0.5, pixel)
@@ -159,7 +167,7 @@ def _emblem(
 ) -> tuple[RGB, RGB]:
     """A star with facets in two rings, and around it a ring of inserts."""
     shine = 0.0 if s.art == Art.PLAIN else (1.0 if s.art == Art.COSMOS else 0.25)
-    one, two, heart = ink(inks, Ink.ORNAMENT), ink(inks, Ink.ORNAMENT_2), ink(inks, Ink.HEART)
+    one, two = ink(inks, Ink.ORNAMENT), ink(inks, Ink.ORNAMENT_2)
     disc = cover(rho - 1.30 * size, pixel)
     paint = mixed(paint, scaled(paint, 0.35), 0.75 * disc)
     line = cover(abs(rho - 1.30 * size) - 0.035 * size, pixel)
@@ -168,7 +176,7 @@ def _emblem(
     line = cover(abs(rho - 1.14 * size) - 0.02 * size, pixel)
     paint = mixed(paint, two, 0.9 * line)
     light = plus(light, two, shine * (0.5 * line + 0.10 * exp(-abs(rho - 1.14 * size) / (0.10 * size))))
-    paint, light = _star(inks, rho, angle, size, pixel, shine, heart, paint, light)
+    paint, light = _star(inks, rho, angle, size, pixel, shine, paint, light)
     # Inserts: twelve round lenses, every third one larger; folded into one by the angle.
     step = 2.0 * pi / 12.0
     number = int((angle + pi) / step)
@@ -182,10 +190,10 @@ def _emblem(
 
 @internal
 def _star(
-    inks: Any, rho: float, angle: float, size: float, pixel: float, shine: float, heart: RGB,
-    paint: RGB, light: RGB,
-) -> tuple[RGB, RGB]:  # fmt: skip
+    inks: Any, rho: float, angle: float, size: float, pixel: float, shine: float, paint: RGB, light: RGB
+) -> tuple[RGB, RGB]:
     """A star of five points; each arm has a light and a dark half, as if it were folded."""
+    heart = ink(inks, Ink.HEART)
     step = 2.0 * pi / 5.0
     place = (angle + 2.0 * pi + 0.5 * step) / step
     turned = (place - place // 1.0 - 0.5) * step

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.kernels.cells import cell_at
 from silverball.drawing.kernels.march import trace
 from silverball.drawing.kernels.shade import part_glow, radiance
-from silverball.drawing.kernels.stage import Form, Scene
+from silverball.drawing.kernels.solids import cell_at
+from silverball.drawing.kernels.stage import ROOM, Form, Scene
 from silverball.drawing.kernels.surfaces import surface_of
 from silverball.drawing.kernels.tones import RGB, film, plus, scaled
 from silverball.physics.kernel import inlined, internal, kernel
@@ -72,7 +72,7 @@ def _look(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
     dx, dy, dz = _aim(s, across, down)
     way, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)
     x, y, z = s.eye_x + way * dx, s.eye_y + way * dy, way * dz
-    light = radiance(scene, part, x, y, z, dx, dy, dz, way / s.focal)
+    light = radiance(scene, part, (x, y, z), (dx, dy, dz), way / s.focal)
     return light, y, part
 
 
@@ -149,7 +149,7 @@ def bake_flash(
         for j in range(patch.shape[1]):
             row, column = top + i, left + j
             part = canvas.part[row, column]
-            if part < -3:
+            if part == ROOM:
                 continue
             dx, dy, dz = _aim(s, column + 0.5, row + 0.5)
             way = (canvas.height[row, column] - s.eye_y) / dy

@@ -14,7 +14,7 @@ from math import sqrt
 from typing import Any
 
 from silverball.drawing.kernels.patches import way_to
-from silverball.drawing.kernels.stage import Ink
+from silverball.drawing.kernels.stage import Box, Ink, Vector
 from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth, times
 from silverball.physics.kernel import inlined, internal, kernel
 
@@ -24,10 +24,7 @@ CONTACT_REACH = 2.2  # radii of the ball, to which that is seen
 
 
 @kernel
-def cast_shadow(
-    frame: Any, height: Any, stage: Any, x: float, z: float, r: float,
-    left: int, top: int, right: int, bottom: int,
-) -> None:  # fmt: skip
+def cast_shadow(frame: Any, height: Any, stage: Any, ball: tuple[float, float, float], box: Box) -> None:
     """Darken what a ball keeps the light from: its shadow climbs onto whatever is in a pixel.
 
     The lamp's ray from a place passes the ball's centre at the distance q after the way t; the edge of the
@@ -36,6 +33,8 @@ def cast_shadow(
     Source: I. Quilez, "sphere ambient occlusion" and "sphere soft shadow", 2006 and 2014.
     """
     s = stage[0]
+    x, z, r = ball
+    left, top, right, bottom = box
     for row in range(max(top, 0), min(bottom, frame.shape[0])):
         for column in range(max(left, 0), min(right, frame.shape[1])):
             dx, dy, dz, _length = way_to(s, column, row)
@@ -59,13 +58,13 @@ def cast_shadow(
 
 @kernel
 def draw_ball(
-    frame: Any, height: Any, before: Any, stage: Any, inks: Any, x: float, z: float, r: float,
-    left: int, top: int, right: int, bottom: int,
-) -> None:  # fmt: skip
-    """Draw a ball that lies at (x, z); `before` is room for a copy of the rectangle that it covers."""
+    frame: Any, height: Any, before: Any, stage: Any, inks: Any, ball: tuple[float, float, float], box: Box
+) -> None:
+    """Draw a ball (x, z, radius) [u]; `before` is a buffer for a copy of the box that it covers."""
     s = stage[0]
-    left, top = max(left, 0), max(top, 0)
-    right, bottom = min(right, frame.shape[1]), min(bottom, frame.shape[0])
+    x, z, r = ball
+    left, top = max(box[0], 0), max(box[1], 0)
+    right, bottom = min(box[2], frame.shape[1]), min(box[3], frame.shape[0])
     for row in range(top, bottom):
         for column in range(left, right):
             for channel in range(3):
@@ -87,9 +86,8 @@ def draw_ball(
             nx, ny, nz = dx * way - ex, dy * way - ey, dz * way - ez
             inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz)
             nx, ny, nz = nx * inverse, ny * inverse, nz * inverse
-            light = _mirrored(
-                frame, before, s, inks, x, z, r, dx, dy, dz, nx, ny, nz, left, top, right, bottom
-            )
+            direction, normal = (dx, dy, dz), (nx, ny, nz)
+            light = _mirrored(frame, before, s, inks, ball, direction, normal, (left, top, right, bottom))
             for channel in range(3):
                 shown = 255.0 * sqrt(clamped(light[channel]))
                 old = float(frame[row, column, channel])
@@ -98,11 +96,13 @@ def draw_ball(
 
 @internal
 def _mirrored(
-    frame: Any, before: Any, s: Any, inks: Any, x: float, z: float, r: float,
-    dx: float, dy: float, dz: float, nx: float, ny: float, nz: float,
-    left: int, top: int, right: int, bottom: int,
+    frame: Any, before: Any, s: Any, inks: Any, ball: tuple[float, float, float],
+    direction: Vector, normal: Vector, box: Box,
 ) -> RGB:  # fmt: skip
-    """What is seen in the ball at its normal n, along d."""
+    """The light that a ball mirrors at a normal, seen along a direction (two unit vectors)."""
+    x, z, r = ball
+    dx, dy, dz = direction
+    nx, ny, nz = normal
     toward = -(dx * nx + dy * ny + dz * nz)
     rx, ry, rz = dx + 2.0 * toward * nx, dy + 2.0 * toward * ny, dz + 2.0 * toward * nz
     room = _room(inks, rx, max(ry, 0.0), rz)
@@ -114,7 +114,7 @@ def _mirrored(
         at_x = min(max(x + r * nx + way * rx, -s.half_length), s.half_length - s.thickness)
         at_z = min(max(z + r * nz + way * rz, s.thickness - s.half_width), s.half_width - s.thickness)
         spread = 1 + int(0.05 * way / s.pixel)
-        table = _taken(frame, before, s, at_x, at_z, spread, left, top, right, bottom)
+        table = _frame_light(frame, before, s, at_x, at_z, spread, box)
         # Close to the point it lies on, the ball mirrors its own shadow.
         table = plus(scaled(table, 0.30 + 1.10 * smooth(0.0, 1.1 * r, way)), ink(inks, Ink.SKY_LOW), 0.05)
         light = mixed(table, room, smooth(-0.12, 0.05, ry))
@@ -136,15 +136,13 @@ def _room(inks: Any, rx: float, ry: float, rz: float) -> RGB:
 
 
 @internal
-def _taken(
-    frame: Any, before: Any, s: Any, x: float, z: float, spread: int,
-    left: int, top: int, right: int, bottom: int,
-) -> RGB:  # fmt: skip
+def _frame_light(frame: Any, before: Any, s: Any, x: float, z: float, spread: int, box: Box) -> RGB:
     """The linear light of the playfield around (x, z) in the picture from before the ball was drawn.
 
     The mean of four pixels, `spread` away from the middle: a ball shrinks what it mirrors, and single pixels
     would flicker.
     """
+    left, top, right, bottom = box
     depth = (x - s.eye_x) * s.sine + s.eye_y * s.cosine
     across = int(s.across + s.focal * z / depth)
     down = int(s.down - s.focal * ((x - s.eye_x) * s.cosine - s.eye_y * s.sine) / depth)

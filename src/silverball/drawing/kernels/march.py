@@ -6,8 +6,7 @@ playfield is a plane and is met in closed form, so rays need not creep up to it.
 
 from __future__ import annotations
 
-from silverball.drawing.kernels.cells import cell_at
-from silverball.drawing.kernels.solids import apron_distance, part_distance, rail_distance
+from silverball.drawing.kernels.solids import apron_distance, cell_at, part_distance, rail_distance
 from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 

@@ -10,11 +10,10 @@ from __future__ import annotations
 from math import exp, sqrt
 from typing import Any
 
-from silverball.drawing.kernels.cells import cell_at
 from silverball.drawing.kernels.march import lamp_light, openness, trace
-from silverball.drawing.kernels.solids import footprint, rail_footprint
-from silverball.drawing.kernels.stage import FLOOR, HALO, ROOM, Form, Ink, Scene
-from silverball.drawing.kernels.surfaces import Surface, surface_of
+from silverball.drawing.kernels.solids import cell_at, footprint, rail_footprint
+from silverball.drawing.kernels.stage import FLOOR, HALO, RAIL, ROOM, Form, Ink, Scene, Vector
+from silverball.drawing.kernels.surfaces import Surface, color_of, surface_of
 from silverball.drawing.kernels.tones import RGB, clamped, ink, mixed, plus, scaled, smooth, times
 from silverball.physics.kernel import inlined, internal
 
@@ -26,11 +25,11 @@ FRONT = 0.20  # light from the player's side, without shadow, by the lamp's stre
 
 
 @internal
-def radiance(
-    scene: Scene, part: int, x: float, y: float, z: float, dx: float, dy: float, dz: float, pixel: float
-) -> RGB:
-    """The light that comes from a place against the direction (dx, dy, dz)."""
+def radiance(scene: Scene, part: int, point: Vector, direction: Vector, pixel: float) -> RGB:
+    """The light that comes from a point of a part, seen along a direction (a unit vector)."""
     s = scene.stage[0]
+    x, y, z = point
+    dx, dy, dz = direction
     if part == ROOM:
         return _room(scene, x, z)
     f = surface_of(scene, part, x, y, z, pixel)
@@ -80,7 +79,7 @@ def _with_glow(
             glow = part_glow(scene, index, part, f, x, y, z)
             light = (light[0] + glow[0], light[1] + glow[1], light[2] + glow[2])
     gap = -rail_footprint(s, x, z) / s.unit
-    if gap > 0.0 and part != -2:
+    if gap > 0.0 and part != RAIL:
         strength = s.halo * (0.55 * exp(-gap / 0.10) + 0.22 * exp(-gap / 0.45)) * exp(-y / (0.3 * s.unit))
         strip = ink(scene.inks, Ink.STRIP)
         light = plus(light, times(strip, mixed(f.paint, (1.0, 1.0, 1.0), 0.35)), strength * open_)
@@ -100,7 +99,7 @@ def part_glow(scene: Scene, index: int, part: int, f: Surface, x: float, y: floa
     near = max(a, 0.0)
     above = max(y / s.unit - 0.45, 0.0)
     strength = look.glow * fade * (0.85 * exp(-near / 0.16) + 0.30 * exp(-near / 0.62)) * exp(-above / 0.2)
-    tone = (look.red, look.green, look.blue)
+    tone = color_of(look)
     if look.form == Form.WALL:
         tone = ink(scene.inks, Ink.STRIP_2)
         strength = s.halo * fade * (0.55 * exp(-near / 0.09) + 0.20 * exp(-near / 0.4)) * exp(-y / 0.3)

@@ -7,13 +7,19 @@ linear light, not the screen's values.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+Vector: TypeAlias = tuple[float, float, float]
+"""x, y, z [u], or a direction."""
+
+Box: TypeAlias = tuple[int, int, int, int]
+"""Left, top, right and bottom [pixel] of a rectangle; right and bottom are excluded."""
+
 FLOOR, RAIL, APRON, ROOM = -1, -2, -3, -4
-"""Numbers of what is seen besides the table's parts."""
+"""Numbers of what a ray can meet apart from the table's parts, which are numbered from 0."""
 
 CELL = 0.5  # [u] side of a cell at least
 MOST_CELLS = 128  # along the longer side

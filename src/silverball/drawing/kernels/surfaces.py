@@ -16,7 +16,7 @@ from silverball.drawing.kernels.solids import (
 )
 from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, Form, Frame, Ink, Scene
 from silverball.drawing.kernels.tones import RGB, clamped, cover, ink, mixed, noise, plus, scaled, smooth
-from silverball.physics.kernel import internal
+from silverball.physics.kernel import inlined, internal
 
 STEP = 0.004  # [u] between the places whose distances give a normal
 SPOKES = 8  # of a cap's star
@@ -45,6 +45,18 @@ class Surface(NamedTuple):
     metal: float
 
 
+class Hit(NamedTuple):
+    """Where a ray meets a surface: the point [u], the unit normal, and the size of a pixel there [u]."""
+
+    x: float
+    y: float
+    z: float
+    nx: float
+    ny: float
+    nz: float
+    pixel: float
+
+
 @internal
 def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: float) -> Surface:
     """The surface of what has been met at (x, y, z), seen with pixels of a size [u]."""
@@ -53,22 +65,28 @@ def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: flo
         paint, light = painted(s, scene.inks, x, z, pixel)
         return Surface(0.0, 1.0, 0.0, paint, light, 0.04, 0.0)
     nx, ny, nz = _normal(scene, part, x, y, z)
+    hit = Hit(x, y, z, nx, ny, nz, pixel)
     if part == RAIL:
-        return _rail(scene, x, y, z, nx, ny, nz, pixel)
+        return _rail(scene, hit)
     if part == APRON:
-        return _apron(scene, x, y, z, nx, ny, nz, pixel)
+        return _apron(scene, hit)
     look, shape = scene.looks[part], scene.shapes[part]
-    tone = (look.red, look.green, look.blue)
     if look.form == Form.CYLINDER:
-        return _cylinder(scene, look, shape, x, y, z, nx, ny, nz, tone, pixel)
+        return _cylinder(scene, look, shape, hit)
     inside = -footprint(look, shape, x, z)
     if look.form == Form.PRISM:
-        return _prism(look, y, nx, ny, nz, inside, tone, pixel)
+        return _prism(look, hit, inside)
     if look.form == Form.PADDLE:
-        return _paddle(scene, look, shape, x, y, z, nx, ny, nz, inside, tone, pixel)
+        return _paddle(scene, look, hit, inside)
     if look.form == Form.WALL:
-        return _wall(scene, look, x, y, z, nx, ny, nz, tone)
-    return Surface(nx, ny, nz, tone, (0.0, 0.0, 0.0), 0.05, 0.0)  # a filled corner
+        return _wall(scene, look, hit)
+    return Surface(nx, ny, nz, color_of(look), (0.0, 0.0, 0.0), 0.05, 0.0)  # a filled corner
+
+
+@inlined
+def color_of(look: Any) -> RGB:
+    """Return the own colour of a part."""
+    return look.red, look.green, look.blue
 
 
 @internal
@@ -98,10 +116,9 @@ def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
 
 
 @internal
-def _rail(
-    scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float, pixel: float
-) -> Surface:
+def _rail(scene: Scene, hit: Hit) -> Surface:
     """The frame: metal with a bright trim, or wood with brass; bolts on top, a tube of light at its foot."""
+    x, y, z, nx, ny, nz, pixel = hit
     s = scene.stage[0]
     in_top = x - s.half_length > abs(z) - s.half_width or -x - s.half_length > abs(z) - s.half_width
     along = z if in_top else x
@@ -144,10 +161,9 @@ def _rail(
 
 
 @internal
-def _apron(
-    scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float, pixel: float
-) -> Surface:
+def _apron(scene: Scene, hit: Hit) -> Surface:
     """The plate at the player's end, with the table's name."""
+    x, y, z, nx, ny, nz = hit.x, hit.y, hit.z, hit.nx, hit.ny, hit.nz
     s = scene.stage[0]
     tone = ink(scene.inks, Ink.APRON)
     light = (0.0, 0.0, 0.0)
@@ -170,13 +186,12 @@ def _apron(
 
 
 @internal
-def _cylinder(
-    scene: Scene, look: Any, c: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float,
-    tone: RGB, pixel: float,
-) -> Surface:  # fmt: skip
+def _cylinder(scene: Scene, look: Any, c: Any, hit: Hit) -> Surface:
     """A bumper: a lit ribbed body, a steel ring, a domed cap with a star."""
+    y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
+    tone = color_of(look)
     s = scene.stage[0]
-    rx, rz = x - c.x, z - c.z
+    rx, rz = hit.x - c.x, hit.z - c.z
     rho, angle = sqrt(rx * rx + rz * rz), atan2(rz, rx)
     unit = s.unit
     wide = CAP_SHARE * c.radius
@@ -205,10 +220,10 @@ def _cylinder(
 
 
 @internal
-def _prism(
-    look: Any, y: float, nx: float, ny: float, nz: float, inside: float, tone: RGB, pixel: float
-) -> Surface:
+def _prism(look: Any, hit: Hit, inside: float) -> Surface:
     """Lit acrylic: light gathers at the edges, and a second, fainter line runs inside the top."""
+    y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
+    tone = color_of(look)
     unit = look.height / 0.34
     if ny > 0.85:
         edge = exp(-max(inside - look.bevel, 0.0) / (0.07 * unit))
@@ -226,15 +241,14 @@ def _prism(
 
 
 @internal
-def _paddle(
-    scene: Scene, look: Any, c: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float,
-    inside: float, tone: RGB, pixel: float,
-) -> Surface:  # fmt: skip
+def _paddle(scene: Scene, look: Any, hit: Hit, inside: float) -> Surface:
     """A bright plate with a rubber around it and a bolt over its pivot."""
-    if y > look.height + 0.004:
+    nx, ny, nz = hit.nx, hit.ny, hit.nz
+    tone = color_of(look)
+    if hit.y > look.height + 0.004:
         return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.8, 1.0)
     edge = ink(scene.inks, Ink.PADDLE_EDGE)
-    rim = cover(inside - 0.055 * look.height / 0.33, pixel)
+    rim = cover(inside - 0.055 * look.height / 0.33, hit.pixel)
     light = scaled(mixed(tone, edge, rim), 0.16)
     if ny < 0.5:
         return Surface(nx, ny, nz, scaled(mixed(tone, edge, 0.45), 0.85), scaled(tone, 0.10), 0.06, 0.0)
@@ -242,10 +256,10 @@ def _paddle(
 
 
 @internal
-def _wall(
-    scene: Scene, look: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float, tone: RGB
-) -> Surface:
+def _wall(scene: Scene, look: Any, hit: Hit) -> Surface:
     """A slant wall: a steel bar, or a wooden one; a tube of light along its foot."""
+    y, nx, ny, nz = hit.y, hit.nx, hit.ny, hit.nz
+    tone = color_of(look)
     s = scene.stage[0]
     strip = exp(-(((y - 0.09 * s.unit) / (0.045 * s.unit)) ** 2)) if ny < 0.3 else 0.0
     light = scaled(ink(scene.inks, Ink.STRIP_2), 1.6 * strip * s.halo)
