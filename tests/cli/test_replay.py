@@ -77,7 +77,7 @@ def test_against_another_replay_names_the_very_tick_the_field_and_both_values(
     assert (same.returncode, "the same game" in same.stdout) == (0, True)
 
 
-def test_json_tells_what_the_replay_says_of_itself(silverball, good: str, played: Game):
+def test_json_has_the_facts_of_the_replay(silverball, good: str, played: Game):
     result = silverball("replay", good, "--verify", "--json")
     report = json.loads(result.stdout)
     assert result.returncode == 0
@@ -149,12 +149,12 @@ def test_a_film_from_beyond_the_end_is_refused(silverball, good: str, tmp_path: 
     assert (result.returncode, "before the game's end at 6.00 s" in result.stderr) == (2, True)
 
 
-def test_last_is_the_game_that_was_played_last(silverball, played: Game, tmp_path: Path, monkeypatch):
+def test_last_names_the_last_game(silverball, played: Game, tmp_path: Path, monkeypatch):
     store = pytest.importorskip("silverball.game.scores.store")
     monkeypatch.setenv("SILVERBALL_DATA", str(tmp_path))
     result = silverball("replay", "last", "--verify")
     assert (result.returncode, "no last game" in result.stderr) == (2, True)
     with store.Store() as kept:
-        kept.keep_last_game(played.replay.to_text())
+        kept.save_last_game(played.replay.to_text())
     result = silverball("replay", "last", "--verify")
     assert result.returncode == 0, result.stderr

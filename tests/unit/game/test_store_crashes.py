@@ -1,4 +1,4 @@
-"""Is all that was shown as kept still there after `kill -9`, and with two programs at once?"""
+"""Everything that was shown as saved survives `kill -9`, and two programs at once."""
 
 from __future__ import annotations
 
