@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from PIL import Image, ImageSequence
 
+import silverball as sb
 from silverball.game.game import Game
 from silverball.game.replay.format import Replay
 from silverball.game.view import Mode
@@ -158,3 +159,27 @@ def test_last_names_the_last_game(silverball, played: Game, tmp_path: Path, monk
         kept.save_last_game(played.replay.to_text())
     result = silverball("replay", "last", "--verify")
     assert result.returncode == 0, result.stderr
+
+
+class Nothing(sb.FreeRules):
+    """Nothing scores."""
+
+    name = "nothing"
+
+    def hit(self, config, state, tick, points, part):
+        return state, ()
+
+
+@pytest.mark.parametrize("options", [["--verify"], ["--out", "film.gif"]])
+def test_a_replay_with_rules_of_its_own_ends_with_2_and_says_what_it_needs(
+    silverball, tmp_path: Path, options: list[str]
+):
+    game = sb.Game("classic", rules=Nothing())
+    game.create_ball()
+    game.step(ticks=300)
+    game.replay.save(tmp_path / "own.replay")
+    result = silverball("replay", "own.replay", *options, cwd=tmp_path)
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "rules of its own, 'nothing'" in result.stderr
+    assert "replay.verify(rules=…)" in result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["own.replay"]

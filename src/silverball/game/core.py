@@ -20,6 +20,7 @@ from silverball.game import stuck
 from silverball.game.builtin_rules import BUILTIN
 from silverball.game.replay import recording
 from silverball.game.replay.digest import full_digest, short_digests
+from silverball.game.replay.recording import MAX_TICK_RATE, MIN_TICK_RATE
 from silverball.game.rules import (
     NAME_LIMIT,
     Outcome,
@@ -40,7 +41,6 @@ if TYPE_CHECKING:
     from silverball.world import Event
 
 TICK_RATE = 240
-MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000
 QUEUE_LIMIT = 4096  # events in a queue; if more come before they are taken, the oldest are dropped
 SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
 GUTTER_MARGIN = 0.1  # [u] a ball nearer to the gutter is played tick by tick
