@@ -84,6 +84,9 @@ if TYPE_CHECKING:
     from silverball.game.view import (
         Mode as Mode,
     )
+    from silverball.game.view import (
+        Phase as Phase,
+    )
     from silverball.table import (
         Table as Table,
     )
@@ -133,7 +136,7 @@ _HOME = {
     "silverball.game.replay.format": ("Replay",),
     "silverball.game.replay.verify": ("Verdict",),
     "silverball.game.rules": ("InPlay", "RuleConfig", "Rules", "RuleState"),
-    "silverball.game.view": ("GameEvent", "GameEventKind", "GameView", "Mode"),
+    "silverball.game.view": ("GameEvent", "GameEventKind", "GameView", "Mode", "Phase"),
     "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
     "silverball.world": ("BallState", "Event", "PaddleState", "Snapshot", "World", "WorldBatch"),
 }  # fmt: skip

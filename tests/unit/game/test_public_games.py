@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import doctest
+import runpy
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -46,3 +48,11 @@ def test_the_examples_run(module: str):
     result = doctest.testmod(import_module(module))
     assert result.attempted > 0
     assert result.failed == 0
+
+
+@pytest.mark.parametrize("name", ["record_replay", "own_scoring"])
+def test_the_example_runs_and_is_short(name: str, capsys: pytest.CaptureFixture[str]):
+    path = Path(__file__).parents[3] / "examples" / f"{name}.py"
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= 25
+    runpy.run_path(str(path))
+    assert capsys.readouterr().out
