@@ -165,7 +165,7 @@ class GameCore:
         if self._state.over or self._state.tilted or self._shove:
             return False
         if not self._board.ball_count:
-            raise SilverballError("there is no ball to shove; bring one first")
+            raise SilverballError("there is no ball to shove; create one first")
         self._shove = True
         self._record_input(recording.SHOVE)
         self._apply(self._rules.shoved(self._config, self._state, self.tick))

@@ -90,7 +90,7 @@ class GameWorld:
         return self._words.copy()
 
     def rewind(self, snapshot: NDArray[np.int64]) -> None:
-        """Go back to a snapshot; `World.hits` keeps the hits that are taken back."""
+        """Go back to a snapshot; `World.hits` still counts the hits after it."""
         before = snapshot.view(WORLD)[0]
         for name in WORLD.names or ():
             self._record[name] = before[name]

@@ -73,7 +73,7 @@ def reflex_game(table: Table | str, seed: int, mode: Mode = Mode.ARCADE, seconds
 def frantic_game(
     seed: int, seconds: float = 60.0, presses: float = 6.0, table: Table | str = "classic"
 ) -> Game:
-    """A game in free play in which somebody presses so many times a second, and shoves now and then."""
+    """A game in free play with random presses at some rate per second, and a shove now and then."""
     game, draw = Game(table, seed, Mode.FREE), random.Random(seed)
     held = [False, False]
     next_change = [0, 0]

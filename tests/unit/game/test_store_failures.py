@@ -46,18 +46,18 @@ def assert_play_goes_on(store: Store) -> None:
     assert store.settings()["volume"] == 2
 
 
-def assert_warned(store: Store, *words: str, keeps: bool) -> None:
+def assert_warned(store: Store, *words: str, is_persistent: bool) -> None:
     """One sentence with the place, what is wrong and, if nothing is kept, what to do."""
     assert len(store.warning.splitlines()) == 1
-    remedy = () if keeps else ("nothing of this run is kept", "SILVERBALL_DATA")
+    remedy = () if is_persistent else ("nothing of this run is kept", "SILVERBALL_DATA")
     for word in (str(store.path), *words, *remedy):
         assert word in store.warning
-    assert store.is_persistent == keeps
+    assert store.is_persistent == is_persistent
 
 
 @pytest.fixture
 def folder() -> Iterator[Path]:
-    """A folder in which others may look around too."""
+    """A folder that other users may read."""
     path = Path(tempfile.mkdtemp())
     path.chmod(0o755)
     yield path
@@ -66,7 +66,7 @@ def folder() -> Iterator[Path]:
 
 @contextmanager
 def without_the_rights_of_root() -> Iterator[None]:
-    """Root may write what must not be written; so be somebody else for a while."""
+    """Drop the rights of root, which may write read-only files, for a while."""
     if os.name != "posix":
         pytest.skip("needs the rights of POSIX")
     root = os.geteuid() == 0
@@ -90,7 +90,7 @@ def with_scores(folder: Path, *scores: int) -> Path:
 def test_a_read_only_folder(folder):
     folder.chmod(0o555)
     with without_the_rights_of_root(), Store(folder) as store:
-        assert_warned(store, "it cannot be opened or made", keeps=False)
+        assert_warned(store, "it cannot be opened or created", is_persistent=False)
         assert_play_goes_on(store)
     assert list(folder.iterdir()) == []
 
@@ -98,7 +98,7 @@ def test_a_read_only_folder(folder):
 def test_a_folder_that_cannot_be_created(folder):
     folder.chmod(0o555)
     with without_the_rights_of_root(), Store(folder / "new") as store:
-        assert_warned(store, "permission denied", str(folder / "new"), keeps=False)
+        assert_warned(store, "permission denied", str(folder / "new"), is_persistent=False)
         assert_play_goes_on(store)
 
 
@@ -106,18 +106,18 @@ def test_a_folder_that_cannot_be_created(folder):
 def test_a_folder_that_is_a_file(tmp_path, below):
     (tmp_path / "file").write_text("something")
     with Store(tmp_path / "file" / below) as store:
-        assert_warned(store, "file exists" if not below else "not a directory", keeps=False)
+        assert_warned(store, "file exists" if not below else "not a directory", is_persistent=False)
         assert_play_goes_on(store)
     assert (tmp_path / "file").read_text() == "something"
 
 
 @pytest.mark.parametrize(
-    ("name", "word"), [(FILE, "it cannot be opened or made"), (f"{FILE}-wal", "reading or writing fails")]
+    ("name", "word"), [(FILE, "it cannot be opened or created"), (f"{FILE}-wal", "reading or writing fails")]
 )
 def test_a_folder_where_a_file_should_be(tmp_path, name, word):
     (tmp_path / name).mkdir()
     with Store(tmp_path) as store:
-        assert_warned(store, word, keeps=False)
+        assert_warned(store, word, is_persistent=False)
         assert_play_goes_on(store)
 
 
@@ -128,7 +128,7 @@ def test_a_read_only_file_is_still_read(folder, folder_too):
     path.chmod(0o444)
     folder.chmod(0o555 if folder_too else 0o777)
     with without_the_rights_of_root(), Store(folder) as store:
-        assert_warned(store, "writing is not allowed", keeps=False)
+        assert_warned(store, "writing is not allowed", is_persistent=False)
         assert listed(store) == [20, 10]
         assert store.settings() == {"volume": 9, "muted": True}
         assert_play_goes_on(store)
@@ -138,7 +138,7 @@ def test_a_read_only_file_is_still_read(folder, folder_too):
 def test_a_file_without_read_permission(folder):
     with_scores(folder, 10).chmod(0)
     with without_the_rights_of_root(), Store(folder) as store:
-        assert_warned(store, "it cannot be opened or made", keeps=False)
+        assert_warned(store, "it cannot be opened or created", is_persistent=False)
         assert_play_goes_on(store)
     (folder / FILE).chmod(0o644)
     with Store(folder) as store:
@@ -161,7 +161,7 @@ def assert_all_goes_on_on_a_full_disk(folder: Path, word: str) -> list[int]:
     with Store(folder) as store:
         store.save_settings({"volume": 9})
         kept = fill(store)
-        assert_warned(store, word, keeps=False)
+        assert_warned(store, word, is_persistent=False)
         assert listed(store) == [len(kept) + 1, *reversed(kept)]  # the last one as long as the program runs
         assert store.settings() == {"volume": 9}
         assert_play_goes_on(store)
@@ -254,7 +254,7 @@ def test_an_unfit_file_is_quarantined_and_a_new_one_begun(tmp_path, damage):
     with Store(tmp_path) as store:
         assert quarantined(tmp_path).read_bytes() == content
         word = "another program" if damage is belong_to_another_program else "is damaged"
-        assert_warned(store, word, quarantined(tmp_path).name, keeps=True)
+        assert_warned(store, word, quarantined(tmp_path).name, is_persistent=True)
         assert listed(store) == []
         assert_play_goes_on(store)
     with Store(tmp_path) as store:
@@ -284,7 +284,7 @@ def test_a_file_that_becomes_damaged_while_the_program_runs(tmp_path):
         store._database._connection.execute("PRAGMA cache_size = 0")  # it would not notice before it reads
         overwrite_the_middle(path)
         assert_play_goes_on(store)
-        assert_warned(store, "is damaged", quarantined(tmp_path).name, keeps=True)
+        assert_warned(store, "is damaged", quarantined(tmp_path).name, is_persistent=True)
     with Store(tmp_path) as store:
         assert listed(store) == [123_456]
 
@@ -295,11 +295,11 @@ def test_a_program_with_an_open_file_switches_to_the_new_one_when_another_quaran
         add(first, 50)
         overwrite_the_middle(path)
         with Store(tmp_path) as second:
-            assert_warned(second, "is damaged", keeps=True)
+            assert_warned(second, "is damaged", is_persistent=True)
             aside = quarantined(tmp_path)
             assert aside.with_name(f"{aside.name}-wal").stat().st_size > 0  # with what was written last
             assert_play_goes_on(first)
-            assert_warned(first, "was removed or replaced", keeps=True)
+            assert_warned(first, "was removed or replaced", is_persistent=True)
             assert listed(second) == [123_456]
 
 
@@ -308,7 +308,7 @@ def test_a_file_that_is_removed_while_the_program_runs(tmp_path):
     with Store(tmp_path) as store:
         shutil.rmtree(tmp_path)
         assert_play_goes_on(store)
-        assert_warned(store, "was removed", keeps=True)
+        assert_warned(store, "was removed", is_persistent=True)
     with Store(tmp_path) as store:
         assert listed(store) == [123_456]
 
@@ -373,7 +373,7 @@ def test_a_file_of_a_newer_program_is_left_as_it_is(tmp_path):
         connection.execute("ALTER TABLE score RENAME TO games")
     before = path.read_bytes()
     with Store(tmp_path) as store:
-        assert_warned(store, "newer Silverball", "version 9", f"up to {SCHEMA.version}", keeps=False)
+        assert_warned(store, "newer Silverball", "version 9", f"up to {SCHEMA.version}", is_persistent=False)
         assert listed(store) == []
         assert_play_goes_on(store)
     assert path.read_bytes() == before

@@ -225,7 +225,7 @@ def test_cached_lists_are_shown_while_the_file_cannot_be_read(folder):
 
 @pytest.fixture
 def full(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
-    """Whether there is no room for more files; it can be changed."""
+    """Whether the disk is full; a test may change it."""
     is_full = [True]
     whole = "silverball.game.scores.pending.write_whole"
     from silverball.wholefile import write_whole
