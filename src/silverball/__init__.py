@@ -87,6 +87,9 @@ if TYPE_CHECKING:
     from silverball.game.view import (
         Mode as Mode,
     )
+    from silverball.game.view import (
+        Phase as Phase,
+    )
     from silverball.table import (
         Table as Table,
     )
@@ -140,7 +143,7 @@ _HOME = {
     "silverball.game.replay.format": ("Replay",),
     "silverball.game.replay.verify": ("Verdict",),
     "silverball.game.rules": ("InPlay", "RuleConfig", "Rules", "RuleState"),
-    "silverball.game.view": ("GameEvent", "GameEventKind", "GameView", "Mode"),
+    "silverball.game.view": ("GameEvent", "GameEventKind", "GameView", "Mode", "Phase"),
     "silverball.table": (
         "Table", "check_table", "generate_table", "load_table", "parts", "save_table", "table_names",
     ),

@@ -1,4 +1,4 @@
-"""Does `silverball scores --verify` prove what was played, and nothing that somebody wrote into the file?
+"""`silverball scores --verify` proves what was played, and nothing that was written into the file.
 
 Every forgery is done to a copy of a file with honest scores on built-in tables and on tables of one's own, by
 a program that can write to it. What is forged must be found, and what is honest must stay proven beside it.
@@ -275,7 +275,6 @@ FORGERIES["the list of one built-in table renamed to another"] = lambda forger: 
     "classic", table_name="Random"
 )
 
-# ── another game ──
 FORGERIES |= {
     "another mode in the list": lambda forger: forger.set_list("classic", mode="free"),
     "a mode that there is not": lambda forger: forger.set_list("classic", mode="x\x1b[31m"),
@@ -387,7 +386,6 @@ FORGERIES["the same game with a number below the first"] = lambda forger: (
 )
 
 
-# ── records of other types ──
 def of_another_type(forger: Forger, column: str, value: Any) -> set[int]:
     forger.without_constraints()
     return forger.set("mine", **{column: value})
@@ -416,9 +414,6 @@ def marked_by_a_trigger(forger: Forger) -> set[int]:
 FORGERIES["a trigger that marks all as proven"] = marked_by_a_trigger
 
 
-# ── the tests ───────────────────────────────────────────────────────────────────────────────────────────
-
-
 @pytest.fixture
 def folder(base: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A copy of the honest folder, which is the data folder of this test."""
@@ -445,7 +440,7 @@ def rows_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, l
     return code, json.loads(capsys.readouterr().out)
 
 
-def test_honest_scores_are_proven_on_built_in_tables_random_boards_and_tables_of_ones_own(folder, capsys):
+def test_honest_scores_are_proven_on_built_in_random_and_custom_tables(folder, capsys):
     code, rows = rows_of(capsys, "--verify")
     assert code == 0
     assert {row["table_name"] for row in rows} == {table.name for table in HONEST.values()}
@@ -453,7 +448,7 @@ def test_honest_scores_are_proven_on_built_in_tables_random_boards_and_tables_of
 
 
 @pytest.mark.parametrize("forgery", FORGERIES.values(), ids=FORGERIES)
-def test_what_was_forged_is_not_proven_stands_below_what_is_and_can_be_removed(folder, capsys, forgery):
+def test_a_forged_score_is_not_proven_ranks_below_others_and_can_be_removed(folder, capsys, forgery):
     forged = forge(folder, forgery)
     code, rows = rows_of(capsys, "--verify")
     assert code == 1

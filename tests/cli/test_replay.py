@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from PIL import Image, ImageSequence
 
+import silverball as sb
 from silverball.game.game import Game
 from silverball.game.replay.format import Replay
 from silverball.game.view import Mode
@@ -77,7 +78,7 @@ def test_against_another_replay_names_the_very_tick_the_field_and_both_values(
     assert (same.returncode, "the same game" in same.stdout) == (0, True)
 
 
-def test_json_tells_what_the_replay_says_of_itself(silverball, good: str, played: Game):
+def test_json_has_the_facts_of_the_replay(silverball, good: str, played: Game):
     result = silverball("replay", good, "--verify", "--json")
     report = json.loads(result.stdout)
     assert result.returncode == 0
@@ -149,12 +150,36 @@ def test_a_film_from_beyond_the_end_is_refused(silverball, good: str, tmp_path: 
     assert (result.returncode, "before the game's end at 6.00 s" in result.stderr) == (2, True)
 
 
-def test_last_is_the_game_that_was_played_last(silverball, played: Game, tmp_path: Path, monkeypatch):
+def test_last_names_the_last_game(silverball, played: Game, tmp_path: Path, monkeypatch):
     store = pytest.importorskip("silverball.game.scores.store")
     monkeypatch.setenv("SILVERBALL_DATA", str(tmp_path))
     result = silverball("replay", "last", "--verify")
     assert (result.returncode, "no last game" in result.stderr) == (2, True)
     with store.Store() as kept:
-        kept.keep_last_game(played.replay.to_text())
+        kept.save_last_game(played.replay.to_text())
     result = silverball("replay", "last", "--verify")
     assert result.returncode == 0, result.stderr
+
+
+class Nothing(sb.FreeRules):
+    """Nothing scores."""
+
+    name = "nothing"
+
+    def hit(self, config, state, tick, points, part):
+        return state, ()
+
+
+@pytest.mark.parametrize("options", [["--verify"], ["--out", "film.gif"]])
+def test_a_replay_with_rules_of_its_own_ends_with_2_and_says_what_it_needs(
+    silverball, tmp_path: Path, options: list[str]
+):
+    game = sb.Game("classic", rules=Nothing())
+    game.create_ball()
+    game.step(ticks=300)
+    game.replay.save(tmp_path / "own.replay")
+    result = silverball("replay", "own.replay", *options, cwd=tmp_path)
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "rules of its own, 'nothing'" in result.stderr
+    assert "replay.verify(rules=…)" in result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["own.replay"]

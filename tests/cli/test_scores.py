@@ -1,4 +1,4 @@
-"""What does `silverball scores` print, verify, write and remove, and how does a mistake end?"""
+"""`silverball scores`: what it prints, verifies, writes and removes, and how errors end."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_tables_modes_and_numbers_choose_what_is_shown(silverball, scores):
     assert shown("--mode", "arcade", "--limit", "1") == [1200, 50]
 
 
-def test_json_tells_all_of_a_score(silverball, scores):
+def test_json_has_everything_about_a_score(silverball, scores):
     row = json.loads(silverball("scores", "--json", "--table", "Random", "--mode", "free").stdout)[0]
     when = row.pop("when")
     assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", when)
@@ -156,7 +156,7 @@ def test_a_removed_score_is_gone(silverball, scores):
     assert sorted(left) == [50, 70, 1200]
 
 
-def test_a_mistake_ends_in_one_sentence(silverball, scores, tmp_path):
+def test_an_invalid_call_ends_in_one_sentence(silverball, scores, tmp_path):
     out = str(tmp_path / "out.replay")
     assert_refused(silverball("scores", "--table", "nowhere"), "nowhere", "Random")
     assert_refused(silverball("scores", "--mode", "hard"), "arcade", "free", "hard")
@@ -191,7 +191,7 @@ def test_scores_of_a_newer_program_are_neither_shown_nor_touched(silverball, sco
     assert "nothing was changed" in refused.stderr
 
 
-def test_what_cannot_be_read_is_not_called_verified(silverball, scores, folder):
+def test_unreadable_scores_are_not_called_verified(silverball, scores, folder):
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute("PRAGMA user_version = 9")
     refused = silverball("scores", "--verify")
@@ -211,7 +211,7 @@ def test_scores_at_both_ends_of_the_calendar_are_shown(silverball, folder, zone)
         assert result.stderr == ""
 
 
-def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(
+def test_a_file_that_another_program_holds_is_reported_in_one_sentence(
     silverball, scores, folder, monkeypatch
 ):
     monkeypatch.setattr("silverball.game.scores.database.BUSY_SECONDS", 0.3)
@@ -226,7 +226,7 @@ def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(
     assert len(json.loads(silverball("scores", "--json").stdout)) == len(scores)
 
 
-def test_a_damaged_file_is_set_aside_with_a_sentence(silverball, folder):
+def test_a_damaged_file_is_quarantined_with_a_sentence(silverball, folder):
     folder.mkdir()
     (folder / FILE).write_bytes(b"hello " * 1000)
     result = silverball("scores")
@@ -234,9 +234,6 @@ def test_a_damaged_file_is_set_aside_with_a_sentence(silverball, folder):
     assert len(result.stderr.strip().splitlines()) == 1
     assert "is damaged" in result.stderr
     assert silverball("scores").stderr == ""
-
-
-# ── is it proven? ───────────────────────────────────────────────────────────────────────────────────────
 
 
 def test_verify_marks_what_is_not_proven_and_ends_with_1(silverball, folder):

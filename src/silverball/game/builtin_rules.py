@@ -42,7 +42,7 @@ class ArcadeRules:
         if config.balls and state.used >= config.balls:
             return f"no ball is left: this is ball {state.used} of {config.balls}"
         if state.waiting and len(state.balls) >= config.max_balls:
-            return "the ball that was saved comes back first; wait until there is room for it"
+            return "the ball that was saved comes back first; wait until there is a free place"
         return ""
 
     def started(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:

@@ -11,15 +11,15 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from silverball.errors import FaultError, NoRoom, SilverballError, StateError
 from silverball.game import stuck
 from silverball.game.builtin_rules import BUILTIN
+from silverball.game.game_world import GameWorld
 from silverball.game.replay import recording
 from silverball.game.replay.digest import full_digest, short_digests
+from silverball.game.replay.recording import MAX_TICK_RATE, MIN_TICK_RATE
 from silverball.game.rules import (
     NAME_LIMIT,
     Outcome,
@@ -32,23 +32,17 @@ from silverball.game.rules import (
 )
 from silverball.game.saved_game import GameState, pack_game, unpack_game
 from silverball.game.view import GameEvent, GameEventKind, GameView, Mode, Phase
-from silverball.physics.records import WORLD
 from silverball.world import World
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from silverball.table import Table
     from silverball.world import Event
 
 TICK_RATE = 240
-MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000
 QUEUE_LIMIT = 4096  # events in a queue; if more come before they are taken, the oldest are dropped
-SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
-GUTTER_MARGIN = 0.1  # [u] a ball nearer to the gutter is played tick by tick
-
-_WORDS = {name: int(field[1]) // 8 for name, field in (WORLD.fields or {}).items()}
-# Places in the world record, in words of eight bytes. One of the words from `draws` to `fault` changes with
-# every event, so that comparing them tells whether the event log must be read.
-_TICK, _COUNTS, _COUNTS_END = _WORDS["tick"], _WORDS["draws"], _WORDS["fault"]
 
 
 class GameCore:
@@ -103,20 +97,10 @@ class GameCore:
         self._shove = self._auto_shove = False  # a shove of the player or of the machine in the next tick
         self._was_stopped = False
 
+        self._board = GameWorld(self.world)
         self._points = points_by_part(self.world.table)
         self._has_points = any(self._points.values())
         self._points_seen = 0  # points of all hits given to the rules, before multipliers
-
-        self._record = self.world.records[0]
-        self._words = np.frombuffer(self._record, np.int64)
-        self._counters = self._words[_COUNTS:_COUNTS_END]
-        self._last_counters = self._counters.tobytes()
-        self._board_x = self._record["ball"]["x"]
-        self._board_id = self._record["ball"]["id"]
-        board = self.world.table.board
-        self._skip_floor = board.gutter + GUTTER_MARGIN
-        self._ticks_per_unit = self.world.tick_rate / board.speed_cap
-        self._paddle_reach = float(self.world.records[1]["paddle_top"])
 
         self._check_ticks = max(self.world.tick_rate // stuck.CHECK_RATE, 1)
         self._next_check = self._check_ticks
@@ -146,9 +130,12 @@ class GameCore:
         Raises:
             ValueError: The number of ticks is not an integer ≥ 0.
         """
-        del self._recent[: self._recent_old]
-        self._play_ticks(left, right, ticks)
-        del self._recent[:-QUEUE_LIMIT]
+        if self._recent_old:
+            del self._recent[: self._recent_old]
+        if ticks < 0:
+            raise ValueError(f"ticks must be an integer ≥ 0, got {ticks}")
+        if ticks and not self._state.over:
+            self._play_ticks(left, right, ticks)
         self._recent_old = len(self._recent)
 
     def create_ball(self) -> None:
@@ -177,8 +164,8 @@ class GameCore:
         """
         if self._state.over or self._state.tilted or self._shove:
             return False
-        if not self._board_id.any():
-            raise SilverballError("there is no ball to shove; bring one first")
+        if not self._board.ball_count:
+            raise SilverballError("there is no ball to shove; create one first")
         self._shove = True
         self._record_input(recording.SHOVE)
         self._apply(self._rules.shoved(self._config, self._state, self.tick))
@@ -205,7 +192,7 @@ class GameCore:
             score=state.score,
             ball=state.used + 1 if phase is Phase.READY else state.used,
             balls=self._config.balls,
-            on_board=int(np.count_nonzero(self._board_id)),
+            on_board=self._board.ball_count,
             combo=running_combo(self._config, state, tick),
             multiplier=self._rules.multiplier(self._config, state, tick),
             save_left=0.0 if state.tilted else max(save_ticks, 0) / self.tick_rate,
@@ -259,7 +246,7 @@ class GameCore:
     @property
     def tick(self) -> int:
         """Ticks so far."""
-        return self._words.item(_TICK)
+        return self._board.tick()
 
     @property
     def held(self) -> tuple[bool, bool]:
@@ -278,7 +265,7 @@ class GameCore:
         A loop that calls `create_ball` or `jitter`, then `step`, and then reads `events` sees every event
         once. At most the last 4,096 are kept. For what happens to balls see `take_world_events`.
         """
-        return tuple(self._recent)
+        return tuple(self._recent[-QUEUE_LIMIT:])
 
     def take_game_events(self) -> list[GameEvent]:
         """All events of the game since the last call, in order; at most the last 4,096."""
@@ -311,11 +298,11 @@ class GameCore:
     @property
     def short_digests(self) -> str:
         """The short digests of the state, as they stand in replays."""
-        return short_digests(self._words.tobytes(), self.rules_text)
+        return short_digests(self._board.to_bytes(), self.rules_text)
 
     def digest(self) -> str:
         """A hash of the whole state: equal digests mean equal games."""
-        return full_digest(self._words.tobytes(), self.rules_text)
+        return full_digest(self._board.to_bytes(), self.rules_text)
 
     def save(self) -> bytes:
         """The whole game as bytes for `restore`, without the recording."""
@@ -344,7 +331,8 @@ class GameCore:
         self._shove, self._auto_shove = saved.shove, saved.auto_shove
         self._was_stopped = how_ended == "stopped"
         self.fault = self.world.fault
-        self._last_counters, self._points_seen = self._counters.tobytes(), self._points_of_hits()
+        self._board.mark_read()
+        self._points_seen = self._points_of_hits()
         tick = self.tick
         self._next_check = (tick // self._check_ticks + 1) * self._check_ticks
         self._next_second = (tick // self.tick_rate + 1) * self.tick_rate
@@ -365,25 +353,25 @@ class GameCore:
 
     def _play_ticks(self, left: bool, right: bool, ticks: int) -> None:
         """Play ticks, as many at once as the rules allow."""
-        if ticks < 0:
-            raise ValueError(f"ticks must be an integer ≥ 0, got {ticks}")
-        if ticks == 0 or self._state.over:
-            return
-        tick = self._words.item(_TICK)
+        tick = self._board.tick()
         if left is not self._left or right is not self._right:
             self._press(bool(left), bool(right), tick)
         end = tick + ticks
         while tick < end and not self._state.over:
             count = end - tick
             if count > 1:
-                count = self._skippable_ticks(min(count, self._next_check - tick, self._next_second - tick))
+                count = self._ticks_at_once(min(count, self._next_check - tick, self._next_second - tick))
             self._play(count)
-            tick = self._words.item(_TICK)
+            tick = self._board.tick()
             if tick >= self._next_check and not self._state.over:
                 self._check_stuck(tick)
             if tick >= self._next_second:
                 self._next_second = tick + self.tick_rate
                 self._record_second()
+
+    def _ticks_at_once(self, count: int) -> int:
+        """How many of these ticks can be played at once, at least 1."""
+        return 1 if self._has_waiting else self._board.skippable_ticks(count)  # it may return after each tick
 
     def _press(self, left: bool, right: bool, tick: int) -> None:
         """Change the buttons before this tick."""
@@ -395,35 +383,25 @@ class GameCore:
             self._stuck = self._stuck._replace(released=tick)
         self._left, self._right = left, right
 
-    def _skippable_ticks(self, count: int) -> int:
-        """How many of these ticks can be played at once because no ball can leave the board, at least 1."""
-        if self._has_waiting:
-            return 1  # the waiting ball may return after every tick
-        lowest = min(
-            (x for x, ball in zip(self._board_x.tolist(), self._board_id.tolist(), strict=True) if ball),
-            default=None,
-        )
-        if lowest is None:
-            return count
-        skippable = (lowest - self._skip_floor) * self._ticks_per_unit - 1.0
-        return min(count, SKIP_LIMIT, int(skippable)) if skippable >= 1.0 else 1  # NaN gives 1, too
-
     def _play(self, count: int) -> None:
         """Play one tick, or several in which nothing but hits can happen."""
-        before = self._words.copy() if count > 1 else None
+        before = self._board.snapshot() if count > 1 else None
+        shove = self._shove or self._auto_shove
         try:
-            self._step_world(count)
+            if self._state.tilted:  # the paddles are dead
+                self.world.step(False, False, shove, count)
+            else:
+                self.world.step(self._left, self._right, shove, count)
         except FaultError as error:
             self.fault = error.fault
-        counters = self._counters.tobytes()
-        if counters != self._last_counters:
+        if self._board.has_new_events():
             events = self.world.events
             if before is not None and (
                 self.world.events_lost or any(event.kind == "gutter" for event in events)
             ):
                 self._play_singly(before, count)
                 return
-            self._last_counters = counters
+            self._board.mark_read()
             self._apply_world_events(events)
         self._shove = self._auto_shove = False
         if self._has_waiting:
@@ -431,27 +409,14 @@ class GameCore:
         if self.fault is not None:
             self._apply(ended(self._state, self.tick))
 
-    def _play_singly(self, before: Any, count: int) -> None:
-        """Go back to the words of the record before these ticks and play them one by one.
-
-        `world.hits` then counts the hits of these ticks twice.
-        """
-        saved = before.view(WORLD)[0]
-        for name in WORLD.names or ():
-            self._record[name] = saved[name]
+    def _play_singly(self, before: NDArray[np.int64], count: int) -> None:
+        """Go back to the snapshot before these ticks and play them one by one."""
+        self._board.rewind(before)
         self.fault = None
         self._points_seen = self._points_of_hits()
         for _ in range(count):
             if not self._state.over:
                 self._play(1)
-
-    def _step_world(self, count: int) -> None:
-        """Step the world; the paddles of a tilted table are dead."""
-        shove = self._shove or self._auto_shove
-        if self._state.tilted:
-            self.world.step(False, False, shove, count)
-        else:
-            self.world.step(self._left, self._right, shove, count)
 
     def _apply_world_events(self, events: tuple[Event, ...]) -> None:
         """Give the rules what happened in the ticks just played."""
@@ -475,7 +440,7 @@ class GameCore:
         if lost_points > 0:
             self._points_seen += lost_points
             self._hit(tick, lost_points, "")
-        on_board = self._board_id.tolist()
+        on_board = self._board.ball_ids
         for ball in self._state.balls:
             if ball.id and ball.id not in on_board:
                 self._drain(tick, ball.id)
@@ -497,20 +462,19 @@ class GameCore:
     def _queue_creation(self) -> None:
         """Queue the event of the ball just created, the last one in the log of the world."""
         self._world_queue.extend(event for event in self.world.events[-1:] if event.kind == "created")
-        self._last_counters = self._counters.tobytes()
+        self._board.mark_read()
 
     def _check_stuck(self, tick: int) -> None:
         """Check whether the machine must shove."""
         self._next_check = tick + self._check_ticks
-        places = self._record["ball"][["id", "x", "z"]].tolist()
-        balls = [(ball, x, z) for ball, x, z in places if ball]
-        self._stuck = stuck.updated(self._stuck, balls, tick)
+        self._stuck = stuck.updated(self._stuck, self._board.places, tick)
         if not self._config.auto_shove:
             return
         is_held = (self._left or self._right) and not self._state.tilted
         quiet_since = self._state.quiet_since if self._has_points else None
+        reach = self._board.paddle_reach
         if stuck.needs_shove(
-            self._stuck, self._config, tick, held=is_held, reach=self._paddle_reach, quiet_since=quiet_since
+            self._stuck, self._config, tick, held=is_held, reach=reach, quiet_since=quiet_since
         ):
             self._auto_shove = True
             self._stuck = stuck.shoved(self._stuck, tick)

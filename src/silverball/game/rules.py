@@ -1,4 +1,4 @@
-"""The interface between a game and its rules: what rules are told, what they remember, what they answer.
+"""The interface between a game and its rules: what rules receive, remember and return.
 
 `Rules` is a protocol of pure functions: each takes the configuration and the state, and returns the next
 state and the events to report. `ArcadeRules` and `FreeRules` (`builtin_rules`) implement it; pass your own
@@ -159,13 +159,13 @@ class RuleState(NamedTuple):
 
 
 Outcome: TypeAlias = tuple[RuleState, tuple[GameEvent, ...]]
-"""What rules answer: the next state, and the events to report."""
+"""What rules return: the next state, and the events to report."""
 
 
 class Rules(Protocol):
     """The scoring of a game, as `Game(..., rules=...)` takes it.
 
-    All methods are pure: the same arguments give the same answer, and the object holds no state of a game.
+    All methods are pure: the same arguments give the same result, and the object holds no state of a game.
     Otherwise replays do not verify and saved games do not continue as they were. To change only some of the
     built-in rules, derive from `ArcadeRules` or `FreeRules`.
 

@@ -23,7 +23,13 @@ class Mode(StrEnum):
 
 
 class Phase(StrEnum):
-    """The phase of a game."""
+    """The phase of a game.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.Game("classic", seed=7).phase is sb.Phase.READY
+        True
+    """
 
     READY = "ready"  # no ball is in play; `create_ball` starts one
     PLAY = "play"

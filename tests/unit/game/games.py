@@ -1,6 +1,6 @@
-"""The games that the tests of games play: how a ball gets where a test wants it, and who presses.
+"""Helpers that play games for tests.
 
-Nothing in here knows the rules: every expected value is worked out in the test.
+Nothing in here knows the rules: every expected value is computed in the test.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def put(game: Game, x: float, z: float, vx: float = 0.0, vz: float = 0.0, slot: 
 
 
 def hit_bumper(game: Game, slot: int = 0) -> list[GameEvent]:
-    """Let a ball hit the bumper once from the right; the news of that."""
+    """Let a ball hit the bumper once from the right; the events of that."""
     put(game, 0.0, 1.2, vz=-10.0, slot=slot)
     game.take_game_events()
     game.step(ticks=15)
@@ -49,15 +49,15 @@ def hit_bumper(game: Game, slot: int = 0) -> list[GameEvent]:
 
 
 def lose(game: Game, slot: int = 0) -> list[GameEvent]:
-    """Let a ball go into the gutter; the news of that."""
+    """Let a ball go into the gutter; the events of that."""
     put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0, slot=slot)
     game.take_game_events()
     game.step(ticks=5)
     return game.take_game_events()
 
 
-def kinds(news: list[GameEvent]) -> list[GameEventKind]:
-    return [one.kind for one in news]
+def kinds(events: list[GameEvent]) -> list[GameEventKind]:
+    return [one.kind for one in events]
 
 
 def reflex_game(table: Table | str, seed: int, mode: Mode = Mode.ARCADE, seconds: float = 60.0) -> Game:
@@ -73,7 +73,7 @@ def reflex_game(table: Table | str, seed: int, mode: Mode = Mode.ARCADE, seconds
 def frantic_game(
     seed: int, seconds: float = 60.0, presses: float = 6.0, table: Table | str = "classic"
 ) -> Game:
-    """A game in free play in which somebody presses so many times a second, and shoves now and then."""
+    """A game in free play with random presses at some rate per second, and a shove now and then."""
     game, draw = Game(table, seed, Mode.FREE), random.Random(seed)
     held = [False, False]
     next_change = [0, 0]

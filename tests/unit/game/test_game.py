@@ -1,4 +1,4 @@
-"""Does a game go by its rules on a real board?"""
+"""Games on real boards follow their rules."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def test_a_new_game_is_ready_for_its_first_ball():
 def test_a_hit_scores_the_points_of_the_part():
     game = Game(bare(bumper(70)))
     game.create_ball()
-    news = hit_bumper(game)
-    assert [(one.kind, one.value, one.part) for one in news] == [(GameEventKind.SCORED, 70, "cylinder[0]")]
+    events = hit_bumper(game)
+    assert [(one.kind, one.value, one.part) for one in events] == [(GameEventKind.SCORED, 70, "cylinder[0]")]
     assert game.score == 70
 
 
@@ -41,13 +41,13 @@ def test_every_part_that_the_world_counts_points_for_has_a_path(table):
     assert [points.get(name, 0) for name in names] == by_number
 
 
-def test_in_free_play_the_score_is_the_worlds():
+def test_in_free_play_the_score_is_that_of_the_world():
     game = reflex_game("classic", 5, Mode.FREE, seconds=40)
     assert game.score == game.world.score > 0
     assert game.view.balls == 0
 
 
-def test_in_free_play_balls_have_no_end_and_there_are_two_at_a_time():
+def test_free_play_has_any_number_of_balls_two_at_a_time():
     game = Game(bare(), mode=Mode.FREE)
     for number in range(1, 12):
         game.create_ball()
@@ -60,7 +60,7 @@ def test_in_free_play_balls_have_no_end_and_there_are_two_at_a_time():
     assert not game.is_over
 
 
-def test_ball_is_saved_in_the_first_seconds_but_the_one_that_comes_back_is_not():
+def test_a_ball_is_saved_in_its_first_seconds_but_not_again_after_its_return():
     game = Game(bare(ball_save=2.0))
     game.create_ball()
     assert game.view.save_left == 2.0
@@ -93,10 +93,10 @@ def test_hits_in_a_row_make_a_combo_and_a_pause_ends_it():
     game.create_ball()
     expected = 0
     for place in range(5):
-        news = hit_bumper(game)
+        events = hit_bumper(game)
         worth = 10 * min(1 + place, 3)
         expected += worth
-        assert [one.value for one in news] == [worth] + [place + 1] * (place > 0)
+        assert [one.value for one in events] == [worth] + [place + 1] * (place > 0)
         assert game.view.combo == place + 1
         assert game.view.multiplier == min(1 + place, 3)
     assert game.score == expected
@@ -128,7 +128,7 @@ def test_a_second_ball_early_uses_one_of_the_balls_left_and_doubles_the_points()
     assert game.is_over
 
 
-def test_three_balls_and_the_game_is_over_and_nothing_moves_any_more():
+def test_after_three_balls_the_game_is_over_and_nothing_moves():
     game = Game(bare(ball_save=0.0))
     for number in (1, 2, 3):
         assert game.view.ball == number
@@ -172,7 +172,7 @@ def test_a_shove_needs_a_ball():
         game.jitter()
 
 
-def test_shoves_cost_a_warning_and_then_a_tilt_and_in_free_play_nothing():
+def test_shoves_cause_a_warning_and_then_a_tilt_but_nothing_in_free_play():
     for mode, expected in ((Mode.ARCADE, [GameEventKind.WARNING, GameEventKind.TILT]), (Mode.FREE, [])):
         game = Game(bare(*POCKET), mode=mode)
         game.create_ball()
@@ -185,7 +185,7 @@ def test_shoves_cost_a_warning_and_then_a_tilt_and_in_free_play_nothing():
         assert game.view.tilted == bool(expected)
 
 
-def test_with_tilt_the_paddles_are_dead_until_the_board_is_empty_whatever_is_pressed():
+def test_after_a_tilt_the_paddles_are_dead_until_the_board_is_empty():
     game = Game(bare(*PADDLES, *POCKET, tilt_limit=0.5, ball_save=60.0))
     game.create_ball()
     put(game, *IN_POCKET)
@@ -214,7 +214,7 @@ LOW_POCKET = (
 IN_LOW_POCKET = (-6.6, 0.0)
 
 
-def looks(seconds: float) -> int:
+def checks(seconds: float) -> int:
     """The ticks until a ball that lies still from the start must have been shoved: two looks more."""
     return round((seconds + 2 / CHECK_RATE) * 240)
 
@@ -227,29 +227,29 @@ def test_a_still_ball_is_shoved_by_the_machine_again_and_again():
     game.take_game_events()
     game.take_world_events()
     start = game.tick
-    game.step(ticks=looks(2.0))
-    (news,) = game.take_game_events()
-    assert news.kind is GameEventKind.UNSTUCK
-    assert 240 < news.tick - start <= looks(2.0)
-    assert [event.tick for event in game.take_world_events() if event.kind == "jitter"] == [news.tick]
+    game.step(ticks=checks(2.0))
+    (unstuck,) = game.take_game_events()
+    assert unstuck.kind is GameEventKind.UNSTUCK
+    assert 240 < unstuck.tick - start <= checks(2.0)
+    assert [event.tick for event in game.take_world_events() if event.kind == "jitter"] == [unstuck.tick]
     assert game.view.warnings == 0
 
 
-def test_a_ball_caught_with_a_raised_paddle_is_let_be_until_nothing_has_scored_for_long():
+def test_a_ball_held_on_a_raised_paddle_is_left_alone_until_the_stall_time():
     table = bare(*PADDLES, *LOW_POCKET, bumper(), un_stick=2.0, stall=8.0)
     for held, expected in ((True, 8.0), (False, 2.0)):
         game = Game(table)
         game.create_ball()
         put(game, *IN_LOW_POCKET)
         game.take_game_events()
-        while not (news := game.take_game_events()):
+        while not (events := game.take_game_events()):
             game.step(left=held)
             assert game.tick < 3000
-        assert kinds(news) == [GameEventKind.UNSTUCK]
-        assert expected * 240 <= news[0].tick <= (expected + 1.0) * 240
+        assert kinds(events) == [GameEventKind.UNSTUCK]
+        assert expected * 240 <= events[0].tick <= (expected + 1.0) * 240
 
 
-def test_a_ball_that_is_let_go_is_not_shoved_at_once():
+def test_a_released_ball_is_not_shoved_immediately():
     game = Game(bare(*PADDLES, *LOW_POCKET, bumper(), un_stick=2.0, stall=60.0))
     game.create_ball()
     put(game, *IN_LOW_POCKET)
@@ -258,10 +258,10 @@ def test_a_ball_that_is_let_go_is_not_shoved_at_once():
     assert game.take_game_events() == []
     released = game.tick
     game.step(ticks=5 * 240)
-    assert released + 2 * 240 <= game.take_game_events()[0].tick <= released + looks(2.0)
+    assert released + 2 * 240 <= game.take_game_events()[0].tick <= released + checks(2.0)
 
 
-def test_who_holds_a_ball_for_too_long_is_shoved_again_and_again_but_not_at_every_look():
+def test_a_ball_held_too_long_is_shoved_repeatedly_but_not_at_every_check():
     game = Game(bare(*PADDLES, *LOW_POCKET, bumper(), un_stick=2.0, stall=5.0))
     game.create_ball()
     put(game, *IN_LOW_POCKET)
@@ -273,7 +273,7 @@ def test_who_holds_a_ball_for_too_long_is_shoved_again_and_again_but_not_at_ever
     assert [tick // 240 for tick in ticks] == [5, 7, 9, 11]
 
 
-def test_a_ball_that_no_paddle_reaches_is_shoved_however_the_player_bangs_the_paddles():
+def test_a_ball_out_of_reach_is_shoved_whatever_the_paddles_do():
     game = Game(bare(*PADDLES, *POCKET, un_stick=2.0))
     game.create_ball()
     put(game, *IN_POCKET)
@@ -284,7 +284,7 @@ def test_a_ball_that_no_paddle_reaches_is_shoved_however_the_player_bangs_the_pa
     assert GameEventKind.UNSTUCK in kinds(game.take_game_events())
 
 
-def test_on_a_table_where_nothing_scores_a_moving_ball_is_let_be():
+def test_on_a_table_without_points_a_moving_ball_is_left_alone():
     game = Game(bare(*PADDLES, stall=1.0))
     game.create_ball()
     put(game, 0.0, 0.0, vx=12.0)
@@ -317,7 +317,7 @@ def test_a_fault_of_the_world_ends_the_game_and_the_replay_names_it():
     assert game.replay.ended == "not_finite"
 
 
-def test_events_and_news_that_nobody_takes_are_dropped_in_the_end():
+def test_queues_that_are_not_read_drop_the_oldest_events():
     game = Game(bare(bumper(), ball_save=0.0, balls=99), mode=Mode.FREE)
     game.create_ball()
     for _ in range(4300):
@@ -327,7 +327,7 @@ def test_events_and_news_that_nobody_takes_are_dropped_in_the_end():
     assert len(game.take_world_events()) <= 4096
 
 
-def test_hits_and_lost_balls_that_found_no_room_in_the_log_count_all_the_same(monkeypatch):
+def test_hits_and_drained_balls_beyond_the_event_log_count(monkeypatch):
     game = Game(bare(bumper(30), ball_save=0.0))
     game.create_ball()
     monkeypatch.setattr(type(game.world), "events", ())

@@ -84,7 +84,7 @@ def test_hits_score_as_the_own_rules_say():
     assert (game.score, game.state.memory) == (6, {"cylinder[0]": 3})
 
 
-def test_own_rules_are_told_of_hits_of_parts_without_points():
+def test_own_rules_receive_hits_of_parts_without_points():
     walls = [SlantWall(start=(3.0, -3.0), end=(3.0, 3.0), points=0)]
     game = sb.Game(table_of(*walls), rules=Walls())
     game.create_ball()
@@ -150,7 +150,7 @@ def test_rules_with_a_name_that_cannot_stand_in_a_replay_are_refused(name: objec
         sb.Replay.from_text(text.replace("own_rules = streak 1", f"own_rules = {name}"))
 
 
-def test_a_saved_game_goes_on_with_its_own_rules_and_refuses_others():
+def test_a_saved_game_continues_with_its_own_rules_and_refuses_others():
     game = played(Streak(), 10)
     other = sb.Game(CLASSIC, seed=99, rules=Streak())
     other.restore(game.save())
@@ -200,7 +200,7 @@ def test_every_event_is_seen_once_by_a_loop_that_reads_after_each_step():
     assert {sb.GameEventKind.BALL_READY, sb.GameEventKind.BALL_LOST} <= set(kinds(seen))
 
 
-def test_an_event_between_two_steps_is_seen_at_once():
+def test_an_event_between_two_steps_is_visible_immediately():
     game = sb.Game(bare(tilt_warning=0.5, tilt_limit=9.0))
     game.create_ball()
     game.step()

@@ -1,4 +1,4 @@
-"""Does every damaged replay give a clear sentence or a named difference, never a traceback, never a hang?
+"""Damaged replays give a clear sentence or a named difference, never a traceback or a hang.
 
 A few hundred mutated files are tried in every run, ten thousand with `pytest -m slow`. Most of them get the
 checksum that belongs to the damaged text, so that what lies behind it is reached too.

@@ -1,4 +1,4 @@
-"""Do replays lead to the very same game, and are all others refused in words?"""
+"""Replays lead to the same game; everything else is refused in words."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ inputs = st.lists(st.tuples(st.integers(0, 999), st.sampled_from("LR+!")), max_s
 
 
 @given(inputs)
-def test_inputs_come_back_from_their_line(given_inputs):
+def test_inputs_round_trip_through_their_line(given_inputs):
     ordered = sorted(given_inputs, key=lambda one: one[0])
     last, line = 0, ""
     for tick, kind in ordered:
@@ -59,7 +59,7 @@ def test_inputs_come_back_from_their_line(given_inputs):
 @pytest.mark.parametrize(
     "game", [GAME, reflex_game(generate_table(4), 4, Mode.FREE, 12.3)], ids=["arcade", "free"]
 )
-def test_a_replay_comes_back_from_its_text_and_verifies(game: Game):
+def test_a_replay_round_trips_through_its_text_and_verifies(game: Game):
     replay = game.replay
     again = Replay.from_text(replay.to_text())
     assert again == replay
@@ -120,7 +120,7 @@ def test_the_fault_of_a_world_is_played_again_as_far_as_it_went():
     assert (verdict.field, verdict.expected, verdict.got) == ("ended", "outside", "running")
 
 
-def test_one_changed_press_is_found_in_its_second():
+def test_a_changed_input_is_found_in_its_second():
     number, line = next((n, line) for n, line in enumerate(REPLAY.lines) if re.search(r" .*[b-y]$", line))
     changed = line[:-1] + chr(ord(line[-1]) + 1)
     lines = (*REPLAY.lines[:number], changed, *REPLAY.lines[number + 1 :])
@@ -147,7 +147,7 @@ def test_a_changed_digest_is_named_with_its_group(number: int):
     assert (verdict.expected, verdict.got) == (other + line[at + 1], line[at : at + 2])
 
 
-def test_a_score_that_was_not_reached_is_named():
+def test_a_wrong_score_is_reported():
     text = resealed(TEXT.replace(f"score = {GAME.score}\n", f"score = {GAME.score + 1}\n"))
     verdict = verify(Replay.from_text(text))
     assert (verdict.field, verdict.expected, verdict.got) == ("score", str(GAME.score + 1), str(GAME.score))
@@ -177,7 +177,7 @@ def test_an_input_that_the_rules_refuse_is_named_with_its_tick(extra: str, reaso
     assert compare(REPLAY, replace(REPLAY, lines=lines)).field
 
 
-def test_two_replays_of_different_boards_differ_in_the_head():
+def test_two_replays_of_different_boards_differ_in_the_header():
     other = replace(REPLAY, seed=REPLAY.seed + 1)
     assert compare(REPLAY, other) == Verdict(
         False, 0, 0, 0, "seed", "2", "3", "tick 0, seed: expected 2, got 3"
@@ -215,10 +215,6 @@ def test_a_replay_of_a_table_with_a_mesh_needs_no_other_file(tmp_path):
     assert verify(Replay.from_text(text)).ok
 
 
-# --- watching
-# -----------------------------------------------------------------------------------------------------
-
-
 def states(replay: Replay, ticks: list[int]) -> dict[int, str]:
     """The digests at some ticks, played straight on."""
     player = ReplayPlayer(replay)
@@ -229,7 +225,7 @@ def states(replay: Replay, ticks: list[int]) -> dict[int, str]:
     return seen
 
 
-def test_a_player_gets_to_the_end_that_the_replay_says():
+def test_playing_reaches_the_recorded_end():
     player = ReplayPlayer(REPLAY)
     assert (player.tick, player.ticks, player.at_end) == (0, REPLAY.ticks, False)
     player.advance(REPLAY.ticks + 1000)
@@ -292,7 +288,7 @@ def test_a_button_that_is_held_stays_held_after_seeking():
     assert player.game.digest() == expected[1500]
 
 
-def test_preparing_plays_ahead_unseen():
+def test_preparing_plays_ahead_in_the_background():
     player = ReplayPlayer(REPLAY)
     shares = []
     while not shares or shares[-1] < 1.0:
@@ -304,15 +300,15 @@ def test_preparing_plays_ahead_unseen():
     assert player.game.digest() == states(REPLAY, [9000])[9000]
 
 
-def test_watching_shows_the_news_and_events_of_the_game():
+def test_watching_gives_the_events_of_the_game():
     game = Game(bare(bumper(), *POCKET), 5)
     game.create_ball()
     game.step(True, False, 700)
     player = ReplayPlayer(game.replay)
     player.advance(700)
-    news = game.take_game_events()
-    assert GameEventKind.BALL_READY in [one.kind for one in news]
-    assert player.game.take_game_events() == news
+    events = game.take_game_events()
+    assert GameEventKind.BALL_READY in [one.kind for one in events]
+    assert player.game.take_game_events() == events
     assert player.game.take_world_events() == game.take_world_events()
 
 
@@ -320,10 +316,6 @@ def test_watching_a_replay_of_another_game_stops_with_a_sentence():
     player = ReplayPlayer(replace(REPLAY, lines=(f"{REPLAY.lines[0][:12]} !a", *REPLAY.lines[1:])))
     with pytest.raises(InputRefusedError, match="tick 0: a shove was recorded, but there is no ball"):
         player.advance(240)
-
-
-# --- what is refused
-# -----------------------------------------------------------------------------------------------------
 
 
 def changed(line: int, to: str) -> str:
@@ -410,16 +402,16 @@ def test_a_file_that_is_cut_off_anywhere_is_refused(start: int):
             Replay.from_text(TEXT[:end])
 
 
-def test_a_text_without_end_is_refused_unread():
+def test_an_endless_text_is_refused_without_reading_it():
     with pytest.raises(StateError, match="at most 5,058,576 characters, this has 100,000,000"):
         Replay.from_text("x" * 10**8)
 
 
-def test_line_ends_of_windows_are_no_damage():
+def test_windows_line_ends_are_accepted():
     assert Replay.from_text(TEXT.replace("\n", "\r\n")) == REPLAY
 
 
-def test_files_that_are_no_replays_are_refused(tmp_path: Path):
+def test_files_that_are_not_replays_are_refused(tmp_path: Path):
     good = tmp_path / "good.replay"
     good.write_text(TEXT, encoding="utf-8")
     assert Replay.load(good) == REPLAY

@@ -1,4 +1,4 @@
-"""Do the rules count as a table's numbers say? Every value is computed from those numbers."""
+"""The built-in rules follow the numbers of a table; every expected value is computed from those numbers."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def test_free_play_counts_plain_points_and_has_no_combos():
     assert (state.combo, FREE.multiplier(config, state, 9)) == (0, 1)
 
 
-def test_a_window_of_zero_means_no_combos():
+def test_a_combo_window_of_zero_disables_combos():
     config = config_of(combo_window=0.0, combo_step=1)
     state = with_balls(config, 1)
     for _ in range(5):
@@ -101,7 +101,7 @@ def test_a_ball_is_given_back_in_its_first_seconds_and_no_more_often_than_the_ta
     assert events[0].kind is GameEventKind.BALL_LOST
 
 
-def test_the_saved_ball_counts_as_one_in_play_so_that_double_points_go_on():
+def test_a_saved_ball_counts_as_in_play_so_double_points_continue():
     config = config_of(ball_save=4.0)
     state = with_balls(config, 2)
     state, events = ARCADE.drained(config, state, 100, 1)
@@ -147,7 +147,7 @@ def test_there_is_no_ball_beyond_the_last_while_it_is_in_play():
     assert not state.over
 
 
-def test_free_play_has_balls_without_end():
+def test_free_play_has_any_number_of_balls():
     config = config_of(FREE, balls=1)
     state = rules.RuleState()
     for number in range(1, 50):
@@ -179,7 +179,7 @@ def test_the_third_of_three_quick_shoves_is_a_tilt_and_the_second_a_warning():
 
 
 @given(numbers(0, 5))
-def test_a_table_gives_so_many_warnings_and_then_tilts(warnings):
+def test_a_table_gives_its_number_of_warnings_and_then_tilts(warnings):
     config = config_of(warnings=warnings, tilt_warning=0.5, tilt_limit=1000.0)
     state = with_balls(config, 1)
     reported = []
@@ -190,7 +190,7 @@ def test_a_table_gives_so_many_warnings_and_then_tilts(warnings):
     assert reported == [*counted, (GameEventKind.TILT, 0)]
 
 
-def test_while_tilted_nothing_scores_nothing_is_saved_and_no_ball_is_brought():
+def test_while_tilted_nothing_scores_no_ball_is_saved_and_none_starts():
     config = config_of(tilt_limit=0.5)
     state = with_balls(config, 2)
     state, _ = ARCADE.shoved(config, state, 0)
@@ -212,7 +212,7 @@ def test_warnings_are_forgotten_when_the_board_is_empty():
     assert state.warnings == 0
 
 
-def test_a_combo_does_not_go_on_with_the_next_ball():
+def test_a_combo_ends_with_its_ball():
     config = config_of(ball_save=0.0, combo_window=9.0)
     state, _ = ARCADE.hit(config, with_balls(config, 1), 10, 5, "")
     state, _ = ARCADE.drained(config, state, 20, 1)
@@ -221,7 +221,7 @@ def test_a_combo_does_not_go_on_with_the_next_ball():
     assert ARCADE.hit(config, state, 40, 5, "")[0].combo == 1
 
 
-def test_a_ball_that_the_game_does_not_know_changes_nothing():
+def test_an_unknown_ball_changes_nothing():
     config = config_of()
     state = with_balls(config, 1)
     assert ARCADE.drained(config, state, 5, 77) == (state, ())

@@ -1,4 +1,4 @@
-"""Is a score proven exactly if its replay is of that game, on that table, and reaches it?
+"""A score is proven exactly if its replay is of that game, on that table, and reaches it.
 
 What a forger writes into the file is tried in `tests/cli/test_forged_scores.py`.
 """
@@ -48,7 +48,7 @@ def test_a_game_that_was_played_proves_its_score(name, mode):
         ({"table_digest": table_digest(load_table("rolling"))}, "its list is called"),
     ],
 )
-def test_a_score_that_was_changed_is_not_believed(name, change, why):
+def test_a_changed_score_is_not_proven(name, change, why):
     score, text = played(name)
     verified, reason = verify_score(score._replace(**change), text)
     assert verified is False
@@ -86,14 +86,14 @@ def test_a_game_is_counted_once(name):
     assert verify_score(other, its_text, counted=counted).verified
 
 
-def test_a_score_that_was_refused_stands_in_no_other_ones_way():
+def test_a_rejected_score_does_not_count_its_game():
     (score, text), counted = played("classic"), CountedGames()
     assert not verify_score(score._replace(score=score.score + 1), text, counted=counted).verified
     assert verify_score(score._replace(id=2), text, counted=counted).verified
 
 
 @pytest.mark.parametrize("text", ["", "nothing", "silverball replay 1\n", "\0" * 100])
-def test_what_is_no_replay_proves_nothing_and_says_so_in_a_sentence(text):
+def test_text_that_is_not_a_replay_proves_nothing_and_says_so_in_a_sentence(text):
     score, _ = played("classic")
     verified, why = verify_score(score, text)
     assert verified is False

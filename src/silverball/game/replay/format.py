@@ -27,9 +27,6 @@ from typing import TYPE_CHECKING, Self
 from silverball.errors import OutputError, StateError
 from silverball.game.replay.reader import (
     END,
-    FIRST,
-    FORMAT,
-    FORMAT_WITH_RULES,
     PLAY,
     RULES_KEY,
     TABLE,
@@ -38,6 +35,7 @@ from silverball.game.replay.reader import (
     checksum,
     has_mesh,
 )
+from silverball.game.replay.recording import FIRST, FORMAT, FORMAT_WITH_RULES
 from silverball.game.replay.verify import Verdict, verify
 from silverball.game.rules import RULES_VERSION
 from silverball.game.view import Mode

@@ -17,7 +17,18 @@ from typing import Any, NamedTuple, NoReturn
 from pydantic import ValidationError
 
 from silverball.errors import StateError
-from silverball.game.replay.recording import LINE, PLAY_LIMIT, SECONDS_LIMIT, TAIL, parse_inputs
+from silverball.game.replay.recording import (
+    FIRST,
+    FORMAT,
+    FORMAT_WITH_RULES,
+    LINE,
+    MAX_TICK_RATE,
+    MIN_TICK_RATE,
+    PLAY_LIMIT,
+    SECONDS_LIMIT,
+    TAIL,
+    parse_inputs,
+)
 from silverball.game.rules import NAME_LIMIT, RULES_VERSION, is_own_name
 from silverball.game.view import Mode
 from silverball.physics import PHYSICS_VERSION
@@ -27,18 +38,14 @@ from silverball.table import Table, table_digest
 from silverball.table.explain import explain
 from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 
-FORMAT = 1
-FORMAT_WITH_RULES = 2  # has one more line in its header: the name of rules that are not built in
 FORMATS = (FORMAT, FORMAT_WITH_RULES)
 TEXT_LIMIT = PLAY_LIMIT + TABLE_LIMIT + 10_000
 ENDINGS = ("running", "over", "stopped", *(fault.name.lower() for fault in Fault if fault))
-FIRST = "silverball replay"
 TABLE, PLAY, END = "--- table", "--- play", "--- end"
 HEADER_KEYS = ("program", "physics", "rules", "mode", "seed", "tick_rate", "table")
 RULES_KEY = "own_rules"
 HEADER_LINE = 2  # the first line of the header
 END_KEYS = ("ticks", "score", "ended", "digest", "checksum")
-TICK_RATES = (10, 1000)
 AGAIN = "get the file again from where it was written"
 _NUMBER = re.compile(r"0|[1-9]\d{0,18}", re.ASCII)
 _HEX = re.compile(r"[0-9a-f]{64}", re.ASCII)
@@ -79,7 +86,7 @@ class Reader:
         self._integer(head, 2, values[2], RULES_VERSION, RULES_VERSION)
         mode = self._choice(head, 3, values[3], tuple(Mode))
         seed = self._integer(head, 4, values[4], 0, 2**63 - 1)
-        rate = self._integer(head, 5, values[5], *TICK_RATES)
+        rate = self._integer(head, 5, values[5], MIN_TICK_RATE, MAX_TICK_RATE)
         ends = self._values(end, END_KEYS)
         ticks = self._integer(end, 0, ends[0], 0, rate * (SECONDS_LIMIT + 1))
         score = self._integer(end, 1, ends[1], 0, 10**18)
@@ -245,11 +252,6 @@ class Reader:
                 f"this is not the table that was played: expected digest {digest}, got {got}; {AGAIN}",
             )
         return table
-
-
-def has_own_rules(text: str) -> bool:
-    """Whether the text of a replay is of a game with rules that are not built in."""
-    return text.startswith(f"{FIRST} {FORMAT_WITH_RULES}\n")
 
 
 def has_mesh(table: Table) -> bool:

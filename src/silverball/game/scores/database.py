@@ -227,7 +227,7 @@ class Database:
         self.is_persistent, self.has_read = False, readable is not None
         self._warn(
             f"{self.path}: {reason}, so nothing of this run is kept; "
-            "see to that, or name another folder in SILVERBALL_DATA"
+            "fix that, or set SILVERBALL_DATA to another folder"
         )
         memory = sqlite3.connect(":memory:", isolation_level=None)
         prepare(memory, self._schema)

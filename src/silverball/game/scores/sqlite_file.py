@@ -19,7 +19,7 @@ RETRY_INTERVAL = 0.01  # [s] between two attempts to open a file that another pr
 _REASONS = {
     sqlite3.SQLITE_FULL: "the disk is full",
     sqlite3.SQLITE_READONLY: "writing is not allowed",
-    sqlite3.SQLITE_CANTOPEN: "it cannot be opened or made",
+    sqlite3.SQLITE_CANTOPEN: "it cannot be opened or created",
     sqlite3.SQLITE_PERM: "access is not allowed",
     sqlite3.SQLITE_IOERR: "reading or writing fails",
 }

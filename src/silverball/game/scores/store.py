@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Any
 
 from silverball.errors import SilverballError
-from silverball.game.replay.reader import has_own_rules
+from silverball.game.replay.recording import has_own_rules
 from silverball.game.scores import records
 from silverball.game.scores.pending import NewScore
 from silverball.game.scores.records import (

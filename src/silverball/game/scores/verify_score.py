@@ -108,14 +108,14 @@ def _verify(score: Score, text: str | None, table_text: str, counted: CountedGam
     if score.damage:
         raise _NotProven(score.damage)
     if not text:
-        raise _NotProven("its replay is not kept")
+        raise _NotProven("its replay is missing")
     replay = Replay.from_text(text, "its replay")
     _check_game(score, replay)
     _check_table(score, replay, table_text)
     contacts = _Contacts()
     verdict = verify(replay, on_second=contacts.collect)
     if not verdict.ok:
-        raise _NotProven(f"its replay goes another way: {verdict.message}")
+        raise _NotProven(f"its replay differs: {verdict.message}")
     if verdict.score != score.score:
         raise _NotProven(f"its replay reaches {verdict.score:,}")
     other = counted.duplicate_of(score.id, replay, contacts.digests)

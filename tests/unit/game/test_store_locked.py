@@ -1,4 +1,4 @@
-"""Is everything kept, shown and saved in the end while another program holds the file of the scores?"""
+"""While another program holds the score file, everything is spooled, shown, and saved in the end."""
 
 from __future__ import annotations
 
@@ -77,12 +77,12 @@ def assert_all_is_saved(folder: Path) -> None:
         assert store.replay(store.scores()[1].id) == f"15\n{REPLAY}"
 
 
-def test_a_store_that_is_not_to_wait_has_sqlite_not_wait(folder):
+def test_a_nonblocking_store_does_not_wait_for_locks(folder):
     with Store(folder, nonblocking=True) as store:
         assert store._database._connection.execute("PRAGMA busy_timeout").fetchone() == (0,)
 
 
-def test_what_comes_while_the_file_is_held_waits_on_the_disk_and_is_saved_when_it_is_free(folder):
+def test_data_is_spooled_while_the_file_is_held_and_saved_when_it_is_free(folder):
     with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             number = play_on(store)
@@ -124,7 +124,7 @@ def test_a_file_that_is_held_at_the_start_is_used_when_it_is_free(folder, how, m
     assert_all_is_saved(folder)
 
 
-def test_what_still_waits_at_the_end_is_there_at_the_next_start(folder):
+def test_data_pending_at_the_end_is_there_at_the_next_start(folder):
     with held(folder / FILE):
         with Store(folder, nonblocking=True) as store:
             play_on(store)
@@ -134,9 +134,9 @@ def test_what_still_waits_at_the_end_is_there_at_the_next_start(folder):
     assert_all_is_saved(folder)
 
 
-def test_what_waits_survives_a_kill(folder):
+def test_pending_data_survives_a_kill(folder):
     code = (
-        "import os, signal, sys; from pathlib import Path; from test_store_held import play_on, Store\n"
+        "import os, signal, sys; from pathlib import Path; from test_store_locked import play_on, Store\n"
         "store = Store(Path(sys.argv[1]), nonblocking=True); play_on(store)\n"
         "os.kill(os.getpid(), signal.SIGKILL)"
     )
@@ -150,7 +150,7 @@ def test_what_waits_survives_a_kill(folder):
     assert_all_is_saved(folder)
 
 
-def test_a_program_that_is_killed_between_saving_and_tidying_up_saves_nothing_twice(folder):
+def test_a_program_killed_between_import_and_cleanup_imports_nothing_twice(folder):
     with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             play_on(store)
@@ -164,7 +164,7 @@ def test_a_program_that_is_killed_between_saving_and_tidying_up_saves_nothing_tw
         assert waiting_files(folder) == []
 
 
-def test_another_program_may_take_in_what_this_one_has_waiting(folder):
+def test_another_program_may_import_the_spool_of_this_one(folder):
     with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             number = play_on(store)
@@ -176,7 +176,7 @@ def test_another_program_may_take_in_what_this_one_has_waiting(folder):
     assert_all_is_saved(folder)
 
 
-def test_what_is_added_after_another_program_has_taken_in_the_rest_is_not_lost(folder):
+def test_data_added_after_another_program_has_imported_the_spool_is_not_lost(folder):
     with held(folder / FILE):
         store = Store(folder, nonblocking=True)
         play_on(store)
@@ -188,7 +188,7 @@ def test_what_is_added_after_another_program_has_taken_in_the_rest_is_not_lost(f
     assert in_the_file(folder) == [(20, "AAA"), (15, "NEW"), (10, "AAA"), (5, "AAA")]
 
 
-def test_initials_for_a_score_that_was_saved_before_wait_too(folder):
+def test_initials_of_a_saved_score_are_spooled_too(folder):
     with Store(folder, nonblocking=True) as store:
         number = add(store, 15)
         with held(folder / FILE):
@@ -205,7 +205,7 @@ def test_initials_for_a_score_that_was_saved_before_wait_too(folder):
         assert store.score(number).initials == "NEW"
 
 
-def test_lists_that_were_read_before_are_shown_while_the_file_cannot_even_be_read(folder):
+def test_cached_lists_are_shown_while_the_file_cannot_be_read(folder):
     with Store(folder, nonblocking=True) as store:
         store._database._connection.execute("PRAGMA journal_mode = DELETE").fetchall()  # readers are kept out
         before = store.scores(*LIST[::2])
@@ -223,12 +223,9 @@ def test_lists_that_were_read_before_are_shown_while_the_file_cannot_even_be_rea
     assert [score for score, _ in in_the_file(folder)] == [20, 15, 10]
 
 
-# ── it cannot be written beside it ──────────────────────────────────────────────────────────────────────
-
-
 @pytest.fixture
 def full(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
-    """Whether there is no room for more files; it can be changed."""
+    """Whether the disk is full; a test may change it."""
     is_full = [True]
     whole = "silverball.game.scores.pending.write_whole"
     from silverball.wholefile import write_whole
@@ -242,7 +239,7 @@ def full(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
     return is_full
 
 
-def test_what_is_only_in_the_memory_is_not_called_kept_and_is_saved_when_the_file_is_free(folder, full):
+def test_data_only_in_memory_is_not_called_persistent_and_is_saved_when_the_file_is_free(folder, full):
     with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             play_on(store)
@@ -255,7 +252,7 @@ def test_what_is_only_in_the_memory_is_not_called_kept_and_is_saved_when_the_fil
     assert_all_is_saved(folder)
 
 
-def test_what_is_only_in_the_memory_is_written_beside_it_as_soon_as_there_is_room(folder, full):
+def test_data_only_in_memory_is_spooled_as_soon_as_the_disk_has_space(folder, full):
     with held(folder / FILE):
         store = Store(folder, nonblocking=True)
         play_on(store)
@@ -267,7 +264,7 @@ def test_what_is_only_in_the_memory_is_written_beside_it_as_soon_as_there_is_roo
     assert_all_is_saved(folder)
 
 
-def test_at_the_end_what_is_only_in_the_memory_is_tried_for_some_time(folder, full, monkeypatch):
+def test_at_the_end_data_only_in_memory_is_retried_for_some_time(folder, full, monkeypatch):
     with held(folder / FILE) as program:
         store = Store(folder, nonblocking=True)
         play_on(store)
@@ -278,7 +275,7 @@ def test_at_the_end_what_is_only_in_the_memory_is_tried_for_some_time(folder, fu
     assert_all_is_saved(folder)
 
 
-def test_what_is_lost_in_the_end_is_said_to_be_lost(folder, full, monkeypatch):
+def test_lost_data_is_reported(folder, full, monkeypatch):
     monkeypatch.setattr(database, "BUSY_SECONDS", 0.1)
     with held(folder / FILE):
         store = Store(folder, nonblocking=True)
@@ -287,7 +284,7 @@ def test_what_is_lost_in_the_end_is_said_to_be_lost(folder, full, monkeypatch):
         assert "is lost" in store.exit_warning
 
 
-def test_a_disk_that_is_full_when_the_file_is_free_leaves_what_waits_where_it_is(folder, monkeypatch):
+def test_a_full_disk_leaves_pending_data_in_the_spool(folder, monkeypatch):
     with Store(folder, nonblocking=True) as store:
         with held(folder / FILE):
             play_on(store)
@@ -303,9 +300,6 @@ def test_a_disk_that_is_full_when_the_file_is_free_leaves_what_waits_where_it_is
     Store(folder).close()
     assert in_the_file(folder) == [(20, "AAA"), (15, "NEW"), (10, "AAA")]
     assert waiting_files(folder) == []
-
-
-# ── what lies there may be anything ─────────────────────────────────────────────────────────────────────
 
 
 def waiting_content(folder: Path) -> dict:
@@ -342,7 +336,7 @@ for key, value in (
 
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
-def test_a_waiting_file_that_cannot_be_read_is_set_aside_with_a_sentence(folder, change):
+def test_an_unreadable_spool_is_quarantined_with_a_sentence(folder, change):
     text = change(waiting_content(folder))
     text = text if isinstance(text, bytes) else text.encode()
     (folder / f"{NAME}1.json").write_bytes(text)
@@ -358,7 +352,7 @@ def test_a_waiting_file_that_cannot_be_read_is_set_aside_with_a_sentence(folder,
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs pipes with names")
-def test_what_is_no_file_is_left_alone(folder):
+def test_a_spool_that_is_not_a_file_is_left_alone(folder):
     os.mkfifo(folder / f"{NAME}1.json")
     (folder / f"{NAME}2.json").mkdir()
     (folder / f"{NAME}3.json").symlink_to("/dev/zero")
@@ -366,10 +360,7 @@ def test_what_is_no_file_is_left_alone(folder):
         assert (store.warning, store.is_persistent) == ("", True)
 
 
-# ── whoever waits ───────────────────────────────────────────────────────────────────────────────────────
-
-
-def test_a_store_that_waits_is_told_in_a_sentence_that_it_waited_in_vain(folder, monkeypatch):
+def test_a_blocking_store_that_waited_in_vain_says_so_in_a_sentence(folder, monkeypatch):
     monkeypatch.setattr(database, "BUSY_SECONDS", 0.1)
     with held(folder / FILE, ALONE), Store(folder) as store:
         for ask in (store.scores, store.lists, lambda: store.score(1), lambda: store.replay(1)):

@@ -1,4 +1,4 @@
-"""Does play go on, and is the player told in one sentence, whatever is wrong with the file?"""
+"""Whatever is wrong with the score file, play goes on and the player gets a warning of one sentence."""
 
 from __future__ import annotations
 
@@ -46,18 +46,18 @@ def assert_play_goes_on(store: Store) -> None:
     assert store.settings()["volume"] == 2
 
 
-def assert_told(store: Store, *words: str, keeps: bool) -> None:
+def assert_warned(store: Store, *words: str, is_persistent: bool) -> None:
     """One sentence with the place, what is wrong and, if nothing is kept, what to do."""
     assert len(store.warning.splitlines()) == 1
-    remedy = () if keeps else ("nothing of this run is kept", "SILVERBALL_DATA")
+    remedy = () if is_persistent else ("nothing of this run is kept", "SILVERBALL_DATA")
     for word in (str(store.path), *words, *remedy):
         assert word in store.warning
-    assert store.is_persistent == keeps
+    assert store.is_persistent == is_persistent
 
 
 @pytest.fixture
 def folder() -> Iterator[Path]:
-    """A folder in which others may look around too."""
+    """A folder that other users may read."""
     path = Path(tempfile.mkdtemp())
     path.chmod(0o755)
     yield path
@@ -66,7 +66,7 @@ def folder() -> Iterator[Path]:
 
 @contextmanager
 def without_the_rights_of_root() -> Iterator[None]:
-    """Root may write what must not be written; so be somebody else for a while."""
+    """Drop the rights of root, which may write read-only files, for a while."""
     if os.name != "posix":
         pytest.skip("needs the rights of POSIX")
     root = os.geteuid() == 0
@@ -87,21 +87,18 @@ def with_scores(folder: Path, *scores: int) -> Path:
     return folder / FILE
 
 
-# ── it cannot be written ────────────────────────────────────────────────────────────────────────────────
-
-
-def test_a_folder_that_must_not_be_written(folder):
+def test_a_read_only_folder(folder):
     folder.chmod(0o555)
     with without_the_rights_of_root(), Store(folder) as store:
-        assert_told(store, "it cannot be opened or made", keeps=False)
+        assert_warned(store, "it cannot be opened or created", is_persistent=False)
         assert_play_goes_on(store)
     assert list(folder.iterdir()) == []
 
 
-def test_a_folder_that_cannot_be_made(folder):
+def test_a_folder_that_cannot_be_created(folder):
     folder.chmod(0o555)
     with without_the_rights_of_root(), Store(folder / "new") as store:
-        assert_told(store, "permission denied", str(folder / "new"), keeps=False)
+        assert_warned(store, "permission denied", str(folder / "new"), is_persistent=False)
         assert_play_goes_on(store)
 
 
@@ -109,39 +106,39 @@ def test_a_folder_that_cannot_be_made(folder):
 def test_a_folder_that_is_a_file(tmp_path, below):
     (tmp_path / "file").write_text("something")
     with Store(tmp_path / "file" / below) as store:
-        assert_told(store, "file exists" if not below else "not a directory", keeps=False)
+        assert_warned(store, "file exists" if not below else "not a directory", is_persistent=False)
         assert_play_goes_on(store)
     assert (tmp_path / "file").read_text() == "something"
 
 
 @pytest.mark.parametrize(
-    ("name", "word"), [(FILE, "it cannot be opened or made"), (f"{FILE}-wal", "reading or writing fails")]
+    ("name", "word"), [(FILE, "it cannot be opened or created"), (f"{FILE}-wal", "reading or writing fails")]
 )
 def test_a_folder_where_a_file_should_be(tmp_path, name, word):
     (tmp_path / name).mkdir()
     with Store(tmp_path) as store:
-        assert_told(store, word, keeps=False)
+        assert_warned(store, word, is_persistent=False)
         assert_play_goes_on(store)
 
 
 @pytest.mark.parametrize("folder_too", [False, True])
-def test_a_file_that_must_not_be_written_is_still_read(folder, folder_too):
+def test_a_read_only_file_is_still_read(folder, folder_too):
     path = with_scores(folder, 10, 20)
     before = path.read_bytes()
     path.chmod(0o444)
     folder.chmod(0o555 if folder_too else 0o777)
     with without_the_rights_of_root(), Store(folder) as store:
-        assert_told(store, "writing is not allowed", keeps=False)
+        assert_warned(store, "writing is not allowed", is_persistent=False)
         assert listed(store) == [20, 10]
         assert store.settings() == {"volume": 9, "muted": True}
         assert_play_goes_on(store)
     assert path.read_bytes() == before
 
 
-def test_a_file_that_must_not_be_read(folder):
+def test_a_file_without_read_permission(folder):
     with_scores(folder, 10).chmod(0)
     with without_the_rights_of_root(), Store(folder) as store:
-        assert_told(store, "it cannot be opened or made", keeps=False)
+        assert_warned(store, "it cannot be opened or created", is_persistent=False)
         assert_play_goes_on(store)
     (folder / FILE).chmod(0o644)
     with Store(folder) as store:
@@ -164,14 +161,14 @@ def assert_all_goes_on_on_a_full_disk(folder: Path, word: str) -> list[int]:
     with Store(folder) as store:
         store.save_settings({"volume": 9})
         kept = fill(store)
-        assert_told(store, word, keeps=False)
+        assert_warned(store, word, is_persistent=False)
         assert listed(store) == [len(kept) + 1, *reversed(kept)]  # the last one as long as the program runs
         assert store.settings() == {"volume": 9}
         assert_play_goes_on(store)
     return kept
 
 
-def test_a_limit_to_the_size_of_files_is_met_in_the_middle(tmp_path):
+def test_a_file_size_limit_is_reached_during_a_write(tmp_path):
     resource = pytest.importorskip("resource")
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, hard))
@@ -196,7 +193,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
     subprocess.run(["umount", str(place)], check=True)
 
 
-def test_the_disk_becomes_full_in_the_middle(small_disk):
+def test_the_disk_becomes_full_during_a_write(small_disk):
     kept = assert_all_goes_on_on_a_full_disk(small_disk, "the disk is full")
     with Store(small_disk) as store:  # reads without a byte to spare
         assert set(kept) <= set(listed(store))
@@ -211,10 +208,7 @@ def test_the_disk_is_full_from_the_beginning(small_disk):
         assert_play_goes_on(store)
 
 
-# ── it is not what it should be ─────────────────────────────────────────────────────────────────────────
-
-
-def set_aside(folder: Path) -> Path:
+def quarantined(folder: Path) -> Path:
     (path,) = folder.glob("silverball-set-aside-*.sqlite3")
     return path
 
@@ -253,14 +247,14 @@ DAMAGES: dict[str, Callable[[Path], object]] = {
 
 
 @pytest.mark.parametrize("damage", DAMAGES.values(), ids=DAMAGES)
-def test_a_file_that_cannot_be_used_is_set_aside_and_a_new_one_begun(tmp_path, damage):
+def test_an_unfit_file_is_quarantined_and_a_new_one_begun(tmp_path, damage):
     path = with_scores(tmp_path, *range(1, 40))
     damage(path)
     content = path.read_bytes()
     with Store(tmp_path) as store:
-        assert set_aside(tmp_path).read_bytes() == content
+        assert quarantined(tmp_path).read_bytes() == content
         word = "another program" if damage is belong_to_another_program else "is damaged"
-        assert_told(store, word, set_aside(tmp_path).name, keeps=True)
+        assert_warned(store, word, quarantined(tmp_path).name, is_persistent=True)
         assert listed(store) == []
         assert_play_goes_on(store)
     with Store(tmp_path) as store:
@@ -268,7 +262,7 @@ def test_a_file_that_cannot_be_used_is_set_aside_and_a_new_one_begun(tmp_path, d
         assert listed(store) == [123_456]
 
 
-def test_letters_that_are_damaged_hide_nothing_else(tmp_path):
+def test_damaged_characters_hide_nothing_else(tmp_path):
     path = with_scores(tmp_path, 10, 20)
     with closing(sqlite3.connect(path)) as connection, connection:
         connection.execute("UPDATE score SET initials = CAST(x'41ff42' AS TEXT) WHERE score = 20")
@@ -290,22 +284,22 @@ def test_a_file_that_becomes_damaged_while_the_program_runs(tmp_path):
         store._database._connection.execute("PRAGMA cache_size = 0")  # it would not notice before it reads
         overwrite_the_middle(path)
         assert_play_goes_on(store)
-        assert_told(store, "is damaged", set_aside(tmp_path).name, keeps=True)
+        assert_warned(store, "is damaged", quarantined(tmp_path).name, is_persistent=True)
     with Store(tmp_path) as store:
         assert listed(store) == [123_456]
 
 
-def test_a_program_that_has_a_file_open_goes_over_to_the_new_one_when_another_finds_it_damaged(tmp_path):
+def test_a_program_with_an_open_file_switches_to_the_new_one_when_another_quarantines_it(tmp_path):
     path = with_scores(tmp_path, *range(1, 40))
     with Store(tmp_path) as first:
         add(first, 50)
         overwrite_the_middle(path)
         with Store(tmp_path) as second:
-            assert_told(second, "is damaged", keeps=True)
-            aside = set_aside(tmp_path)
+            assert_warned(second, "is damaged", is_persistent=True)
+            aside = quarantined(tmp_path)
             assert aside.with_name(f"{aside.name}-wal").stat().st_size > 0  # with what was written last
             assert_play_goes_on(first)
-            assert_told(first, "was removed or replaced", keeps=True)
+            assert_warned(first, "was removed or replaced", is_persistent=True)
             assert listed(second) == [123_456]
 
 
@@ -314,12 +308,12 @@ def test_a_file_that_is_removed_while_the_program_runs(tmp_path):
     with Store(tmp_path) as store:
         shutil.rmtree(tmp_path)
         assert_play_goes_on(store)
-        assert_told(store, "was removed", keeps=True)
+        assert_warned(store, "was removed", is_persistent=True)
     with Store(tmp_path) as store:
         assert listed(store) == [123_456]
 
 
-def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_nothing(tmp_path):
+def test_two_programs_that_find_the_damage_at_once_quarantine_one_file_and_lose_nothing(tmp_path):
     (tmp_path / FILE).write_bytes(b"hello " * 1000)
     found: list[object] = []
 
@@ -338,10 +332,10 @@ def test_two_programs_that_find_the_damage_at_once_set_one_file_aside_and_lose_n
         lock.execute("ROLLBACK")
         thread.join()
     assert found == [("", [10])]
-    assert set_aside(tmp_path).name == "silverball-set-aside-by-the-other.sqlite3"
+    assert quarantined(tmp_path).name == "silverball-set-aside-by-the-other.sqlite3"
 
 
-def test_a_file_that_is_busy_when_it_is_opened_is_asked_again(tmp_path, monkeypatch):
+def test_a_file_that_is_locked_when_it_is_opened_is_retried(tmp_path, monkeypatch):
     """As when four programs begin a new file at once: SQLite does not wait by itself then."""
     prepare, calls = sqlite_file.prepare, []
 
@@ -358,7 +352,7 @@ def test_a_file_that_is_busy_when_it_is_opened_is_asked_again(tmp_path, monkeypa
         assert (store.warning, store.is_persistent, len(calls)) == ("", True, 3)
 
 
-def test_a_program_that_reads_the_file_in_the_old_way_is_waited_for(tmp_path):
+def test_a_reader_without_write_ahead_log_is_waited_for(tmp_path):
     path = with_scores(tmp_path, 10)
     with closing(sqlite3.connect(path, isolation_level=None, check_same_thread=False)) as other:
         other.execute("PRAGMA journal_mode = DELETE")
@@ -379,14 +373,14 @@ def test_a_file_of_a_newer_program_is_left_as_it_is(tmp_path):
         connection.execute("ALTER TABLE score RENAME TO games")
     before = path.read_bytes()
     with Store(tmp_path) as store:
-        assert_told(store, "newer Silverball", "version 9", f"up to {SCHEMA.version}", keeps=False)
+        assert_warned(store, "newer Silverball", "version 9", f"up to {SCHEMA.version}", is_persistent=False)
         assert listed(store) == []
         assert_play_goes_on(store)
     assert path.read_bytes() == before
     assert [one.name for one in tmp_path.iterdir()] == [FILE]
 
 
-def test_a_mistake_of_the_caller_is_no_trouble_of_the_file(tmp_path):
+def test_an_error_of_the_caller_is_not_a_problem_of_the_file(tmp_path):
     with Store(tmp_path) as store:
         for wrong in (None, "many"):
             with pytest.raises(sqlite3.IntegrityError):
@@ -399,7 +393,7 @@ def test_a_mistake_of_the_caller_is_no_trouble_of_the_file(tmp_path):
 
 
 @pytest.mark.filterwarnings("error")
-def test_no_way_of_opening_the_file_uses_what_python_warns_of(tmp_path):
+def test_opening_the_file_raises_no_warning_of_python(tmp_path):
     path = with_scores(tmp_path, 10)  # written
     with held(path, ALONE), Store(tmp_path, nonblocking=True) as store:  # locked
         assert store.has_pending
