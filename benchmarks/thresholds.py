@@ -14,15 +14,14 @@ import gymnasium
 import numpy as np
 
 from silverball.envs import IDS
-from silverball.players.batch_policies import deciding
-from silverball.players.simple import PlayerKind
+from silverball.players.batch_policies import batch_policy
 
 
 def mean_return(id_: str, episodes: int) -> tuple[float, float]:
     """The mean return of the trained player over one episode in each of so many environments, and ± 95 %."""
     envs = gymnasium.make_vec(id_, episodes, observation="state")
     envs.reset(seed=0)
-    player = deciding(PlayerKind.TRAINED, envs.unwrapped.batch)
+    player = batch_policy("trained", envs.unwrapped.batch)
     assert player is not None
     returns, plays, step = np.zeros(episodes), np.ones(episodes, bool), 0
     while plays.any():

@@ -22,7 +22,6 @@ from stable_baselines3.common.vec_env import VecEnvWrapper, VecNormalize
 from silverball.envs import PinballVectorEnv
 from silverball.envs.sb3 import SilverballVecEnv
 from silverball.metrics.ball_time import time_balls
-from silverball.players import PlayerKind
 from silverball.players.features import COLUMNS, MIRRORED, SEEN, see
 from silverball.players.trained import DECISIONS, Policy
 from silverball.world import WorldBatch
@@ -180,7 +179,7 @@ unseen = PinballVectorEnv(
     chosen.balls, "SameStep", own_boards=True, boards=chosen.balls, board_seed=UNSEEN, **options
 )
 worlds = {name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN) for name in ("random", "reflex")}
-others = {name: time_balls(one, PlayerKind[name.upper()], LONGEST).score[0] for name, one in worlds.items()}
+others = {name: time_balls(one, name, LONGEST).score[0] for name, one in worlds.items()}
 for name, points in others.items():
     print(f"the player {name}: {points:.0f} points a ball", flush=True)
 

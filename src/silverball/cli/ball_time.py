@@ -9,12 +9,11 @@ from silverball.cli.say import say, say_json
 
 if TYPE_CHECKING:
     from silverball.metrics.ball_time import BallTimes
-    from silverball.players import PlayerKind
     from silverball.table import Table
 
 
 def time_of_balls(
-    loaded: Table, table: str, seed: int, seconds: float, kind: PlayerKind, worlds: int, tick_rate: int
+    loaded: Table, table: str, seed: int, seconds: float, player: str, worlds: int, tick_rate: int
 ) -> dict[str, Any]:
     """Watch one ball in each of some worlds, showing progress; the report."""
     from rich.progress import Progress
@@ -22,17 +21,16 @@ def time_of_balls(
     from silverball.cli.console import compiling, errors
     from silverball.cli.simulate import boards_of
     from silverball.metrics.ball_time import time_balls
-    from silverball.players import PlayerKind
     from silverball.world import WorldBatch
 
-    with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "press_all"):
-        time_balls(WorldBatch("classic"), kind, 0.1)
+    with compiling("plan_worlds" if player == "planner" else "press_all"):
+        time_balls(WorldBatch("classic"), player if player == "planner" else "idle", 0.1)
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         batch = WorldBatch(boards_of(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"watching {worlds} ball{'s' * (worlds > 1)}", total=seconds)
-        times = time_balls(batch, kind, seconds, lambda done: bar.update(task, completed=done))
+        times = time_balls(batch, player, seconds, lambda done: bar.update(task, completed=done))
     return report_of(times) | {
-        "table": table, "seed": seed, "player": kind.name.lower(), "tick_rate": tick_rate,
+        "table": table, "seed": seed, "player": player, "tick_rate": tick_rate,
     }  # fmt: skip
 
 

@@ -19,7 +19,9 @@ def demo(
     seconds: float = typer.Option(20.0, min=0.1, max=600.0, help="Of play. A PNG shows the last moment."),
     table: str = typer.Option("classic", help="A built-in table or a table file."),
     seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
-    player: str = typer.Option("planner", help="Who plays: idle, random, reflex, hold, planner or trained."),
+    player: str = typer.Option(
+        "planner", help="idle, random, reflex, hold, planner, trained or a registered player."
+    ),
     size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
     theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
     force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
@@ -54,7 +56,7 @@ def make_demo(
 
     look = theme_named(theme)
     check_output(out, ENDINGS, force=force)
-    hands = make_player(player)
+    hands = make_player(player, seed)
     board = load_table(table)
     board_seed = None if board.random is None else seed
     if board.random is not None:

@@ -30,7 +30,9 @@ def simulate(
         0, min=0, max=2**63 - 1_000_001, help="Of the board and of everything random on it."
     ),
     seconds: float = typer.Option(60.0, min=0.01, max=1e9, help="To simulate in each world."),
-    player: str = typer.Option("reflex", help="Who presses: idle, random, reflex, hold, planner or trained."),
+    player: str = typer.Option(
+        "reflex", help="idle, random, reflex, hold, planner, trained or a registered player."
+    ),
     worlds: int = typer.Option(1, min=1, max=1_000_000, help="Worlds side by side (of a soak: 256)."),
     balls: int = typer.Option(1, min=1, max=2, help="Balls to keep on the board, if the table allows them."),
     tick_rate: int = typer.Option(
@@ -85,33 +87,33 @@ def simulate(
 
     from silverball.cli.console import compiling, errors
     from silverball.errors import SilverballError
-    from silverball.players import PlayerKind, player_kind
+    from silverball.players.registry import check_name
     from silverball.table import load_table
 
     if not seconds * tick_rate >= 1.0:  # also refuses what is no number
         raise SilverballError(
             f"--seconds: {seconds:g} s is less than one tick of 1/{tick_rate} s; ask for more"
         )
-    kind = player_kind(player)
+    check_name(player)
     loaded = load_table(table)
     if ball_time:
         from silverball.cli.ball_time import print_ball_times, time_of_balls
 
         if {"balls", "audit"} & given:
             raise SilverballError("silverball simulate: --balls and --audit do not go with --ball-time")
-        print_ball_times(time_of_balls(loaded, table, seed, seconds, kind, worlds, tick_rate), as_json)
+        print_ball_times(time_of_balls(loaded, table, seed, seconds, player, worlds, tick_rate), as_json)
         return
-    with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "play_worlds"):
+    with compiling("plan_worlds" if player == "planner" else "play_worlds"):
         from silverball.players.rollout import play
         from silverball.world import WorldBatch
 
-        play(WorldBatch("classic"), kind, 0.0, 0, audit)
-        if kind == PlayerKind.PLANNER:
-            play(WorldBatch("classic"), kind, 1.0 / 60.0, 1, audit)
+        play(WorldBatch("classic"), "idle", 0.0, 0, audit)
+        if player == "planner":
+            play(WorldBatch("classic"), player, 1.0 / 60.0, 1, audit)
     with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
         batch = WorldBatch(boards_of(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"simulating {worlds} world{'s' * (worlds > 1)}", total=seconds)
-        played = play(batch, kind, seconds, balls, audit, lambda done: bar.update(task, completed=done))
+        played = play(batch, player, seconds, balls, audit, lambda done: bar.update(task, completed=done))
     report: dict[str, Any] = {
         "table": table,
         "seed": seed,

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.records import BALL, Fault, records
-from silverball.players.batch_policies import deciding
+from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.planner import BRANCHES
 from silverball.players.simple import PlayerKind, press_all
 from silverball.world import WorldBatch
@@ -80,7 +80,7 @@ class BallTimes(NamedTuple):
 
 def time_balls(
     batch: WorldBatch,
-    player: PlayerKind,
+    player: str,
     seconds: float,
     progress: Callable[[float], None] | None = None,
     branches: int = BRANCHES,
@@ -89,17 +89,20 @@ def time_balls(
 
     Args:
         batch: The worlds, without points so far; a ball is created where none has been.
-        player: Who presses.
+        player: The name of the player who presses.
         seconds: For which a ball is watched at most [s].
         progress: Called now and then with the simulated seconds so far.
         branches: That the planner tries at a decision.
 
     Returns:
         Lives and points of the balls.
+
+    Raises:
+        PlayerError: No player has that name, or a registered one failed.
     """
     lives = records(batch.count, LIFE)
-    hands = deciding(player, batch, branches)
-    every = 1 if hands is None else hands.every
+    policy, kind = batch_policy(player, batch, branches), kernel_player(player)
+    every = 1 if policy is None else policy.every
     actions = np.zeros((1, batch.count, 3), np.bool_)
     batch.create_balls(batch.state["created"] == 0)
     alive = batch.state["created"] > 0
@@ -107,11 +110,11 @@ def time_balls(
     ticks = round(seconds * batch.tick_rate)
     started = time.perf_counter()
     for done in range(every, ticks + 1, every):
-        if hands is None:
-            _press(batch, player, actions)
+        if policy is None:
+            _press(batch, kind, actions)
         else:
-            hands.decide()
-            actions[0, :, :2] = hands.buttons
+            policy.decide()
+            actions[0, :, :2] = policy.buttons
         batch.run(actions, every)
         alive = note_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
         if progress is not None and done % batch.tick_rate < every:
@@ -121,11 +124,11 @@ def time_balls(
     return _summary(lives, seconds, batch.tick_rate, time.perf_counter() - started)
 
 
-def _press(batch: WorldBatch, player: PlayerKind, actions: NDArray[np.bool_]) -> None:
+def _press(batch: WorldBatch, kind: PlayerKind, actions: NDArray[np.bool_]) -> None:
     """Let a simple player choose the next tick's actions of all worlds."""
     boards = batch.boards
     press_all(
-        int(player), batch.state, boards.board, batch.board_of, boards.collider, 1.0 / batch.tick_rate,
+        int(kind), batch.state, boards.board, batch.board_of, boards.collider, 1.0 / batch.tick_rate,
         actions,
     )  # fmt: skip
 

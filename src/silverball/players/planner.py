@@ -102,7 +102,7 @@ class Planner:
         branches: Futures to try at a decision, at most; it also ends after STEPS steps. Fewer are faster.
     """
 
-    kind = PlayerKind.PLANNER
+    name = "planner"
 
     def __init__(self, branches: int = BRANCHES) -> None:
         self._branches = branches

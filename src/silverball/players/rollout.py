@@ -18,7 +18,7 @@ from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
 from silverball.physics.records import BALL_COUNT, Fault
 from silverball.physics.step import step_world
-from silverball.players.batch_policies import deciding
+from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import WorldBatch
 
@@ -57,7 +57,7 @@ class Played(NamedTuple):
 
 def play(
     batch: WorldBatch,
-    player: PlayerKind,
+    player: str,
     seconds: float,
     balls: int = 1,
     audit: bool = False,
@@ -67,7 +67,7 @@ def play(
 
     Args:
         batch: The worlds.
-        player: Who presses.
+        player: The name of the player who presses.
         seconds: To simulate in each world [s], rounded to whole ticks.
         balls: Balls to keep on the board, at most the table's max_balls; 0 creates none.
         audit: Whether to check every tick for a ball inside anything (about halves the speed).
@@ -75,19 +75,22 @@ def play(
 
     Returns:
         The totals.
+
+    Raises:
+        PlayerError: No player has that name, or a registered one failed.
     """
     ticks = round(seconds * batch.tick_rate)
     depths = np.zeros(batch.count)
-    hands = deciding(player, batch)
-    buttons = np.zeros((batch.count, 2), np.bool_) if hands is None else hands.buttons
-    _run(batch, player, 0, balls, audit, depths, buttons)  # compiles, moves nothing
+    policy, kind = batch_policy(player, batch), kernel_player(player)
+    buttons = np.zeros((batch.count, 2), np.bool_) if policy is None else policy.buttons
+    _run(batch, kind, 0, balls, audit, depths, buttons)  # compiles, moves nothing
     started = time.perf_counter()
-    chunk = max(1, CHUNK_TICKS // batch.count) if hands is None else hands.every
+    chunk = max(1, CHUNK_TICKS // batch.count) if policy is None else policy.every
     for done in range(0, ticks, chunk):
-        if hands is not None:
+        if policy is not None:
             batch.create_balls((batch.state["ball"]["id"] != 0).sum(axis=1) < balls)
-            hands.decide()
-        _run(batch, player, min(chunk, ticks - done), balls, audit, depths, buttons)
+            policy.decide()
+        _run(batch, kind, min(chunk, ticks - done), balls, audit, depths, buttons)
         if progress is not None:
             progress(min(done + chunk, ticks) / batch.tick_rate)
     wall = time.perf_counter() - started
@@ -95,14 +98,14 @@ def play(
 
 
 def _run(
-    batch: WorldBatch, player: PlayerKind, ticks: int, balls: int, audit: bool, depths: Any, buttons: Any
+    batch: WorldBatch, kind: PlayerKind, ticks: int, balls: int, audit: bool, depths: Any, buttons: Any
 ) -> None:
     boards = batch.boards
     batch.on_threads(
         lambda first, end: play_worlds(
             batch.state, boards.board, batch.board_of, boards.collider, boards.grid, boards.place,
             batch.logs, batch.tallies, first, end, ticks, 1.0 / batch.tick_rate,
-            int(player), balls, audit, depths, buttons,
+            int(kind), balls, audit, depths, buttons,
         ),
         batch.count * ticks,
     )  # fmt: skip
@@ -139,7 +142,7 @@ def play_worlds(
 
     `places` are the squares in which balls are created, `player` is a `PlayerKind`, `balls` how many to keep
     on the board. With `audit`, `depths` [world] is raised to the deepest that a ball was inside anything [u].
-    The planner and the trained player decide elsewhere: they hold `buttons` [world, 2] in all ticks.
+    A player who has decided before the call holds `buttons` [world, 2] in all ticks.
     """
     for index in range(first, end):
         world, log, tally = worlds[index], logs[index], tallies[index]
@@ -147,9 +150,9 @@ def play_worlds(
         for done in range(ticks):
             log.count, log.lost = 0, 0
             # Who has decided before this call did so after a ball had been created.
-            if ball_count(world) < balls and (done > 0 or player < PlayerKind.PLANNER):
+            if ball_count(world) < balls and (done > 0 or player != PlayerKind.DECIDED):
                 create_ball(world, board, colliders, places, log)
-            if player >= PlayerKind.PLANNER:
+            if player == PlayerKind.DECIDED:
                 left, right = buttons[index, 0], buttons[index, 1]
             else:
                 left, right = pressed(player, world, board, colliders, tick)

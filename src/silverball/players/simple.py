@@ -7,7 +7,7 @@ snapshot.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, Protocol
+from typing import Any
 
 from silverball.physics.kernel import kernel
 from silverball.physics.random import uniform
@@ -25,34 +25,29 @@ STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
 class PlayerKind(IntEnum):
-    """All players; planner.py and trained.py have those that are not simple, from PLANNER on."""
+    """Who presses, as the compiled loops know it: a simple player, or whoever decided before the call."""
 
     IDLE = 0
     RANDOM = 1
     REFLEX = 2
-    HOLD = 4  # both paddles up for ever
-    PLANNER = 5
-    TRAINED = 6
+    HOLD = 4  # both paddles up forever
+    DECIDED = 5  # a policy outside of the loop (see batch_policies.py)
 
 
-class Player(Protocol):
-    """Any player for a single world; `kind` says which."""
+class SimplePlayer:
+    """A simple player for a single world.
 
-    kind: PlayerKind
+    Args:
+        name: "idle", "random", "reflex" or "hold".
+    """
 
-    def press(self, world: World) -> tuple[bool, bool]:
-        """The buttons (left, right) to hold in the world's next tick."""
-
-
-class KernelPlayer:
-    """A simple player for a single world."""
-
-    def __init__(self, kind: PlayerKind) -> None:
-        self.kind = kind
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._kind = int(PlayerKind[name.upper()])
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
-        left, right = pressed(int(self.kind), *world.records, 1.0 / world.tick_rate)
+        left, right = pressed(self._kind, *world.records, 1.0 / world.tick_rate)
         return bool(left), bool(right)
 
 

@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from silverball.errors import SilverballError
 from silverball.physics.records import Part
 from silverball.players.features import MIRRORED, SEEN, Rows, look, see
-from silverball.players.simple import PlayerKind
 from silverball.world import World, WorldBatch
 
 SCALE = 4096  # steps of 1 in which weights and values are rounded
@@ -135,7 +134,7 @@ class Trained:
         policy: What it plays by; None: the one that comes with the program.
     """
 
-    kind = PlayerKind.TRAINED
+    name = "trained"
 
     def __init__(self, policy: Policy | None = None) -> None:
         self._policy = policy or stored_policy()

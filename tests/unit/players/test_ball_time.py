@@ -9,7 +9,6 @@ import pytest
 
 from boards import PADDLES, full_table, table_of
 from silverball.metrics.ball_time import STALL, median_life, time_balls
-from silverball.players.simple import PlayerKind
 from silverball.table import SlantWall
 from silverball.world import World, WorldBatch
 
@@ -26,7 +25,7 @@ def cradled() -> WorldBatch:
 
 def test_a_ball_is_lost_when_it_is_in_the_gutter() -> None:
     batch = WorldBatch(table_of(), count=5, seed=1, tick_rate=240)
-    times = time_balls(batch, PlayerKind.IDLE, 60.0)
+    times = time_balls(batch, "idle", 60.0)
     seconds = []
     for seed in range(1, 6):
         world = World(table_of(), seed=seed)
@@ -41,7 +40,7 @@ def test_a_ball_is_lost_when_it_is_in_the_gutter() -> None:
 
 def test_a_ball_that_makes_no_points_is_lost_after_fifteen_seconds() -> None:
     batch = cradled()
-    times = time_balls(batch, PlayerKind.IDLE, 60.0)
+    times = time_balls(batch, "idle", 60.0)
     assert (times.drained, times.stalled, times.alive) == (0, 2, 0)
     assert times.median[0] == times.mean[0] == STALL
     assert not batch.state["ball"]["id"].any()
@@ -49,16 +48,16 @@ def test_a_ball_that_makes_no_points_is_lost_after_fifteen_seconds() -> None:
 
 def test_both_paddles_held_up_for_ever_do_not_win() -> None:
     lives = {}
-    for kind in (PlayerKind.HOLD, PlayerKind.REFLEX):
+    for kind in ("hold", "reflex"):
         lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50), kind, 60.0)
-    held, reflex = lives[PlayerKind.HOLD], lives[PlayerKind.REFLEX]
+    held, reflex = lives["hold"], lives["reflex"]
     assert held.stalled > 0
     assert held.mean[0] < reflex.mean[0]
     assert held.score[0] < reflex.score[0]
 
 
 def test_a_ball_that_outlives_the_time_is_censored() -> None:
-    times = time_balls(cradled(), PlayerKind.IDLE, 5.0)
+    times = time_balls(cradled(), "idle", 5.0)
     assert times.alive == 2
     assert times.median == (math.inf, math.inf, math.inf)
     assert times.mean[0] == pytest.approx(5.0)
@@ -99,5 +98,5 @@ def test_the_median_of_a_worked_example() -> None:
 
 
 def test_a_board_with_paddles_and_nothing_else_gives_no_points() -> None:
-    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1), PlayerKind.REFLEX, 20.0)
+    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1), "reflex", 20.0)
     assert times.score[0] == times.score_per_minute[0] == 0.0

@@ -9,7 +9,6 @@ from silverball.metrics.ball_time import time_balls
 from silverball.players import make_player
 from silverball.players.planner import Notes, Planner, beat_of, plan_batch
 from silverball.players.rollout import play
-from silverball.players.simple import PlayerKind
 from silverball.world import World, WorldBatch
 from silverball.world.saved_world import digest
 
@@ -174,7 +173,7 @@ def test_a_board_without_paddles_is_no_trouble() -> None:
 
 def test_it_plays_alone_what_it_plays_in_a_batch() -> None:
     batch = WorldBatch(full_table(), count=2, seed=6, tick_rate=120)
-    play(batch, PlayerKind.PLANNER, 3.0, balls=2)
+    play(batch, "planner", 3.0, balls=2)
     for index in range(2):
         world, player = World(full_table(), seed=6 + index, tick_rate=120), make_player("planner")
         for _ in range(360):
@@ -186,9 +185,9 @@ def test_it_plays_alone_what_it_plays_in_a_batch() -> None:
 
 def test_balls_live_longer_than_under_the_reflex_player() -> None:
     ends = {}
-    for kind in (PlayerKind.REFLEX, PlayerKind.PLANNER):
+    for kind in ("reflex", "planner"):
         batch = WorldBatch("random", count=8, seed=20, tick_rate=60)
         ends[kind] = time_balls(batch, kind, 30.0, branches=FEW)
-    reflex, planner = ends[PlayerKind.REFLEX], ends[PlayerKind.PLANNER]
+    reflex, planner = ends["reflex"], ends["planner"]
     assert planner.drained + planner.stalled < reflex.drained + reflex.stalled
     assert planner.mean[0] > reflex.mean[0]

@@ -11,7 +11,7 @@ from boards import PADDLES, full_table, launched, table_of
 from silverball.errors import SilverballError
 from silverball.players import make_player
 from silverball.players.rollout import play
-from silverball.players.simple import RANDOM_HOLD, PlayerKind
+from silverball.players.simple import RANDOM_HOLD
 from silverball.world import World, WorldBatch
 from silverball.world.saved_world import digest
 
@@ -77,14 +77,14 @@ def test_the_reflex_player_keeps_its_balls_longer_than_nobody() -> None:
     drained = {}
     for name in SIMPLE:
         batch = WorldBatch(full_table(), count=32, seed=1)
-        drained[name] = play(batch, PlayerKind[name.upper()], 60.0, balls=1).drained
+        drained[name] = play(batch, name, 60.0, balls=1).drained
     assert drained["reflex"] < drained["idle"]
 
 
 @pytest.mark.parametrize("name", SIMPLE)
 def test_a_player_alone_plays_the_same_game_as_in_the_compiled_loop(name: str) -> None:
     batch = WorldBatch(full_table(), count=3, seed=6)
-    play(batch, PlayerKind[name.upper()], 20.0, balls=2)
+    play(batch, name, 20.0, balls=2)
     player = make_player(name)
     for index in range(3):
         world = World(full_table(), seed=6 + index, tick_rate=60)
@@ -98,7 +98,7 @@ def test_a_player_alone_plays_the_same_game_as_in_the_compiled_loop(name: str) -
 def test_the_totals_of_a_play_add_up() -> None:
     batch = WorldBatch("random", count=6, seed=1)
     progress: list[float] = []
-    played = play(batch, PlayerKind.REFLEX, 50.0, balls=2, audit=True, progress=progress.append)
+    played = play(batch, "reflex", 50.0, balls=2, audit=True, progress=progress.append)
     state = batch.state
     assert played.seconds == 50.0
     assert progress[-1] == 50.0
@@ -109,7 +109,7 @@ def test_the_totals_of_a_play_add_up() -> None:
     assert sum(played.hits.values()) == sum(state[name].sum() for name in names)
     assert played.faults == 0
     assert played.deepest <= 1e-9
-    assert math.isnan(play(batch, PlayerKind.IDLE, 1.0).deepest)
+    assert math.isnan(play(batch, "idle", 1.0).deepest)
 
 
 def test_a_player_of_no_known_name_is_refused_with_the_nearest() -> None:
