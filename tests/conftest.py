@@ -19,11 +19,13 @@ settings.load_profile("silverball")
 @pytest.fixture
 def unregistered():
     """No registered players but those of the test."""
-    from silverball.players import registry
+    from silverball.players.registry import _refused, _registered
 
+    for names in (_registered, _refused):
+        names.clear()
     yield
-    registry._registered.clear()
-    registry._refused.clear()
+    for names in (_registered, _refused):
+        names.clear()
 
 
 @pytest.fixture
