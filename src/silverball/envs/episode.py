@@ -29,7 +29,7 @@ from silverball.envs.state import COUNTS, EPISODE, End, Mode, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, kernel, pasted
 from silverball.physics.random import WORD, threefry
-from silverball.physics.records import BALL_COUNT, WORLD, Fault, Outcome
+from silverball.physics.records import BALL_COUNT, WORLD, Fault, Lanes, Outcome, Playfields
 from silverball.physics.step import run_worlds
 from silverball.world.single_step import INT, array_at
 
@@ -80,10 +80,9 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
         stop = min(start + BLOCK, end)
         for index in range(start, stop):
             press(at, rules, index)
-        run_worlds(
-            the.worlds(at), the.boards(at), the.board_of(at), the.colliders(at), the.grid(at), the.logs(at),
-            the.tallies(at), the.held(at), start, stop, rules.ticks, rules.tick,
-        )  # fmt: skip
+        lanes = Lanes(the.worlds(at), the.board_of(at), the.logs(at), the.tallies(at))
+        playfields = Playfields(the.boards(at), the.colliders(at), the.grid(at))
+        run_worlds(lanes, playfields, the.held(at), start, stop, rules.ticks, rules.tick)
         for index in range(start, stop):
             reward, ends = settle(at, rules, index)
             the.rewards(at)[index] = reward

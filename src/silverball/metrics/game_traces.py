@@ -21,7 +21,7 @@ from silverball.physics.balls import create_ball
 from silverball.physics.kernel import internal, kernel
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
-from silverball.physics.records import EventKind, Fault, Kind, Part, records
+from silverball.physics.records import EventKind, Fault, Kind, Lane, Part, Playfield, records
 from silverball.physics.step import step_world
 from silverball.players.simple import LOOK_AHEAD, PlayerKind, pressed, strikes
 from silverball.world import WorldBatch
@@ -180,7 +180,7 @@ def play_balls(
             else:
                 left, right = pressed(player, world, board, colliders, tick)
             score = world.score
-            step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
+            step_world(Lane(world, log, tally), Playfield(board, colliders, grid), left, right, False, tick)
             game.ticks += 1
             follow_hits(game, board, colliders, ball, log, reached[index], seen[index], gaps)
             game.dry = game.dry + 1 if world.score == score else 0

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
 from silverball.physics.balls import put_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import NOTHING, EventKind, records
+from silverball.physics.records import NOTHING, EventKind, Lane, Playfield, records
 from silverball.physics.step import step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
@@ -170,7 +170,14 @@ def shoot(
             log.count, log.lost = 0, 0
             up = now < wait or shot.press <= now < shot.press + int(HOLD / tick)
             before = ball.x
-            step_world(world, board, colliders, grid, log, tally, up and left, up and not left, False, tick)
+            step_world(
+                Lane(world, log, tally),
+                Playfield(board, colliders, grid),
+                up and left,
+                up and not left,
+                False,
+                tick,
+            )
             if ball.id == 0:
                 break
             if now < shot.press:

@@ -17,7 +17,7 @@ from silverball.physics.kernel import internal, kernel
 from silverball.physics.motion import depart
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
+from silverball.physics.records import BALL_COUNT, NOTHING, Contact, EventKind, Kind, Outcome, Part
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
 from silverball.physics.trigonometry import sine_cosine
@@ -106,7 +106,7 @@ def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx
     depart(ball, board, 0.0)
     if is_known:
         leave(world, log)
-    record(log, EventKind.CREATED + 0, ball, NOTHING + 0, world.tick, 0.0, 0.0, 0.0, 0.0)
+    record(log, EventKind.CREATED + 0, ball, world.tick, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
 
 
 @kernel
@@ -149,7 +149,7 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
         ball.vz += board.jitter * cosine
         ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
         depart(ball, board, 0.0)
-        record(log, EventKind.JITTER + 0, ball, NOTHING + 0, world.tick, 0.0, sine, cosine, board.jitter)
+        record(log, EventKind.JITTER + 0, ball, world.tick, Contact(0.0, NOTHING, sine, cosine), board.jitter)
 
 
 @kernel

@@ -25,21 +25,24 @@ from silverball.physics.records import (
     Contact,
     EventKind,
     Kind,
+    Lane,
     Motion,
     Paddle,
     Part,
+    Playfield,
 )
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
 @kernel
-def search(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> None:
+def search(playfield: Playfield, ball: Any, tick: float) -> None:
     """Follow a ball's flight on from its age `due`, until a still part is met or `skin` [u] are gone.
 
     The flight of a slipping ball is followed to the end of the tick alone, where it ends. At equal times the
     earlier part in the order of the table is met first, which is the same in the mirror.
     """
+    board, colliders, grid = playfield.board, playfield.colliders, playfield.grid
     start = ball.due
     here = flown(ball, start)
     speed = sqrt(here.vx * here.vx + here.vz * here.vz)
@@ -101,9 +104,8 @@ def is_passed_by(c: Any, here: Ball, speed: float, way: float, stray: float) -> 
 
 @internal
 def first_contact(
-    board: Any, colliders: Any, grid: Any, left: Paddle, right: Paddle, ball: Any,
-    start: float, limit: float, tick: float,
-) -> Contact:  # fmt: skip
+    playfield: Playfield, left: Paddle, right: Paddle, ball: Any, start: float, limit: float, tick: float
+) -> Contact:
     """The first of all contacts of a ball between two times of the tick [s]; normals of still parts left out.
 
     Of a still part and a paddle at the very same moment the still part comes first, of two paddles the left.
@@ -114,8 +116,9 @@ def first_contact(
     while ball.meets == NOTHING and ball.due < ball.age + limit:
         if searches == FLIGHT_STEPS:
             return Contact(start, PAUSE, 0.0, 0.0)
-        search(board, colliders, grid, ball, tick)
+        search(playfield, ball, tick)
         searches += 1
+    board, colliders = playfield.board, playfield.colliders
     best = Contact(limit, NOTHING, 0.0, 0.0)
     if ball.meets != NOTHING:
         time = max(ball.due - ball.age, start)
@@ -149,21 +152,12 @@ def way_in(board: Any, start: float, end: float) -> float:
 
 
 @internal
-def resolve(
-    world: Any,
-    board: Any,
-    colliders: Any,
-    log: Any,
-    tally: Any,
-    ball: Any,
-    contact: Contact,
-    turn: float,
-) -> None:
+def resolve(lane: Lane, playfield: Playfield, ball: Any, contact: Contact, turn: float) -> None:
     """Let a contact happen: the ball bounces off a part, begins to roll, or is gone through the gutter.
 
     `turn` is the angular velocity of the paddle met [rad/s].
     """
-    time = contact.time
+    world, board, time = lane.world, playfield.board, contact.time
     if contact.part == PAUSE:
         return
     if contact.part == GRIP:
@@ -172,10 +166,10 @@ def resolve(
     land(ball, board, ball.age + time)
     if contact.part == GUTTER:
         world.drained += 1
-        record(log, EventKind.GUTTER + 0, ball, GUTTER + 0, world.tick, time, 1.0, 0.0, -ball.vx)
+        record(lane.log, EventKind.GUTTER + 0, ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx)
         clear(ball)
         return
-    c = colliders[board.collider_first + contact.part]
+    c = playfield.colliders[board.collider_first + contact.part]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
     acceleration = board.gravity
     if c.kind == Kind.WALL:
@@ -185,16 +179,17 @@ def resolve(
     elif turn != 0.0:
         ux, uz = surface_velocity(c, turn, ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz)
         acceleration += turn * turn * c.reach
-    speed = bounce(ball, board, c, Contact(time, contact.part, nx, nz), ux, uz, acceleration)
+    contact = Contact(time, contact.part, nx, nz)
+    speed = bounce(ball, board, c, contact, ux, uz, acceleration)
     kind = EventKind.TOUCH + 0
     if speed > board.hit_speed:
         kind = EventKind.HIT + 0
         world.score += c.points
-        tally[contact.part] += 1
+        lane.tally[contact.part] += 1
         count_hit(world, c.kind)
     else:
         world.touches += 1
-    record(log, kind, ball, contact.part, world.tick, time, nx, nz, speed)
+    record(lane.log, kind, ball, world.tick, contact, speed)
     depart(ball, board, time)
 
 

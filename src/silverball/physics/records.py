@@ -254,3 +254,49 @@ class Contact(NamedTuple):
     part: int
     nx: float
     nz: float
+
+
+class Playfield(NamedTuple):
+    """One board as the step reads it: its BOARD record, all COLLIDER records and the grids of all boards."""
+
+    board: Any
+    colliders: Any
+    grid: Any
+
+
+class Lane(NamedTuple):
+    """What changes in one world: its WORLD record, its LOG record and its hits of each part [part]."""
+
+    world: Any
+    log: Any
+    tally: Any
+
+
+class Playfields(NamedTuple):
+    """All boards of a batch.
+
+    Attributes:
+        boards: BOARD records [board].
+        colliders: COLLIDER records of all boards.
+        grid: The grids of all boards.
+    """
+
+    boards: Any
+    colliders: Any
+    grid: Any
+
+
+class Lanes(NamedTuple):
+    """What changes in the worlds of a batch.
+
+    Attributes:
+        worlds: WORLD records [world].
+        board_of: The board of each world [world].
+        logs: LOG records [world].
+        tallies: Hits of each part [world, part].
+    """
+
+    worlds: Any
+    board_of: Any
+    logs: Any
+    tallies: Any

@@ -8,10 +8,22 @@ shape: corners come out rounded by themselves, and the tip of a paddle has no no
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.records import Kind
+
+
+class Side(NamedTuple):
+    """A side of a triangle: from p to q [u], its unit direction u, its length [u]."""
+
+    px: float
+    pz: float
+    qx: float
+    qz: float
+    ux: float
+    uz: float
+    length: float
 
 
 @inlined
@@ -70,33 +82,22 @@ def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     if outside > best:
         side, best = 2, outside
     if side == 0:
-        return _side_distance(best, x, z, c.x0, c.z0, c.x1, c.z1, c.along_x0, c.along_z0, c.length0)
+        return _side_distance(best, x, z, Side(c.x0, c.z0, c.x1, c.z1, c.along_x0, c.along_z0, c.length0))
     if side == 1:
-        return _side_distance(best, x, z, c.x1, c.z1, c.x2, c.z2, c.along_x1, c.along_z1, c.length1)
-    return _side_distance(best, x, z, c.x2, c.z2, c.x0, c.z0, c.along_x2, c.along_z2, c.length2)
+        return _side_distance(best, x, z, Side(c.x1, c.z1, c.x2, c.z2, c.along_x1, c.along_z1, c.length1))
+    return _side_distance(best, x, z, Side(c.x2, c.z2, c.x0, c.z0, c.along_x2, c.along_z2, c.length2))
 
 
 @inlined
-def _side_distance(
-    outside: float,
-    x: float,
-    z: float,
-    px: float,
-    pz: float,
-    qx: float,
-    qz: float,
-    ux: float,
-    uz: float,
-    length: float,
-) -> tuple[float, float, float]:
-    """Distance from the side p → q or its ends, for a point `outside` away from the side's line."""
-    foot = (x - px) * ux + (z - pz) * uz
+def _side_distance(outside: float, x: float, z: float, side: Side) -> tuple[float, float, float]:
+    """Distance from a side or its ends, for a point `outside` away from the side's line."""
+    foot = (x - side.px) * side.ux + (z - side.pz) * side.uz
     if outside > 0.0:
         if foot < 0.0:
-            return point_distance(x, z, px, pz)
-        if foot > length:
-            return point_distance(x, z, qx, qz)
-    return outside, -uz, ux
+            return point_distance(x, z, side.px, side.pz)
+        if foot > side.length:
+            return point_distance(x, z, side.qx, side.qz)
+    return outside, -side.uz, side.ux
 
 
 @kernel

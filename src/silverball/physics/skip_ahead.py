@@ -13,7 +13,7 @@ from silverball.physics.contact import is_near, search, way_in
 from silverball.physics.flight import flight_to_ball, flown, time_to_line
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.motion import begin_to_roll, turn_slip
-from silverball.physics.records import GRIP, NOTHING, Motion
+from silverball.physics.records import GRIP, NOTHING, Motion, Playfield
 from silverball.physics.tolerances import FREE_GAP
 
 SHORTER = 1.0 - 1e-9  # a bound on a time is shortened by this share, so that its rounding cannot matter
@@ -26,15 +26,16 @@ def begins_to_roll(ball: Any, tick: float) -> bool:
 
 
 @inlined
-def is_undisturbed(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> bool:
+def is_undisturbed(playfield: Playfield, ball: Any, tick: float) -> bool:
     """Whether a ball meets nothing in the next tick, the other ball left aside."""
     if ball.id == 0:
         return True
     end = ball.age + tick
     if ball.due < end and ball.meets == NOTHING:
-        search(board, colliders, grid, ball, tick)
+        search(playfield, ball, tick)
     if ball.due < end and ball.meets != GRIP:
         return False
+    board = playfield.board
     share = 1.0 if ball.due >= end else 2.0  # room to spare for a ball that changes its flight on the way
     if ball.x + share * tick * (min(ball.vx, 0.0) - board.steepest * tick) > board.paddle_top:
         return True
@@ -56,10 +57,10 @@ def are_apart(board: Any, a: Any, b: Any, tick: float, share: float) -> bool:
 
 
 @internal
-def rolls_on(board: Any, colliders: Any, grid: Any, ball: Any, tick: float) -> bool:
+def rolls_on(playfield: Playfield, ball: Any, tick: float) -> bool:
     """Let a ball begin to roll in the next tick, far from everything else; whether it meets nothing then."""
-    begin_to_roll(ball, board)
-    search(board, colliders, grid, ball, tick)
+    begin_to_roll(ball, playfield.board)
+    search(playfield, ball, tick)
     return ball.due >= ball.age + tick
 
 
@@ -85,22 +86,21 @@ def undisturbed_ticks(board: Any, ball: Any, tick: float, most: int) -> int:
 
 
 @internal
-def free_ticks(board: Any, colliders: Any, grid: Any, a: Any, b: Any, tick: float, most: int) -> int:
+def free_ticks(playfield: Playfield, a: Any, b: Any, tick: float, most: int) -> int:
     """For how many of the next ticks, at most `most`, nothing happens to the balls."""
+    board = playfield.board
     turn_slip(a, board)
     turn_slip(b, board)
-    if not (
-        is_undisturbed(board, colliders, grid, a, tick) and is_undisturbed(board, colliders, grid, b, tick)
-    ):
+    if not (is_undisturbed(playfield, a, tick) and is_undisturbed(playfield, b, tick)):
         return 0
     change_a, change_b = begins_to_roll(a, tick), begins_to_roll(b, tick)
     # Twice the room: should b refuse after a has begun to roll, the tick is played with a's new flight, which
     # must not be looked at before it began.
     if not are_apart(board, a, b, tick, 2.0 if change_a or change_b else 1.0):
         return 0
-    if change_a and not rolls_on(board, colliders, grid, a, tick):
+    if change_a and not rolls_on(playfield, a, tick):
         return 0
-    if change_b and not rolls_on(board, colliders, grid, b, tick):
+    if change_b and not rolls_on(playfield, b, tick):
         return 0
     count = undisturbed_ticks(board, a, tick, most)
     count = undisturbed_ticks(board, b, tick, count)

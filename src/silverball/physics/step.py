@@ -24,14 +24,17 @@ from silverball.physics.motion import depart, end_flight, hold, land, let_go
 from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
 from silverball.physics.records import (
     NOTHING,
-    OTHER_BALL,
     PAUSE,
     Contact,
     EventKind,
     Fault,
+    Lane,
+    Lanes,
     Motion,
     Paddle,
     Part,
+    Playfield,
+    Playfields,
 )
 from silverball.physics.skip_ahead import are_apart, free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
@@ -40,21 +43,21 @@ from silverball.physics.validation import is_admitted, is_as_left, is_sound
 
 @kernel
 def step_world(
-    world: Any, board: Any, colliders: Any, grid: Any, log: Any, tally: Any,
-    raise_left: bool, raise_right: bool, shove: bool, tick: float,
-) -> None:  # fmt: skip
+    lane: Lane, playfield: Playfield, raise_left: bool, raise_right: bool, shove: bool, tick: float
+) -> None:
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    if is_ready(world, board, colliders, grid, log, tick):
+    world, board = lane.world, playfield.board
+    if is_ready(world, playfield, lane.log, tick):
         if shove:
-            shove_balls(world, board, log)
-        if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
-            turn_paddles(world, board, colliders, raise_left, raise_right, tick)
+            shove_balls(world, board, lane.log)
+        if free_ticks(playfield, world.ball[0], world.ball[1], tick, 1) == 1:
+            turn_paddles(world, board, playfield.colliders, raise_left, raise_right, tick)
             end_ticks(world, board, tick, 1 + 0)  # a bare 1 would be compiled as a version of its own
         else:
-            play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
+            play_tick(lane, playfield, raise_left, raise_right, tick)
         if not is_inside(world, board):
             is_sound(world, board)  # names the fault
-        leave(world, log)
+        leave(world, lane.log)
 
 
 @inlined
@@ -78,11 +81,9 @@ def end_ticks(world: Any, board: Any, tick: float, count: int) -> None:
 
 
 @internal
-def play_tick(
-    world: Any, board: Any, colliders: Any, grid: Any, log: Any, tally: Any,
-    raise_left: bool, raise_right: bool, tick: float,
-) -> None:  # fmt: skip
+def play_tick(lane: Lane, playfield: Playfield, raise_left: bool, raise_right: bool, tick: float) -> None:
     """Let everything happen that happens within a tick, in its order."""
+    world, board, colliders = lane.world, playfield.board, playfield.colliders
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
     left = aimed(left_part, world.paddle[0].angle, raise_left)
@@ -94,8 +95,8 @@ def play_tick(
     jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     while True:
         limit = min(tick, stop_left, stop_right)
-        meet_a = first_contact(board, colliders, grid, left, right, a, time, limit, tick)
-        meet_b = first_contact(board, colliders, grid, left, right, b, time, limit, tick)
+        meet_a = first_contact(playfield, left, right, a, time, limit, tick)
+        meet_b = first_contact(playfield, left, right, b, time, limit, tick)
         meet = Contact(min(meet_a.time, meet_b.time), NOTHING, 0.0, 0.0)
         if not apart:
             meet = first_meeting(board, a, b, time, meet.time)
@@ -105,15 +106,15 @@ def play_tick(
             break
 
         if meet.part != NOTHING:
-            balls_met(world, board, log, a, b, meet)
+            balls_met(world, board, lane.log, meet)
             busy_a, busy_b, meetings = busy_a + 1, busy_b + 1, meetings + 1
         elif meet_a.part != NOTHING and meet_a.time <= meet_b.time:
             turn = left.turn if meet_a.part == Part.LEFT_PADDLE else right.turn
-            resolve(world, board, colliders, log, tally, a, meet_a, turn)
+            resolve(lane, playfield, a, meet_a, turn)
             busy_a += 1
         elif meet_b.part != NOTHING:
             turn = left.turn if meet_b.part == Part.LEFT_PADDLE else right.turn
-            resolve(world, board, colliders, log, tally, b, meet_b, turn)
+            resolve(lane, playfield, b, meet_b, turn)
             busy_b += 1
         if time >= stop_left:
             left, stop_left = at_stop(left), NEVER
@@ -123,10 +124,10 @@ def play_tick(
         if busy_a >= jammed or busy_b >= jammed:
             both = JAM_SHARE * meetings >= jammed  # they press each other
             if both or busy_a >= jammed:
-                left, right = jam(world, board, colliders, log, a, left, right, time, again_a)
+                left, right = jam(lane, playfield, a, left, right, time, again_a)
                 busy_a, again_a = 0, True
             if both or busy_b >= jammed:
-                left, right = jam(world, board, colliders, log, b, left, right, time, again_b)
+                left, right = jam(lane, playfield, b, left, right, time, again_b)
                 busy_b, again_b = 0, True
             meetings = 0
             stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
@@ -149,9 +150,9 @@ def first_meeting(board: Any, a: Any, b: Any, start: float, limit: float) -> Con
 
 
 @internal
-def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact) -> None:
+def balls_met(world: Any, board: Any, log: Any, contact: Contact) -> None:
     """Let two balls bounce off each other; one that is held is like a wall."""
-    time = contact.time
+    a, b, time = world.ball[0], world.ball[1], contact.time
     if contact.part == PAUSE:
         return
     land(a, board, a.age + time)
@@ -168,7 +169,7 @@ def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact
         world.ball_hits += 1
     else:
         world.touches += 1
-    record(log, kind, a, OTHER_BALL + 0, world.tick, time, contact.nx, contact.nz, speed)
+    record(log, kind, a, world.tick, contact, speed)
     if a.motion != Motion.HELD:
         depart(a, board, time)
     if b.motion != Motion.HELD:
@@ -177,22 +178,22 @@ def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact
 
 @internal
 def jam(
-    world: Any, board: Any, colliders: Any, log: Any, ball: Any, left: Paddle, right: Paddle, time: float,
-    again: bool,
-) -> tuple[Paddle, Paddle]:  # fmt: skip
+    lane: Lane, playfield: Playfield, ball: Any, left: Paddle, right: Paddle, time: float, again: bool
+) -> tuple[Paddle, Paddle]:
     """Stop a jammed ball dead at a time of the tick, and stall the paddles at it; both paddles.
 
     If it is jammed again in the same tick, even with the paddles still, it is held until the tick is over.
     """
     if ball.id == 0 or ball.motion == Motion.HELD:
         return left, right
+    world, board, colliders = lane.world, playfield.board, playfield.colliders
     land(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
     left = stalled(left, colliders[board.collider_first + Part.LEFT_PADDLE], ball, near, time, again)
     right = stalled(right, colliders[board.collider_first + Part.RIGHT_PADDLE], ball, near, time, again)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
-    record(log, EventKind.JAM + 0, ball, NOTHING + 0, world.tick, time, 0.0, 0.0, 0.0)
+    record(lane.log, EventKind.JAM + 0, ball, world.tick, Contact(time, NOTHING, 0.0, 0.0), 0.0)
     if again:
         hold(ball, time)
     else:
@@ -226,11 +227,11 @@ def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
 
 
 @internal
-def is_ready(world: Any, board: Any, colliders: Any, grid: Any, log: Any, tick: float) -> bool:
+def is_ready(world: Any, playfield: Playfield, log: Any, tick: float) -> bool:
     """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
     if world.fault != Fault.NONE:
         return False
-    return is_as_left(world, board, log, tick) or is_admitted(world, board, colliders, grid, tick)
+    return is_as_left(world, playfield.board, log, tick) or is_admitted(world, playfield, tick)
 
 
 @inlined
@@ -245,19 +246,13 @@ def is_inside(world: Any, board: Any) -> bool:
 
 @kernel
 def run_worlds(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, logs: Any, tallies: Any,
-    actions: Any, first: int, end: int, ticks: int, tick: float,
-) -> None:  # fmt: skip
+    lanes: Lanes, playfields: Playfields, actions: Any, first: int, end: int, ticks: int, tick: float
+) -> None:
     """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
-        worlds: WORLD records [world].
-        boards: BOARD records [board].
-        board_of: The board of each world [world].
-        colliders: COLLIDER records of all boards.
-        grid: The grids of all boards.
-        logs: LOG records [world]; emptied first.
-        tallies: Hits of each part [world, part], added to.
+        lanes: The worlds; their logs are emptied first, their tallies added to.
+        playfields: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
@@ -270,21 +265,23 @@ def run_worlds(
     goes_on = ticks < 0
     ticks = abs(ticks)
     for index in range(first, end):
-        world, log, tally = worlds[index], logs[index], tallies[index]
-        board = boards[board_of[index]]
+        lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index])
+        world, log, board = lane.world, lane.log, playfields.boards[lanes.board_of[index]]
+        colliders = playfields.colliders
+        playfield = Playfield(board, colliders, playfields.grid)
         if not goes_on:
             log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, board, colliders, grid, log, tick):
+        if ticks == 0 or not is_ready(world, playfield, log, tick):
             continue
         step = 0
         while step < ticks and is_inside(world, board):
             row = 0 if is_held else step
             if actions[row, index, 2] and (not is_held or (step == 0 and not goes_on)):
                 shove_balls(world, board, log)
-            free = free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, ticks - step)
+            free = free_ticks(playfield, world.ball[0], world.ball[1], tick, ticks - step)
             if free == 0:
                 left, right = actions[row, index, 0], actions[row, index, 1]
-                play_tick(world, board, colliders, grid, log, tally, left, right, tick)
+                play_tick(lane, playfield, left, right, tick)
                 step += 1
                 continue
             count = 0

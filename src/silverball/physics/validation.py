@@ -18,7 +18,7 @@ from silverball.physics.grid import cell_of
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.motion import depart, is_lawful, leads_here, search_anew
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.records import Fault, Part
+from silverball.physics.records import Fault, Part, Playfield
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import DEEPEST, NEVER
 
@@ -45,9 +45,10 @@ def goes_on(ball: Any, board: Any, tick: float) -> bool:
 
 
 @internal
-def is_admitted(world: Any, board: Any, colliders: Any, grid: Any, tick: float) -> bool:
+def is_admitted(world: Any, playfield: Playfield, tick: float) -> bool:
     """Whether a state from outside can be, each ball on a flight of its own; if not, the fault is named."""
-    if not is_sound(world, board) or not is_clear(world, board, colliders, grid):
+    board = playfield.board
+    if not is_sound(world, board) or not is_clear(world, playfield):
         return False
     for slot in range(2):
         ball = world.ball[slot]
@@ -61,11 +62,12 @@ def is_admitted(world: Any, board: Any, colliders: Any, grid: Any, tick: float) 
 
 
 @internal
-def is_clear(world: Any, board: Any, colliders: Any, grid: Any) -> bool:
+def is_clear(world: Any, playfield: Playfield) -> bool:
     """Whether the paddles are within their stops and no ball is inside anything; if not, it is a named fault.
 
     Two balls that overlap are parted, if there is room.
     """
+    board, colliders = playfield.board, playfield.colliders
     for side in range(2):
         c, angle = colliders[board.collider_first + Part.LEFT_PADDLE + side], world.paddle[side].angle
         if not min(c.angle_rest, c.angle_up) <= angle <= max(c.angle_rest, c.angle_up):
@@ -75,15 +77,16 @@ def is_clear(world: Any, board: Any, colliders: Any, grid: Any) -> bool:
     for slot in range(2):
         ball = world.ball[slot]
         if ball.id != 0:
-            is_free = is_free and is_in_no_part(world, board, colliders, grid, ball.x, ball.z)
+            is_free = is_free and is_in_no_part(world, playfield, ball.x, ball.z)
     if not is_free:
         world.fault = Fault.INSIDE + 0
     return bool(is_free)
 
 
 @internal
-def is_in_no_part(world: Any, board: Any, colliders: Any, grid: Any, x: float, z: float) -> bool:
+def is_in_no_part(world: Any, playfield: Playfield, x: float, z: float) -> bool:
     """Whether a ball at (x, z) is inside no part, paddles as they stand."""
+    board, colliders, grid = playfield.board, playfield.colliders, playfield.grid
     if min(z - board.low_z, board.high_z - z, board.top_x - x) < -DEEPEST:
         return False
     least = board.ball_radius - DEEPEST

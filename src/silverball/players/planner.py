@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BOARD, LOG, LOG_SIZE, WORLD, Part, records
+from silverball.physics.records import BOARD, LOG, LOG_SIZE, WORLD, Lane, Part, Playfield, records
 from silverball.physics.skip_ahead import free_ticks
 from silverball.physics.step import end_ticks, is_inside, is_ready, play_tick, turn_paddles
 from silverball.players.plan import (
@@ -183,7 +183,7 @@ def plan_worlds(
         copies[2 * index] = worlds[index]
         root = copies[2 * index]
         if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(
-            root, board, colliders, grid, logs[index], length
+            root, Playfield(board, colliders, grid), logs[index], length
         ):
             dry = (world.tick - memory.scored_tick) * tick
             left, right = decide(
@@ -292,9 +292,9 @@ def look_ahead(
         most = horizon - step
         if now < plan.until:
             most = min(most, next_change(plan, now) - now)
-        free = free_ticks(board, colliders, grid, a, b, length, most)
+        free = free_ticks(Playfield(board, colliders, grid), a, b, length, most)
         if free == 0:
-            play_tick(world, board, colliders, grid, log, tally, left, right, length)
+            play_tick(Lane(world, log, tally), Playfield(board, colliders, grid), left, right, length)
             step += 1
         else:
             for _ in range(free):

@@ -16,7 +16,7 @@ import numpy as np
 from silverball.physics.audit import deepest
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import BALL_COUNT, Fault
+from silverball.physics.records import BALL_COUNT, Fault, Lane, Playfield
 from silverball.physics.step import step_world
 from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
@@ -156,7 +156,7 @@ def play_worlds(
                 left, right = buttons[index, 0], buttons[index, 1]
             else:
                 left, right = pressed(player, world, board, colliders, tick)
-            step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
+            step_world(Lane(world, log, tally), Playfield(board, colliders, grid), left, right, False, tick)
             if audit:
                 depths[index] = max(depths[index], deepest(world, board, colliders))
 

@@ -24,7 +24,7 @@ from silverball.physics.audit import (
     turned_for,
 )
 from silverball.physics.kernel import kernel
-from silverball.physics.records import BALL_COUNT, EventKind, Fault, Part
+from silverball.physics.records import BALL_COUNT, EventKind, Fault, Lane, Part, Playfield
 from silverball.physics.step import step_world
 from silverball.soak.driver import act, choose
 from silverball.soak.regions import BLOCKED, MAIN_GROUND, OFF_BOARD, ground_of, is_narrow, mark_at
@@ -287,7 +287,7 @@ def watched_tick(
     was_a, was_b = Was(a.id, a.x, a.z), Was(b.id, b.x, b.z)
     before = (world.paddle[0].angle, world.paddle[1].angle)
     left, right, shove = action.left != 0, action.right != 0, action.shove != 0
-    step_world(world, board, colliders, grid, log, tally, left, right, shove, tick)
+    step_world(Lane(world, log, tally), Playfield(board, colliders, grid), left, right, shove, tick)
     watch.frames += 1
     if world.fault != Fault.NONE:
         note(world, watch, Found.FAULT + 0, 0, world.tick, 0.0)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import LOG, WORLD, Fault, Outcome, Part, records
+from silverball.physics.records import LOG, WORLD, Fault, Lanes, Outcome, Part, Playfields, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
 from silverball.world import saved_world as states
@@ -119,14 +119,12 @@ class WorldBatch:
         if ticks > 1 and ticks > (piece := PIECE_WORK * self.threads // self.count or 1):
             self._run_pieces(held, ticks, piece)
             return
-        boards = self.boards
+        lanes = Lanes(self.state, self.board_of, self.logs, self.tallies)
+        playfields = Playfields(self.boards.board, self.boards.collider, self.boards.grid)
         self.on_threads(
-            lambda first, end: run_worlds(
-                self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
-                self.tallies, held, first, end, ticks, 1.0 / self.tick_rate,
-            ),
+            lambda first, end: run_worlds(lanes, playfields, held, first, end, ticks, 1.0 / self.tick_rate),
             self.count * abs(ticks),
-        )  # fmt: skip
+        )
 
     def _run_pieces(self, held: NDArray[np.bool_], ticks: int, piece: int) -> None:
         for begun in range(0, ticks, piece):

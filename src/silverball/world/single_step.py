@@ -20,7 +20,7 @@ from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
 from silverball.physics.kernel import SETTINGS, kernel, straight
-from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
+from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, Lanes, Playfields
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
 
@@ -81,7 +81,11 @@ class SingleStepper:
         """Move the world on with these buttons held, for ticks as `run_worlds` takes them; its fault."""
         if SETTINGS.DISABLE_JIT:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
-            cast(Any, run_worlds)(*self._arrays, 0, 1, ticks, self._tick)
+            state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
+            run_worlds(
+                Lanes(state, board_of, logs, tallies), Playfields(board, colliders, grid),
+                action, 0, 1, ticks, self._tick,
+            )  # fmt: skip
             return int(self._arrays[0][0]["fault"])
         return self._step(self._addresses, buttons, ticks)
 
@@ -131,18 +135,16 @@ def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
     action[0, 0, 0] = buttons & LEFT != 0
     action[0, 0, 1] = buttons & RIGHT != 0
     action[0, 0, 2] = buttons & JITTER != 0
-    run_worlds(
+    lanes = Lanes(
         worlds,
-        array_at(at.board, (1,), BOARD),
         array_at(at.board_of, (1,), INT),
-        array_at(at.collider, (at.colliders,), COLLIDER),
-        array_at(at.grid, (at.numbers,), SHORT_INT),
         array_at(at.log, (1,), LOG),
         array_at(at.tally, (1, at.parts), INT),
-        action,
-        0,
-        1,
-        ticks,
-        at.tick,
     )
+    playfields = Playfields(
+        array_at(at.board, (1,), BOARD),
+        array_at(at.collider, (at.colliders,), COLLIDER),
+        array_at(at.grid, (at.numbers,), SHORT_INT),
+    )
+    run_worlds(lanes, playfields, action, 0, 1, ticks, at.tick)
     return int(worlds[0].fault)

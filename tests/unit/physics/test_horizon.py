@@ -17,7 +17,7 @@ from boards import full_table, table_of
 from silverball.physics.contact import search
 from silverball.physics.flight import flight_to_shape
 from silverball.physics.motion import depart
-from silverball.physics.records import BALL, GRIP, NOTHING, Part
+from silverball.physics.records import BALL, GRIP, NOTHING, Part, Playfield
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table
 from silverball.world import World, WorldBatch
 from silverball.world.compile import Boards, compile_tables
@@ -90,7 +90,7 @@ def test_a_leap_on_a_board_without_paddles_ends_at_the_contact() -> None:
 
 @numba.njit(error_model="numpy")
 def _search(board, colliders, grid, ball, tick):  # pragma: no cover  (compiled)
-    search(board, colliders, grid, ball, tick)
+    search(Playfield(board, colliders, grid), ball, tick)
 
 
 def is_same_flight(before, after) -> bool:
