@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 
-from silverball.players.planner import BRANCHES, Planner, beat_of
+from silverball.players.planner import BRANCHES, Planner, ticks_per_decision
 from silverball.world import World
 
 
@@ -32,10 +32,10 @@ def main() -> None:
             world.create_ball()
         cpu, wall = time.thread_time(), time.perf_counter()
         buttons = planner.press(world)
-        if world.tick % beat_of(world.tick_rate) == 0:
+        if world.tick % ticks_per_decision(world.tick_rate) == 0:
             spent.append(1e3 * (time.thread_time() - cpu))
             passed.append(1e3 * (time.perf_counter() - wall))
-            steps.append(int(planner.notes.memories["steps"][0]))
+            steps.append(int(planner.state.memories["moves"][0]))
         world.step(*buttons)
     print(
         f"{options.table}: {len(spent)} decisions, {world.drained} balls lost, {world.score:,} points\n"

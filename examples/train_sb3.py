@@ -22,7 +22,7 @@ from stable_baselines3.common.vec_env import VecEnvWrapper, VecNormalize
 from silverball.envs import PinballVectorEnv
 from silverball.envs.sb3 import SilverballVecEnv
 from silverball.metrics.ball_time import time_balls
-from silverball.players.features import COLUMNS, MIRRORED, SEEN, see
+from silverball.players.features import COLUMNS, ENCODED, MIRRORED, encode
 from silverball.players.trained import DECISIONS, Policy
 from silverball.world import WorldBatch
 
@@ -36,10 +36,10 @@ class Seen(VecEnvWrapper):
     """Shows what `players/features.py` makes of an observation; balls on the right are seen in the mirror."""
 
     def __init__(self, envs):
-        super().__init__(envs, Box(-10.0, 10.0, (SEEN,), np.float32))
+        super().__init__(envs, Box(-10.0, 10.0, (ENCODED,), np.float32))
 
     def _see(self, rows):
-        seen, is_mirrored = see(rows[:, COLUMNS])
+        seen, is_mirrored = encode(rows[:, COLUMNS])
         return seen.astype(np.float32), is_mirrored
 
     def reset(self):  # noqa: D102  (what SB3 says of it)

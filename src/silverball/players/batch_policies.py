@@ -11,10 +11,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.players.planner import BRANCHES, Notes, beat_of, plan_batch
+from silverball.players.planner import BRANCHES, PlannerState, plan_batch
+from silverball.players.planner import ticks_per_decision as planner_ticks
 from silverball.players.registry import BUILT_IN, CheckedPlayer, check_name
 from silverball.players.simple import PlayerKind
-from silverball.players.trained import hold_of, press_batch
+from silverball.players.trained import press_batch
+from silverball.players.trained import ticks_per_decision as trained_ticks
 from silverball.world import World, WorldBatch
 
 
@@ -37,20 +39,20 @@ class PlannerPolicy:
     """One planner for each world of a batch."""
 
     def __init__(self, batch: WorldBatch, branches: int) -> None:
-        self._batch, self.every = batch, beat_of(batch.tick_rate)
-        self._notes = Notes(batch.count, batch.tallies.shape[1], branches)
-        self.buttons = self._notes.buttons
+        self._batch, self.every = batch, planner_ticks(batch.tick_rate)
+        self._state = PlannerState.of(batch.count, batch.tallies.shape[1], branches)
+        self.buttons = self._state.buttons
 
     def decide(self) -> None:
         """Choose the buttons to hold until the next decision."""
-        plan_batch(self._batch, self._notes)
+        plan_batch(self._batch, self._state)
 
 
 class TrainedPolicy:
     """The trained player for all worlds of a batch."""
 
     def __init__(self, batch: WorldBatch) -> None:
-        self._batch, self.every = batch, hold_of(batch.tick_rate)
+        self._batch, self.every = batch, trained_ticks(batch.tick_rate)
         self.buttons = np.zeros((batch.count, 2), np.bool_)
 
     def decide(self) -> None:

@@ -1,7 +1,6 @@
-"""What does each simple player press in the next tick?
+"""The simple players: idle, random, reflex and hold, as kernels.
 
-Players see the state of the world and keep none of their own, so that a game can be continued from any
-snapshot.
+They see the state of the world and have none of their own, so a game can be continued from any snapshot.
 """
 
 from __future__ import annotations
@@ -15,12 +14,13 @@ from silverball.physics.records import BALL_COUNT, Kind, Part
 from silverball.physics.trigonometry import sine_cosine
 from silverball.world import World
 
-RANDOM_KEY = 0x5EED  # sets the random player's numbers apart from the world's own
-RANDOM_HOLD = 0.15  # [s] for which the random player keeps a button as it is
-# The three numbers of the reflex player are the best of 40 random choices, by score a minute on both built-in
-# tables: balls last 40 s on average. Without looking ahead they last longer, but lie on paddles held up.
+RANDOM_KEY = 0x5EED  # keeps the random player's numbers apart from the world's own
+RANDOM_HOLD = 0.15  # [s] for which the random player leaves a button as it is
+# The three numbers of the reflex player are the best of 40 random choices, by score per minute on both
+# built-in tables: balls last 40 s on average. Without looking ahead they last longer, but lie on raised
+# paddles.
 NEAR_SHARE = 0.45  # of the paddle's length: nearer to the pivot the reflex player lets the ball roll on
-LOOK_AHEAD = 0.02  # [s] where the ball will be when the paddle gets going
+LOOK_AHEAD = 0.02  # [s] ahead, when the paddle starts to move, the reflex player looks for the ball
 STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
@@ -53,7 +53,7 @@ class SimplePlayer:
 
 @kernel
 def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) -> tuple[bool, bool]:
-    """The buttons (left, right) that a player holds in the next tick."""
+    """The buttons (left, right) that a simple player holds in the next tick; `player` is a PlayerKind."""
     if player == PlayerKind.RANDOM:
         turn = int(world.tick * tick / RANDOM_HOLD)
         key = world.seed ^ RANDOM_KEY
@@ -70,7 +70,7 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
 def press_all(
     player: int, worlds: Any, boards: Any, board_of: Any, colliders: Any, tick: float, actions: Any
 ) -> None:
-    """Write what a player holds in the next tick of each world into actions, bool [1, world, 3]."""
+    """Write what a player holds in the next tick of each world into `actions`, bool [1, world, 3]."""
     for index in range(len(worlds)):
         board = boards[board_of[index]]
         left, right = pressed(player, worlds[index], board, colliders, tick)
@@ -81,7 +81,7 @@ def press_all(
 def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
     """Whether the reflex player lifts this paddle: a ball will be just above its outer half.
 
-    `ahead` [s] is how far he looks ahead; what the ball meets until then he does not foresee.
+    It looks `ahead` [s], as if the ball met nothing until then.
     """
     if c.kind != Kind.PADDLE:
         return False

@@ -12,7 +12,7 @@ from silverball.errors import StateError
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import SoakLog, code_digest, log_name, soak
 from silverball.soak.checks import STUCK_AFTER, Found
-from silverball.soak.finding import Finding, again
+from silverball.soak.finding import Finding, reproduce
 from silverball.soak.rounds import Options
 from silverball.table import SlantWall, parse_table
 
@@ -31,11 +31,11 @@ def test_a_finding_is_written_down_and_happens_again_with_the_same_broken_solver
         findings = [Finding.from_text((tmp_path / name).read_text(), name) for name in log.findings]
         assert {finding.kind for finding in findings} <= kinds
         for finding in findings:
-            assert again(finding) == Found[finding.kind.upper()] != Found.NOTHING
+            assert reproduce(finding) == Found[finding.kind.upper()] != Found.NOTHING
             assert len(finding.actions) <= 60 + 1
             assert parse_table(finding.table_text).name.startswith("Random")
             assert Finding.from_text(finding.to_text(), "") == finding
-    assert {again(finding) for finding in findings} == {Found.NOTHING}
+    assert {reproduce(finding) for finding in findings} == {Found.NOTHING}
     assert sorted(tmp_path.iterdir()) == sorted([path, *(tmp_path / name for name in log.findings)])
 
 
@@ -46,7 +46,7 @@ def test_a_stuck_ball_is_written_down_with_all_of_its_minute(monkeypatch, tmp_pa
     assert log.totals.found["stuck"] == 1  # both balls come to lie in there
     finding = Finding.from_text((tmp_path / log.findings[0]).read_text(), "")
     assert len(finding.actions) == STUCK_AFTER * 60 + 1
-    assert again(finding) == Found.STUCK
+    assert reproduce(finding) == Found.STUCK
 
 
 def test_a_changed_finding_is_refused() -> None:

@@ -8,39 +8,13 @@ import numpy as np
 import pytest
 
 from boards import CLASSIC, PADDLES, mirrored, table_of
-from silverball.metrics.feel import measure, ratio, share, shots_as_dict
+from silverball.metrics.feel import measure, shots_as_dict
 from silverball.metrics.game_traces import TICK_RATE
 from silverball.metrics.shots import SHOT, Aim, Shots, shots_of
 from silverball.physics.records import records
 from silverball.table import load_table
 
 AIMS = (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)
-
-
-def test_a_ratio_of_games_that_are_all_alike_is_certain() -> None:
-    assert ratio([2.0, 4.0, 6.0], [1, 2, 3]) == (2.0, 2.0, 2.0)
-    assert all(math.isnan(part) for part in ratio([1.0], [0]))
-
-
-def test_the_interval_of_a_ratio_holds_the_true_one_in_19_of_20_cases() -> None:
-    rng = np.random.default_rng(0)
-    held, cases, games = 0, 400, 200
-    for _ in range(cases):
-        minutes = rng.exponential(2.0, games)
-        points = rng.poisson(30.0 * minutes)  # 30 a minute
-        found = ratio(points, minutes)
-        held += found.low < 30.0 < found.high
-    # 380 are expected; five standard deviations of the binomial below and above.
-    assert abs(held - 0.95 * cases) < 5.0 * math.sqrt(cases * 0.95 * 0.05)
-
-
-def test_the_interval_of_a_share_never_leaves_nought_to_one_and_is_not_empty_for_rare_cases() -> None:
-    none, half, every = share(0, 1000), share(500, 1000), share(1000, 1000)
-    assert none.value == none.low == 0.0
-    assert none.high == pytest.approx(1.96**2 / (1000 + 1.96**2))  # Wilson's at k = 0
-    assert every.low == pytest.approx(1.0 - none.high)
-    assert half.high - 0.5 == pytest.approx(0.5 - half.low)
-    assert half.high - 0.5 == pytest.approx(1.96 * math.sqrt(0.25 / 1000), rel=0.01)
 
 
 def shots_with(aims: str) -> Shots:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
 from boards import PADDLES, full_table, table_of
-from silverball.metrics.ball_time import STALL, median_life, time_balls
+from silverball.metrics.ball_time import STALL, time_balls
 from silverball.table import SlantWall
 from silverball.world import World, WorldBatch
 
@@ -16,7 +15,7 @@ CRADLE = (SlantWall(start=(0.0, 0.0), end=(1.5, -1.5)), SlantWall(start=(0.0, 0.
 
 
 def cradled() -> WorldBatch:
-    """Two worlds in which a ball lies for ever."""
+    """Two worlds in which a ball lies forever."""
     batch = WorldBatch(table_of(*CRADLE), count=2)
     batch.state["created"] = batch.state["ball"]["id"][:, 0] = 1
     batch.state["ball"]["x"][:, 0] = 1.0
@@ -61,40 +60,6 @@ def test_a_ball_that_outlives_the_time_is_censored() -> None:
     assert times.alive == 2
     assert times.median == (math.inf, math.inf, math.inf)
     assert times.mean[0] == pytest.approx(5.0)
-
-
-def test_the_median_of_balls_that_all_ended_is_that_of_their_lives() -> None:
-    rng = np.random.default_rng(1)
-    times = rng.exponential(50.0, 401)
-    median, low, high = median_life(times, np.ones(401, np.bool_))
-    assert median == np.median(times)
-    assert low < median < high
-
-
-def test_the_median_takes_censored_balls_for_what_they_are() -> None:
-    # Lives of a known distribution, each watched for a random time only: the median of what was seen is far
-    # too short, the estimate is not.
-    rng = np.random.default_rng(2)
-    covered, medians = 0, []
-    for _ in range(200):
-        lives, watched = rng.exponential(60.0, 300), rng.uniform(20.0, 200.0, 300)
-        seen = np.minimum(lives, watched)
-        median, low, high = median_life(seen, lives <= watched)
-        medians.append(median)
-        covered += low <= 60.0 * math.log(2.0) <= high
-        assert np.median(seen) < median
-    # 200 intervals of 95 %: 190 hold the truth, give or take four times √(200·0.95·0.05).
-    assert abs(covered - 190) < 13
-    assert np.mean(medians) == pytest.approx(60.0 * math.log(2.0), rel=0.02)
-
-
-def test_the_median_of_a_worked_example() -> None:
-    # One of 6 censored at 3 s. Survival: 5/6 at 1, 4/6 at 2, then of the 3 left at risk 2/3 and 1/3 of it.
-    times = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
-    ended = np.array([True, True, False, True, True, True])
-    assert median_life(times, ended)[0] == 4.0  # 4/6 · 2/3 = 0.444
-    ended[2] = True
-    assert median_life(times, ended)[0] == 3.0
 
 
 def test_a_board_with_paddles_and_nothing_else_gives_no_points() -> None:
