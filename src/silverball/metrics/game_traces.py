@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import internal, kernel
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.random import uniform
+from silverball.physics.portable_math import uniform
 from silverball.physics.records import BoardGeometry, EventKind, Fault, Kind, Lane, Part, records
 from silverball.physics.step import step_world
 from silverball.players.simple import LOOK_AHEAD, PlayerKind, pressed, strikes

@@ -21,11 +21,10 @@ On a table with friction the surfaces rub too; see friction.py.
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.friction import apply_ball_friction, apply_surface_friction
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import Contact
+from silverball.physics.records import BallRecord, BoardRecord, ColliderRecord, Contact
 from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, MIN_HOP_SPEED
 
 
@@ -76,7 +75,13 @@ def clamp_speed_along(vx: float, vz: float, nx: float, nz: float, cap: float) ->
 
 @internal
 def bounce(
-    ball: Any, board: Any, c: Any, contact: Contact, ux: float, uz: float, acceleration: float
+    ball: BallRecord,
+    board: BoardRecord,
+    c: ColliderRecord,
+    contact: Contact,
+    ux: float,
+    uz: float,
+    acceleration: float,
 ) -> float:
     """Give a ball the velocity and spin after its contact with a surface that moves with (ux, uz).
 
@@ -105,7 +110,7 @@ def bounce(
 
 
 @internal
-def bounce_balls(a: Any, b: Any, board: Any, contact: Contact) -> float:
+def bounce_balls(a: BallRecord, b: BallRecord, board: BoardRecord, contact: Contact) -> float:
     """Give two balls of equal mass the velocities and spins after their contact.
 
     Along the line of centres, from b to a, each takes half of (1 + e)·w.
@@ -127,7 +132,7 @@ def bounce_balls(a: Any, b: Any, board: Any, contact: Contact) -> float:
 
 
 @internal
-def bounce_off_held(ball: Any, board: Any, nx: float, nz: float) -> float:
+def bounce_off_held(ball: BallRecord, board: BoardRecord, nx: float, nz: float) -> float:
     """Give a ball the velocity and spin after its contact with one that is held, along (nx, nz) from it.
 
     Returns:

@@ -7,13 +7,12 @@ the ball's record until the flight ends. Paddles are searched for in every tick 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.bounce import bounce
+from silverball.physics.broad_phase import cell_of, is_culled, is_near
 from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
-from silverball.physics.grid import cell_of
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, start_flight, start_rolling
 from silverball.physics.paddle import contact_with_paddle, surface_velocity
 from silverball.physics.records import (
@@ -21,7 +20,7 @@ from silverball.physics.records import (
     NOTHING,
     NULL_EVENT,
     ROLL_START,
-    BallMotion,
+    BallRecord,
     BoardGeometry,
     Contact,
     EventKind,
@@ -30,13 +29,14 @@ from silverball.physics.records import (
     Motion,
     PaddleSweep,
     Part,
+    WorldRecord,
 )
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
 @kernel
-def find_contact(geometry: BoardGeometry, ball: Any, tick: float) -> None:
+def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None:
     """Follow a ball's flight on from its age `due`, until a still part is met or `skin` [u] are gone.
 
     The flight of a slipping ball is followed to the end of the tick alone, where it ends. At equal times the
@@ -61,15 +61,15 @@ def find_contact(geometry: BoardGeometry, ball: Any, tick: float) -> None:
     if here.z - travel < board.low_z:
         at = start + time_to_border(here.z - board.low_z, here.vz, ball.accel_z)
         if at < time:
-            time, part = at, Part.LEFT_WALL + 0
+            time, part = at, as_int(Part.LEFT_WALL)
     if here.z + travel > board.high_z:
         at = start + time_to_border(board.high_z - here.z, -here.vz, -ball.accel_z)
         if at < time:
-            time, part = at, Part.RIGHT_WALL + 0
+            time, part = at, as_int(Part.RIGHT_WALL)
     if here.x + travel > board.top_x:
         at = start + time_to_border(board.top_x - here.x, -here.vx, -ball.accel_x)
         if at < time:
-            time, part = at, Part.TOP_WALL + 0
+            time, part = at, as_int(Part.TOP_WALL)
     if here.x - travel < board.gutter:
         at = start + time_to_border(here.x - board.gutter, here.vx, ball.accel_x)
         if at < time:
@@ -87,27 +87,12 @@ def find_contact(geometry: BoardGeometry, ball: Any, tick: float) -> None:
     ball.contact_age, ball.contact_part = time, part
 
 
-@inlined
-def is_culled(c: Any, here: BallMotion, speed: float, travel: float, sagitta: float) -> bool:
-    """Whether a ball that goes so far and strays so far from its straight line misses a part's circle.
-
-    The line comes as near as  √(d² − (d·v)²/v²)  to the middle, or as d if it leads away.
-    """
-    dx, dz = here.x - c.x, here.z - c.z
-    square = dx * dx + dz * dz
-    if square > (c.reach + travel) * (c.reach + travel):
-        return True
-    outside = square - (c.reach + sagitta) * (c.reach + sagitta)
-    toward = -(dx * here.vx + dz * here.vz)
-    return outside > 0.0 and (toward <= 0.0 or outside * speed * speed > toward * toward)
-
-
 @internal
 def first_contact(
     geometry: BoardGeometry,
     left: PaddleSweep,
     right: PaddleSweep,
-    ball: Any,
+    ball: BallRecord,
     start: float,
     limit: float,
     tick: float,
@@ -138,29 +123,19 @@ def first_contact(
     travel = span * (speed + board.max_accel * span)
     if is_near(here.x, here.z, board.left_x, board.left_z, board.left_reach + travel):
         c = colliders[board.collider_first + Part.LEFT_PADDLE]
-        best = contact_with_paddle(c, Part.LEFT_PADDLE + 0, left, ball, board.ball_radius, speed, start, best)
+        best = contact_with_paddle(
+            c, as_int(Part.LEFT_PADDLE), left, ball, board.ball_radius, speed, start, best
+        )
     if is_near(here.x, here.z, board.right_x, board.right_z, board.right_reach + travel):
         c = colliders[board.collider_first + Part.RIGHT_PADDLE]
         best = contact_with_paddle(
-            c, Part.RIGHT_PADDLE + 0, right, ball, board.ball_radius, speed, start, best
+            c, as_int(Part.RIGHT_PADDLE), right, ball, board.ball_radius, speed, start, best
         )
     return best
 
 
-@inlined
-def is_near(x: float, z: float, px: float, pz: float, reach: float) -> bool:
-    """Whether two points are closer to each other than a reach that is positive."""
-    return (x - px) * (x - px) + (z - pz) * (z - pz) < reach * reach
-
-
-@inlined
-def max_travel(board: Any, start: float, end: float) -> float:
-    """A bound on a ball's way [u] between two times of a tick [s] that it began below the speed cap."""
-    return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.max_accel * end)
-
-
 @internal
-def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, omega: float) -> None:
+def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, omega: float) -> None:
     """Let a contact happen: the ball bounces off a part, begins to roll, or is gone through the gutter.
 
     `turn` is the angular velocity of the paddle met [rad/s].
@@ -174,7 +149,9 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, om
     advance_to(ball, board, ball.age + time)
     if contact.part == GUTTER:
         world.drained += 1
-        log_event(lane.log, EventKind.GUTTER + 0, ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx)
+        log_event(
+            lane.log, as_int(EventKind.GUTTER), ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx
+        )
         clear_ball(ball)
         return
     c = geometry.colliders[board.collider_first + contact.part]
@@ -189,9 +166,9 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, om
         acceleration += omega * omega * c.reach
     contact = Contact(time, contact.part, nx, nz)
     speed = bounce(ball, board, c, contact, ux, uz, acceleration)
-    kind = EventKind.TOUCH + 0
+    kind = as_int(EventKind.TOUCH)
     if speed > board.hit_speed:
-        kind = EventKind.HIT + 0
+        kind = as_int(EventKind.HIT)
         world.score += c.points
         lane.tally[contact.part] += 1
         count_hit(world, c.kind)
@@ -202,7 +179,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, om
 
 
 @inlined
-def clear_ball(ball: Any) -> None:
+def clear_ball(ball: BallRecord) -> None:
     """An empty slot is all zeros."""
     ball.x, ball.z, ball.vx, ball.vz = 0.0, 0.0, 0.0, 0.0
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
@@ -213,7 +190,7 @@ def clear_ball(ball: Any) -> None:
 
 
 @internal
-def count_hit(world: Any, kind: int) -> None:
+def count_hit(world: WorldRecord, kind: int) -> None:
     """One more hit of a kind of part."""
     if kind == Kind.WALL:
         world.wall_hits += 1

@@ -20,10 +20,17 @@ Body Systems", 1996, ch. 2), with the exact parabola in place of a bound on the 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import NOTHING, NULL_EVENT, OTHER_BALL, BallMotion, Contact
+from silverball.physics.records import (
+    NOTHING,
+    NULL_EVENT,
+    OTHER_BALL,
+    BallMotion,
+    BallRecord,
+    ColliderRecord,
+    Contact,
+)
 from silverball.physics.shapes import distance, point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, NEWTON_TIME
 
@@ -48,7 +55,7 @@ def stays_open(gap: float, rate: float, gap_accel: float, h: float) -> bool:
 
 
 @inlined
-def state_at(ball: Any, age: float) -> BallMotion:
+def state_at(ball: BallRecord, age: float) -> BallMotion:
     """The ball at an age of its flight:  p + v·h + ½·a·h²,  v + a·h."""
     return BallMotion(
         ball.start_x + age * (ball.start_vx + 0.5 * ball.accel_x * age),
@@ -78,7 +85,9 @@ def time_to_border(gap: float, rate: float, gap_accel: float) -> float:
 
 
 @kernel
-def time_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float) -> tuple[float, bool]:
+def time_to_shape(
+    c: ColliderRecord, ball: BallRecord, radius: float, start: float, limit: float
+) -> tuple[float, bool]:
     """When a ball first meets a shape that stands still, from the age `start` on and before `limit`.
 
     Returns:

@@ -21,9 +21,9 @@ grip's elasticity.
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, internal
+from silverball.physics.records import BallRecord, BoardRecord
 
 ALONG_SHARE = 3.5  # slip along t changes by this times the impulse
 UPRIGHT_SHARE = 2.5  # slip along y, where only the spin changes; also the spin's own share
@@ -41,7 +41,9 @@ def _friction(slip_t: float, slip_y: float, bodies: float, most: float) -> tuple
 
 
 @inlined
-def _apply_friction_impulse(ball: Any, curvature: float, nx: float, nz: float, jt: float, jy: float) -> None:
+def _apply_friction_impulse(
+    ball: BallRecord, curvature: float, nx: float, nz: float, jt: float, jy: float
+) -> None:
     """Give a ball an impulse along t and y at the point −r·n of its surface."""
     gain = UPRIGHT_SHARE * curvature
     ball.vx -= jt * nz
@@ -53,7 +55,7 @@ def _apply_friction_impulse(ball: Any, curvature: float, nx: float, nz: float, j
 
 @internal
 def apply_surface_friction(
-    ball: Any, board: Any, nx: float, nz: float, ux: float, uz: float, normal_impulse: float
+    ball: BallRecord, board: BoardRecord, nx: float, nz: float, ux: float, uz: float, normal_impulse: float
 ) -> None:
     """Friction at a surface that moves with (ux, uz) and pushes with an impulse [u/s] along (nx, nz)."""
     radius = board.ball_radius
@@ -64,7 +66,9 @@ def apply_surface_friction(
 
 
 @internal
-def apply_ball_friction(a: Any, b: Any, board: Any, nx: float, nz: float, normal_impulse: float) -> None:
+def apply_ball_friction(
+    a: BallRecord, b: BallRecord, board: BoardRecord, nx: float, nz: float, normal_impulse: float
+) -> None:
     """Friction between two balls that push each other with an impulse [u/s] along (nx, nz), from b to a.
 
     b's surface at the contact lies at +r·n, so its spin adds to a's; it takes the opposite impulse there,

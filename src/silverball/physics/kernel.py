@@ -32,6 +32,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+from numba import extending, types
 from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import INDEX, CodeCache, discard, read_code, remove, sweep
@@ -108,6 +109,22 @@ def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
     types = tuple(cast(Any, numba).typeof(one) for one in arguments)
     found: Callable[..., Any] = function.compile(types)
     return found
+
+
+@extending.intrinsic
+def _compiled_as_int(typing_context: Any, value: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.cast(builder, arguments[0], signature.args[0], types.int64)
+
+    return types.int64(value), generate
+
+
+as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
+"""The plain integer of an enum's member or of a literal.
+
+To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
+them would be compiled once for each.
+"""
 
 
 @cache

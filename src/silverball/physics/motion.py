@@ -21,12 +21,11 @@ Source of 2/7 and 5/7: moment of inertia 2/5·m·r² of a solid sphere; e.g. A. 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.bounce import clamp_speed
 from silverball.physics.flight import state_at
-from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import NOTHING, BallMotion, Motion
+from silverball.physics.kernel import as_int, inlined, internal
+from silverball.physics.records import NOTHING, BallMotion, BallRecord, BoardRecord, Motion
 from silverball.physics.tolerances import MIN_SLIP_SPEED, NEVER
 
 ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
@@ -35,44 +34,44 @@ LONGER = 1.0 + 1e-9  # for the rounding of a time
 
 
 @inlined
-def store(ball: Any, at: BallMotion) -> None:
+def store(ball: BallRecord, at: BallMotion) -> None:
     """Write a ball's place and velocity into its record."""
     ball.x, ball.z, ball.vx, ball.vz = at.x, at.z, at.vx, at.vz
 
 
 @inlined
-def start_flight(ball: Any, board: Any, offset: float) -> None:
+def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
     """Begin a new flight from where the ball's record says it is, so late in the tick [s]."""
     _begin(ball, offset)
     if board.normal_accel == 0.0:
-        ball.accel_x, ball.accel_z, ball.motion = board.accel_x, board.accel_z, Motion.SLIDING + 0
+        ball.accel_x, ball.accel_z, ball.motion = board.accel_x, board.accel_z, as_int(Motion.SLIDING)
         ball.roll_age = NEVER
     else:
         _set_friction_motion(ball, board)
 
 
 @internal
-def hold_still(ball: Any, offset: float) -> None:
+def hold_still(ball: BallRecord, offset: float) -> None:
     """Let a ball stay where its record says it is, from so late in the tick [s] until `release`."""
     _begin(ball, offset)
     ball.accel_x, ball.accel_z, ball.motion, ball.roll_age, ball.contact_age = (
         0.0,
         0.0,
-        Motion.HELD + 0,
+        as_int(Motion.HELD),
         NEVER,
         NEVER,
     )
 
 
 @inlined
-def release(ball: Any, board: Any, tick: float) -> None:
+def release(ball: BallRecord, board: BoardRecord, tick: float) -> None:
     """Let a ball that was held move on from the end of the tick."""
     if ball.motion == Motion.HELD:
         start_flight(ball, board, tick)
 
 
 @inlined
-def restart_slip(ball: Any, board: Any) -> None:
+def restart_slip(ball: BallRecord, board: BoardRecord) -> None:
     """Let a slipping ball's friction follow its slip again: the direction is held for a tick at most."""
     if ball.motion == Motion.SLIPPING and ball.id != 0:
         _begin(ball, 0.0)
@@ -80,26 +79,26 @@ def restart_slip(ball: Any, board: Any) -> None:
 
 
 @inlined
-def _begin(ball: Any, offset: float) -> None:
+def _begin(ball: BallRecord, offset: float) -> None:
     ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = ball.x, ball.z, ball.vx, ball.vz
     ball.ticks, ball.offset, ball.age = 0, offset, -offset
     reset_search(ball)
 
 
 @inlined
-def reset_search(ball: Any) -> None:
+def reset_search(ball: BallRecord) -> None:
     """Forget what a flight is known to meet: it will be searched from its beginning."""
     ball.contact_age, ball.contact_part = 0.0, NOTHING
 
 
 @internal
-def _set_friction_motion(ball: Any, board: Any) -> None:
+def _set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
     """`set_friction_motion`, not compiled into its many callers."""
     set_friction_motion(ball, board)
 
 
 @inlined
-def set_friction_motion(ball: Any, board: Any) -> None:
+def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
     """Decide whether a ball on a playfield with friction slips or rolls, and its acceleration.
 
     Along its direction the slip falls from |u| at the rate  7/2·μ·p − g·u/|u|.
@@ -110,7 +109,7 @@ def set_friction_motion(ball: Any, board: Any) -> None:
     ball.roll_age = NEVER
     if speed <= MIN_SLIP_SPEED:
         if board.gravity <= SLIP_SHARE * grip:
-            ball.motion = Motion.ROLLING + 0
+            ball.motion = as_int(Motion.ROLLING)
             ball.accel_x, ball.accel_z = ROLLING_SHARE * board.accel_x, ROLLING_SHARE * board.accel_z
             return
         along_x, along_z = (
@@ -123,19 +122,19 @@ def set_friction_motion(ball: Any, board: Any) -> None:
         rate = SLIP_SHARE * grip - (board.accel_x * along_x + board.accel_z * along_z)
         if rate > 0.0:
             ball.roll_age = speed / rate
-    ball.motion = Motion.SLIPPING + 0
+    ball.motion = as_int(Motion.SLIPPING)
     ball.accel_x = board.accel_x - grip * along_x
     ball.accel_z = board.accel_z - grip * along_z
 
 
 @inlined
-def slip(ball: Any, board: Any) -> tuple[float, float]:
+def slip(ball: BallRecord, board: BoardRecord) -> tuple[float, float]:
     """Velocity [u/s] of the ball's lowest point, from its record."""
     return ball.vx + board.ball_radius * ball.spin_z, ball.vz - board.ball_radius * ball.spin_x
 
 
 @inlined
-def advance_to(ball: Any, board: Any, age: float) -> None:
+def advance_to(ball: BallRecord, board: BoardRecord, age: float) -> None:
     """Bring the ball's record, spin included, to an age of its flight."""
     store(ball, state_at(ball, age))
     if board.normal_accel != 0.0:
@@ -143,13 +142,13 @@ def advance_to(ball: Any, board: Any, age: float) -> None:
 
 
 @inlined
-def _roll(ball: Any, board: Any) -> None:
+def _roll(ball: BallRecord, board: BoardRecord) -> None:
     """Give a ball the spin with which its lowest point stands still."""
     ball.spin_x, ball.spin_z = ball.vz * board.curvature, -ball.vx * board.curvature
 
 
 @inlined
-def _turn(ball: Any, board: Any, age: float) -> None:
+def _turn(ball: BallRecord, board: BoardRecord, age: float) -> None:
     """The spin at an age of the flight: of rolling, or changed by friction f:  dω/dt = 5/(2r)·(−f_z, f_x)."""
     if ball.motion == Motion.ROLLING:
         _roll(ball, board)
@@ -160,7 +159,7 @@ def _turn(ball: Any, board: Any, age: float) -> None:
 
 
 @internal
-def start_rolling(ball: Any, board: Any) -> None:
+def start_rolling(ball: BallRecord, board: BoardRecord) -> None:
     """Let a ball whose slip comes to its end roll: an impulse −2/7·u takes away what is left of it."""
     time = ball.contact_age - ball.age
     advance_to(ball, board, ball.contact_age)
@@ -172,7 +171,7 @@ def start_rolling(ball: Any, board: Any) -> None:
 
 
 @inlined
-def advance_ticks(ball: Any, board: Any, tick: float, count: int) -> None:
+def advance_ticks(ball: BallRecord, board: BoardRecord, tick: float, count: int) -> None:
     """Bring a ball to the end of a tick, or of several, and clamp its speed; else the flight goes on."""
     if ball.id == 0:
         return
@@ -185,7 +184,7 @@ def advance_ticks(ball: Any, board: Any, tick: float, count: int) -> None:
 
 
 @inlined
-def is_on_flight(ball: Any, tick: float) -> bool:
+def is_on_flight(ball: BallRecord, tick: float) -> bool:
     """Whether the flight in a ball's record leads to where it is: not so after a change from outside."""
     at = state_at(ball, ball.age)
     return (
@@ -198,7 +197,7 @@ def is_on_flight(ball: Any, tick: float) -> bool:
 
 
 @internal
-def has_valid_motion(ball: Any, board: Any, tick: float) -> bool:
+def has_valid_motion(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball moves as its board lets balls move, on a flight that began before this tick."""
     if not (0.0 <= ball.offset <= tick * LONGER and ball.age >= tick - tick * LONGER):
         return False
@@ -217,7 +216,7 @@ def has_valid_motion(ball: Any, board: Any, tick: float) -> bool:
 
 
 @internal
-def is_slipping(ball: Any, board: Any) -> bool:
+def is_slipping(ball: BallRecord, board: BoardRecord) -> bool:
     """Whether the lowest point of a ball rubs over the playfield."""
     slip_x, slip_z = slip(ball, board)
     return slip_x * slip_x + slip_z * slip_z > MIN_SLIP_SPEED * MIN_SLIP_SPEED

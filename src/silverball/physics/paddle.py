@@ -12,18 +12,17 @@ and a surface that turns with ω moves with (ω·r_z, −ω·r_x) at r from the 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import NULL_EVENT, Contact, PaddleSweep
+from silverball.physics.portable_math import sine_cosine
+from silverball.physics.records import NULL_EVENT, BallRecord, ColliderRecord, Contact, PaddleSweep
 from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, MIN_ADVANCE_GAP, NEVER
-from silverball.physics.trigonometry import sine_cosine
 
 
 @inlined
-def start_sweep(c: Any, angle: float, raised: bool) -> PaddleSweep:
+def start_sweep(c: ColliderRecord, angle: float, raised: bool) -> PaddleSweep:
     """A paddle in a tick that it begins at this angle, turning at constant speed to its button's stop."""
     stop = c.angle_up if raised else c.angle_rest
     omega = 0.0
@@ -68,7 +67,7 @@ def stop_sweep(paddle: PaddleSweep, time: float) -> PaddleSweep:
 
 
 @inlined
-def surface_velocity(c: Any, omega: float, x: float, z: float) -> tuple[float, float]:
+def surface_velocity(c: ColliderRecord, omega: float, x: float, z: float) -> tuple[float, float]:
     """Velocity [u/s] of the turning paddle's surface at (x, z) [u]:  ω × r."""
     rx = x - c.x
     rz = c.side * (z - c.z)
@@ -76,14 +75,14 @@ def surface_velocity(c: Any, omega: float, x: float, z: float) -> tuple[float, f
 
 
 @kernel
-def paddle_distance(c: Any, angle: float, x: float, z: float) -> tuple[float, float, float]:
+def paddle_distance(c: ColliderRecord, angle: float, x: float, z: float) -> tuple[float, float, float]:
     """Distance of a point from a paddle at an angle, and the unit normal there."""
     sine, cosine = sine_cosine(angle)
     return _distance_turned(c, sine, cosine, x, z)
 
 
 @inlined
-def stationary_sine_cosine(c: Any, angle: float) -> tuple[float, float]:
+def stationary_sine_cosine(c: ColliderRecord, angle: float) -> tuple[float, float]:
     """Sine and cosine of the angle of a paddle that stands still, at its stops by heart."""
     if angle == c.angle_rest:
         return c.sine_rest, c.cosine_rest
@@ -93,7 +92,9 @@ def stationary_sine_cosine(c: Any, angle: float) -> tuple[float, float]:
 
 
 @inlined
-def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> tuple[float, float, float]:
+def _distance_turned(
+    c: ColliderRecord, sine: float, cosine: float, x: float, z: float
+) -> tuple[float, float, float]:
     rx = x - c.x
     rz = c.side * (z - c.z)
     gap, nx, nz = _outline_distance(c, rx * cosine - rz * sine, rx * sine + rz * cosine)
@@ -101,7 +102,7 @@ def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> 
 
 
 @inlined
-def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Distance from the paddle's triangle in its own frame, and the unit normal there.
 
     The triangle is the same on both sides of the line from pivot to tip, so the lower side is seen as the
@@ -128,10 +129,10 @@ def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 
 @internal
 def contact_with_paddle(
-    c: Any,
+    c: ColliderRecord,
     part: int,
     paddle: PaddleSweep,
-    ball: Any,
+    ball: BallRecord,
     radius: float,
     speed: float,
     start: float,

@@ -12,7 +12,7 @@ positive).
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -224,6 +224,19 @@ LOG = np.dtype(
 )  # fmt: skip
 
 
+# The arguments of kernels: rows of arrays of these types, and whole arrays. mypy cannot know them.
+WorldRecord: TypeAlias = Any  # a WORLD record
+BallRecord: TypeAlias = Any  # a BALL record
+PaddleRecord: TypeAlias = Any  # a PADDLE record
+BoardRecord: TypeAlias = Any  # a BOARD record
+ColliderRecord: TypeAlias = Any  # a COLLIDER record
+LogRecord: TypeAlias = Any  # a LOG record
+Colliders: TypeAlias = Any  # COLLIDER records [collider] of all boards
+Grid: TypeAlias = Any  # i4 [number]: the grids of all boards
+Places: TypeAlias = Any  # f8 [place, 2]: centres (x, z) [u] of the squares in which balls may be created
+Tally: TypeAlias = Any  # i8 [part]: hits of each part of one board
+
+
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
     """An array of zeroed records. Without the JIT, `record.field` takes one of NumPy's record arrays."""
     array = np.zeros(count, dtype)
@@ -257,37 +270,31 @@ class Contact(NamedTuple):
 
 
 class BoardGeometry(NamedTuple):
-    """One board as the step reads it: its BOARD record, all COLLIDER records and the grids of all boards."""
+    """One board as the step reads it, with the colliders and grids of all boards."""
 
-    board: Any
-    colliders: Any
-    grid: Any
+    board: BoardRecord
+    colliders: Colliders
+    grid: Grid
 
 
 class Lane(NamedTuple):
-    """What changes in one world: its WORLD record, its LOG record and its hits of each part [part]."""
+    """One world of a batch with its log and tally: all that a step writes."""
 
-    world: Any
-    log: Any
-    tally: Any
+    world: WorldRecord
+    log: LogRecord
+    tally: Tally
 
 
 class BatchGeometry(NamedTuple):
-    """All boards of a batch.
-
-    Attributes:
-        boards: BOARD records [board].
-        colliders: COLLIDER records of all boards.
-        grid: The grids of all boards.
-    """
+    """All boards of a batch: BOARD records [board], with their colliders and grids."""
 
     boards: Any
-    colliders: Any
-    grid: Any
+    colliders: Colliders
+    grid: Grid
 
 
 class Lanes(NamedTuple):
-    """What changes in the worlds of a batch.
+    """The worlds of a batch with their logs and tallies: all that a step writes.
 
     Attributes:
         worlds: WORLD records [world].

@@ -7,26 +7,25 @@ may be shorter than it could be, never longer.
 
 from __future__ import annotations
 
-from typing import Any
-
-from silverball.physics.contact import find_contact, is_near, max_travel
+from silverball.physics.broad_phase import is_near, max_travel
+from silverball.physics.contact import find_contact
 from silverball.physics.flight import contact_with_ball, state_at, time_to_line
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.motion import restart_slip, start_rolling
-from silverball.physics.records import NOTHING, ROLL_START, BoardGeometry, Motion
+from silverball.physics.records import NOTHING, ROLL_START, BallRecord, BoardGeometry, BoardRecord, Motion
 from silverball.physics.tolerances import FREE_GAP
 
 SHORTER = 1.0 - 1e-9  # a bound on a time is shortened by this share, so that its rounding cannot matter
 
 
 @inlined
-def starts_rolling_next(ball: Any, tick: float) -> bool:
+def starts_rolling_next(ball: BallRecord, tick: float) -> bool:
     """Whether the slip of a ball comes to its end in the next tick, before it meets anything."""
     return ball.contact_part == ROLL_START and ball.contact_age < ball.age + tick and ball.id != 0
 
 
 @inlined
-def is_undisturbed(geometry: BoardGeometry, ball: Any, tick: float) -> bool:
+def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
     """Whether a ball meets nothing in the next tick, the other ball left aside."""
     if ball.id == 0:
         return True
@@ -49,7 +48,7 @@ def is_undisturbed(geometry: BoardGeometry, ball: Any, tick: float) -> bool:
 
 
 @inlined
-def cannot_meet(board: Any, a: Any, b: Any, tick: float, share: float) -> bool:
+def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, share: float) -> bool:
     """Whether the balls are too far from each other to meet in the next tick, with so much room to spare."""
     if a.id == 0 or b.id == 0:
         return True
@@ -59,7 +58,7 @@ def cannot_meet(board: Any, a: Any, b: Any, tick: float, share: float) -> bool:
 
 
 @internal
-def rolls_undisturbed(geometry: BoardGeometry, ball: Any, tick: float) -> bool:
+def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
     """Let a ball begin to roll in the next tick, far from everything else; whether it meets nothing then."""
     start_rolling(ball, geometry.board)
     find_contact(geometry, ball, tick)
@@ -67,7 +66,7 @@ def rolls_undisturbed(geometry: BoardGeometry, ball: Any, tick: float) -> bool:
 
 
 @inlined
-def undisturbed_ticks(board: Any, ball: Any, tick: float, most: int) -> int:
+def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, most: int) -> int:
     """For how many ticks, at least one, a ball undisturbed in the next one goes on, the other left aside.
 
     Until its contact is due, it can be in reach of a paddle, or its speed reaches the cap.
@@ -88,7 +87,7 @@ def undisturbed_ticks(board: Any, ball: Any, tick: float, most: int) -> int:
 
 
 @internal
-def event_free_ticks(geometry: BoardGeometry, a: Any, b: Any, tick: float, most: int) -> int:
+def event_free_ticks(geometry: BoardGeometry, a: BallRecord, b: BallRecord, tick: float, most: int) -> int:
     """For how many of the next ticks, at most `most`, nothing happens to the balls."""
     board = geometry.board
     restart_slip(a, board)

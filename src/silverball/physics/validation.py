@@ -9,22 +9,27 @@ comes to the same bits. A ball on no such flight begins a new one from where it 
 
 from __future__ import annotations
 
-from typing import Any
-
 from silverball.physics.balls import separate_balls
-from silverball.physics.contact import is_near
+from silverball.physics.broad_phase import cell_of, is_near
 from silverball.physics.event_log import flight_checksum
-from silverball.physics.grid import cell_of
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import has_valid_motion, is_on_flight, reset_search, start_flight
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.records import BoardGeometry, Fault, Part
+from silverball.physics.records import (
+    BallRecord,
+    BoardGeometry,
+    BoardRecord,
+    Fault,
+    LogRecord,
+    Part,
+    WorldRecord,
+)
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import MAX_DEPTH, NEVER
 
 
 @inlined
-def is_unchanged(world: Any, board: Any, log: Any, tick: float) -> bool:
+def is_unchanged(world: WorldRecord, board: BoardRecord, log: LogRecord, tick: float) -> bool:
     """Whether the balls are on the flights, and the paddles at the angles, that the last call left."""
     return (
         flight_checksum(world) == log.checksum
@@ -34,7 +39,7 @@ def is_unchanged(world: Any, board: Any, log: Any, tick: float) -> bool:
 
 
 @inlined
-def continues_flight(ball: Any, board: Any, tick: float) -> bool:
+def continues_flight(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball is on a flight that has not come to its end yet; an empty slot is."""
     return ball.id == 0 or (
         ball.age <= ball.contact_age
@@ -45,7 +50,7 @@ def continues_flight(ball: Any, board: Any, tick: float) -> bool:
 
 
 @internal
-def admit_state(world: Any, geometry: BoardGeometry, tick: float) -> bool:
+def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> bool:
     """Whether a state from outside can be, each ball on a flight of its own; if not, the fault is named."""
     board = geometry.board
     if not validate_world(world, board) or not validate_positions(world, geometry):
@@ -62,7 +67,7 @@ def admit_state(world: Any, geometry: BoardGeometry, tick: float) -> bool:
 
 
 @internal
-def validate_positions(world: Any, geometry: BoardGeometry) -> bool:
+def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
     """Whether the paddles are within their stops and no ball is inside anything; if not, it is a named fault.
 
     Two balls that overlap are parted, if there is room.
@@ -71,7 +76,7 @@ def validate_positions(world: Any, geometry: BoardGeometry) -> bool:
     for side in range(2):
         c, angle = colliders[board.collider_first + Part.LEFT_PADDLE + side], world.paddle[side].angle
         if not min(c.angle_rest, c.angle_up) <= angle <= max(c.angle_rest, c.angle_up):
-            world.fault = Fault.BEYOND_STOP + 0
+            world.fault = as_int(Fault.BEYOND_STOP)
             return False
     is_free = separate_balls(world, board, colliders)
     for slot in range(2):
@@ -79,12 +84,12 @@ def validate_positions(world: Any, geometry: BoardGeometry) -> bool:
         if ball.id != 0:
             is_free = is_free and is_clear_of_parts(world, geometry, ball.x, ball.z)
     if not is_free:
-        world.fault = Fault.INSIDE + 0
+        world.fault = as_int(Fault.INSIDE)
     return bool(is_free)
 
 
 @internal
-def is_clear_of_parts(world: Any, geometry: BoardGeometry, x: float, z: float) -> bool:
+def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: float) -> bool:
     """Whether a ball at (x, z) is inside no part, paddles as they stand."""
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
@@ -105,7 +110,7 @@ def is_clear_of_parts(world: Any, geometry: BoardGeometry, x: float, z: float) -
 
 
 @kernel
-def validate_world(world: Any, board: Any) -> bool:
+def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether the balls are where and as fast as they can be; if not, the world gets a named fault."""
     for slot in range(2):
         ball = world.ball[slot]
@@ -113,20 +118,20 @@ def validate_world(world: Any, board: Any) -> bool:
             continue
         sum_of_all = ball.x + ball.z + ball.vx + ball.vz + ball.spin_x + ball.spin_y + ball.spin_z
         if not is_finite(sum_of_all):
-            world.fault = Fault.NOT_FINITE + 0
+            world.fault = as_int(Fault.NOT_FINITE)
         elif not (abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width):
-            world.fault = Fault.OUTSIDE + 0
+            world.fault = as_int(Fault.OUTSIDE)
         else:
-            world.fault = Fault.TOO_FAST + 0
+            world.fault = as_int(Fault.TOO_FAST)
         return False
     if not (is_finite(world.paddle[0].angle) and is_finite(world.paddle[1].angle)):
-        world.fault = Fault.NOT_FINITE + 0
+        world.fault = as_int(Fault.NOT_FINITE)
         return False
     return True
 
 
 @inlined
-def is_valid_ball(ball: Any, board: Any) -> bool:
+def is_valid_ball(ball: BallRecord, board: BoardRecord) -> bool:
     """Whether a ball is where and as fast as it can be."""
     inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
     fastest = board.speed_cap * (1.0 + 1e-9)

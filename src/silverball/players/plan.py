@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from silverball.physics.kernel import internal
-from silverball.physics.random import uniform
+from silverball.physics.portable_math import uniform
 
 PLANNER_KEY = 0x9_1A77  # sets the planner's random numbers apart from the world's own
 DRAWS = 4096  # random numbers set aside for one beat

@@ -10,9 +10,8 @@ from enum import IntEnum
 from typing import Any, Protocol
 
 from silverball.physics.kernel import kernel
-from silverball.physics.random import uniform
+from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import BALL_COUNT, Kind, Part
-from silverball.physics.trigonometry import sine_cosine
 from silverball.world import World
 
 RANDOM_KEY = 0x5EED  # sets the random player's numbers apart from the world's own

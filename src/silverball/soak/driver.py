@@ -18,9 +18,8 @@ import numpy as np
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.random import uniform
+from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import BALL_COUNT
-from silverball.physics.trigonometry import sine_cosine
 
 SOAK_KEY = 0x50A4  # sets these random numbers apart from the world's own
 # All that follow are chosen.
