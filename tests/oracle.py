@@ -267,7 +267,7 @@ class Twin:
             other = self.balls[1]
             w = -(nx * (ball.vx - other.vx) + nz * (ball.vz - other.vz))
             push = (1 + board.ball_restitution) * w / 2
-            self.rub_balls(ball, other, (nx, 0.0, nz), push)
+            self.apply_ball_friction(ball, other, (nx, 0.0, nz), push)
             ball.vx, ball.vz = ball.vx + push * nx, ball.vz + push * nz
             other.vx, other.vz = other.vx - push * nx, other.vz - push * nz
             self.cap(other)
@@ -279,18 +279,18 @@ class Twin:
                 else part.restitution / (1 + part.restitution_falloff * w)
             )
             factor = getattr(part, "speed_factor", 1.0) if w > board.hit_speed else 1.0
-            self.rub_surface(ball, (nx, 0.0, nz), (1 + e) * w, (surface[0], 0.0, surface[1]))
+            self.apply_surface_friction(ball, (nx, 0.0, nz), (1 + e) * w, (surface[0], 0.0, surface[1]))
             ball.vx, ball.vz = (ball.vx + (1 + e) * w * nx) * factor, (ball.vz + (1 + e) * w * nz) * factor
         self.cap(ball)
         self.bounces.append(Bounce(self.time, index, path, ball.x, ball.z, w))
 
-    def rub_surface(self, ball: Body, normal: Vector, push: float, surface: Vector) -> None:
+    def apply_surface_friction(self, ball: Body, normal: Vector, push: float, surface: Vector) -> None:
         """Friction at a surface with a velocity of its own."""
         arm = plus((0.0, 0.0, 0.0), normal, -self.board.ball_radius)
         slip = plus(surface_slip(ball.velocity, ball.spin, arm), surface, -1.0)
         ball.push(arm, rubbing(slip, normal, self.board.friction * push))
 
-    def rub_balls(self, ball: Body, other: Body, normal: Vector, push: float) -> None:
+    def apply_ball_friction(self, ball: Body, other: Body, normal: Vector, push: float) -> None:
         """Friction between two balls: equal and opposite impulses at one point."""
         nowhere, radius = (0.0, 0.0, 0.0), self.board.ball_radius
         arm, other_arm = plus(nowhere, normal, -radius), plus(nowhere, normal, radius)

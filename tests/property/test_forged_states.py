@@ -100,7 +100,10 @@ def plays_on_outside(way, world: World, change: Callable[[Any], None]) -> str:
     return "played"
 
 
-LATER = {name: [0.2, 0.01, -0.01, 0.25, 1.0, -1.0, 1e-6, 1e9] for name in ("due", "age", "offset", "grips")}
+LATER = {
+    name: [0.2, 0.01, -0.01, 0.25, 1.0, -1.0, 1e-6, 1e9]
+    for name in ("contact_age", "age", "offset", "roll_age")
+}
 STRANGE = [0.0, -0.0, 1e-300, 0.3, -0.3, 7.0, -7.0, 1e9, -1e9, 1e300, math.inf, -math.inf, math.nan]
 WHOLE = [0, 1, -1, 2, 3, 5, 7, -2, -3, -5, 12, 10**6, 2**53, 2**62, -(2**62), 2**63 - 1, -(2**63)]
 
@@ -135,7 +138,7 @@ def test_a_contact_that_is_put_off_happens_when_it_should(later: float, way, rub
     honest, world = played(board(rub), 3), played(board(rub), 3)
 
     def put_off(record) -> None:
-        record["ball"]["due"] += later
+        record["ball"]["contact_age"] += later
 
     batch = way(world, put_off)
     row = 1 if len(batch) > 1 else 0
@@ -180,13 +183,19 @@ def test_no_flight_that_fits_its_ball_but_comes_through_a_wall_leads_it_on(
         ball["ticks"], ball["offset"] = (ticks, 0.0) if is_whole else (1, min(max(TICK - age, 0.0), TICK))
         ball["age"] = ball["ticks"] * TICK - ball["offset"]
         a = ball["age"]
-        ball["from_vx"], ball["from_vz"] = ball["vx"] - ball["pull_x"] * a, ball["vz"] - ball["pull_z"] * a
-        ball["from_x"] = ball["x"] - a * (ball["from_vx"] + 0.5 * ball["pull_x"] * a)
-        ball["from_z"] = ball["z"] - a * (ball["from_vz"] + 0.5 * ball["pull_z"] * a)
-        ball["vx"], ball["vz"] = ball["from_vx"] + ball["pull_x"] * a, ball["from_vz"] + ball["pull_z"] * a
-        ball["x"] = ball["from_x"] + a * (ball["from_vx"] + 0.5 * ball["pull_x"] * a)
-        ball["z"] = ball["from_z"] + a * (ball["from_vz"] + 0.5 * ball["pull_z"] * a)
-        ball["due"], ball["meets"] = due, meets
+        ball["start_vx"], ball["start_vz"] = (
+            ball["vx"] - ball["accel_x"] * a,
+            ball["vz"] - ball["accel_z"] * a,
+        )
+        ball["start_x"] = ball["x"] - a * (ball["start_vx"] + 0.5 * ball["accel_x"] * a)
+        ball["start_z"] = ball["z"] - a * (ball["start_vz"] + 0.5 * ball["accel_z"] * a)
+        ball["vx"], ball["vz"] = (
+            ball["start_vx"] + ball["accel_x"] * a,
+            ball["start_vz"] + ball["accel_z"] * a,
+        )
+        ball["x"] = ball["start_x"] + a * (ball["start_vx"] + 0.5 * ball["accel_x"] * a)
+        ball["z"] = ball["start_z"] + a * (ball["start_vz"] + 0.5 * ball["accel_z"] * a)
+        ball["contact_age"], ball["contact_part"] = due, meets
 
     hypothesis_event(plays_on_outside(way, world, change))
 

@@ -140,7 +140,7 @@ def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
 
     assert "once" in compiling_words()
     with monkeypatch.context() as patch:
-        patch.setattr(codecache.Damage, "words", "damaged")
+        patch.setattr(codecache.Damage, "message", "damaged")
         assert "damaged" in compiling_words()
     monkeypatch.setattr(kernel, "cache_folder", lambda *_: None)
     assert "every start" in compiling_words()

@@ -29,12 +29,12 @@ class CompilingBar(Progress):
 @contextmanager
 def compiling(kernel: str = "run_worlds", about: str = "ten seconds") -> Iterator[None]:
     """A bar while the physics is compiled: on the first start only, later ones load it from disk."""
-    from silverball.physics.kernel import cache_folder, forget_old_code, is_compiled
+    from silverball.physics.kernel import cache_folder, evict_old_code, is_compiled
 
     if is_compiled(kernel):
         yield
         return
-    forget_old_code()
+    evict_old_code()
     often = "once on this machine" if cache_folder() else "at every start, for its cache cannot be written"
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(20), TimeElapsedColumn()
     with CompilingBar(*columns, console=errors, transient=True, disable=not errors.is_terminal) as bar:

@@ -115,7 +115,7 @@ def _leave(code: int) -> None:
         sys.exit(code)
     # A thread may be in the compiler, for many seconds more; Python must not be taken down under it.
     aside = sys.modules.get("silverball.physics.compile_thread")
-    if aside is not None and hasattr(aside, "wait_for_the_compiler"):
-        atexit.unregister(aside.wait_for_the_compiler)
+    if aside is not None and hasattr(aside, "wait_for_compiler"):
+        atexit.unregister(aside.wait_for_compiler)
     atexit._run_exitfuncs()
     os._exit(code)

@@ -31,7 +31,7 @@ from silverball.envs.pointers import ADDRESSES, ARRAYS
 from silverball.envs.state import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.kernel import AGENTS, SETTINGS, cache_folder, is_compiled, straight
+from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
 from silverball.physics.records import WORLD, Part, records
 from silverball.world.threads import pool_of_threads
 
@@ -82,7 +82,7 @@ class Engine:
         self._work = options.frame_skip + PICTURE * pictures
         self._write_addresses()
         _tell_of_compiling()
-        self.move = straight(move, self.addresses, 0, 1, 0)
+        self.move = bind_types(move, self.addresses, 0, 1, 0)
         self.forget()
 
     def _allocate(self, threads: int) -> None:

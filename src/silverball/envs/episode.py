@@ -27,9 +27,9 @@ from silverball.envs.slots import (
 )
 from silverball.envs.state import COUNTS, EPISODE, End, Mode, Task
 from silverball.physics.balls import create_ball
-from silverball.physics.kernel import inlined, internal, kernel, pasted
-from silverball.physics.random import WORD, threefry
-from silverball.physics.records import BALL_COUNT, WORLD, Fault, Lanes, Outcome, Playfields
+from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
+from silverball.physics.portable_math import WORD, threefry
+from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
 from silverball.physics.step import run_worlds
 from silverball.world.single_step import INT, array_at
 
@@ -67,7 +67,7 @@ def move(addresses: Any, first: int, end: int, task: int) -> tuple[float, int]:
     return 0.0, 0
 
 
-@pasted
+@ir_inlined
 def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
     """Move the environments first … end − 1 on by one step.
 
@@ -81,8 +81,8 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
         for index in range(start, stop):
             press(at, rules, index)
         lanes = Lanes(the.worlds(at), the.board_of(at), the.logs(at), the.tallies(at))
-        playfields = Playfields(the.boards(at), the.colliders(at), the.grid(at))
-        run_worlds(lanes, playfields, the.held(at), start, stop, rules.ticks, rules.tick)
+        geometries = BatchGeometry(the.boards(at), the.colliders(at), the.grid(at))
+        run_worlds(lanes, geometries, the.held(at), start, stop, rules.ticks, rules.tick)
         for index in range(start, stop):
             reward, ends = settle(at, rules, index)
             the.rewards(at)[index] = reward
@@ -94,7 +94,7 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
     return reward, ends
 
 
-@pasted
+@ir_inlined
 def reset_envs(at: Any, first: int, end: int) -> None:
     """Begin the next episode of those of the environments first … end − 1 that the mask names."""
     rules = the.rules(at)[0]
@@ -106,7 +106,7 @@ def reset_envs(at: Any, first: int, end: int) -> None:
         observe(at, rules, index)
 
 
-@pasted
+@ir_inlined
 def observe_envs(at: Any, first: int, end: int) -> None:
     """Write the observations of the environments first … end − 1 anew, after their state was changed."""
     rules = the.rules(at)[0]

@@ -17,7 +17,7 @@ from numba import types
 
 from silverball.envs.buffers import WRITTEN
 from silverball.envs.state import EPISODE, FILM, RULES, SCENE
-from silverball.physics.kernel import SETTINGS, pasted
+from silverball.physics.kernel import SETTINGS, ir_inlined
 from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
 from silverball.world.single_step import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
 
@@ -57,193 +57,193 @@ ADDRESSES = np.dtype(
 )
 
 
-@pasted
+@ir_inlined
 def worlds(at: Any) -> Any:
     """Records [envs]."""
     return array_at(at.worlds_at, (at.envs,), WORLD)
 
 
-@pasted
+@ir_inlined
 def boards(at: Any) -> Any:
     """Records [boards]."""
     return array_at(at.boards_at, (at.boards,), BOARD)
 
 
-@pasted
+@ir_inlined
 def board_of(at: Any) -> Any:
     """The board of each world [envs]."""
     return array_at(at.board_of_at, (at.envs,), INT)
 
 
-@pasted
+@ir_inlined
 def board_seeds(at: Any) -> Any:
     """The seed of each board [boards]."""
     return array_at(at.board_seeds_at, (at.boards,), INT)
 
 
-@pasted
+@ir_inlined
 def colliders(at: Any) -> Any:
     """Of all boards [colliders]."""
     return array_at(at.colliders_at, (at.colliders,), COLLIDER)
 
 
-@pasted
+@ir_inlined
 def grid(at: Any) -> Any:
     """Of all boards [numbers]."""
     return array_at(at.grid_at, (at.numbers,), SHORT_INT)
 
 
-@pasted
+@ir_inlined
 def places(at: Any) -> Any:
     """Squares in which balls are created [places, 2]."""
     return array_at(at.places_at, (at.places, 2), FLOAT)
 
 
-@pasted
+@ir_inlined
 def logs(at: Any) -> Any:
     """What happened in the last step [envs]."""
     return array_at(at.logs_at, (at.envs,), LOG)
 
 
-@pasted
+@ir_inlined
 def tallies(at: Any) -> Any:
     """Hits of each part [envs, parts]."""
     return array_at(at.tallies_at, (at.envs, at.parts), INT)
 
 
-@pasted
+@ir_inlined
 def held(at: Any) -> Any:
     """What run_worlds presses [1, envs, 3]."""
     return array_at(at.held_at, (1, at.envs, 3), BOOL)
 
 
-@pasted
+@ir_inlined
 def episodes(at: Any) -> Any:
     """Records [envs]."""
     return array_at(at.episodes_at, (at.envs,), EPISODE)
 
 
-@pasted
+@ir_inlined
 def layouts(at: Any) -> Any:
     """The obstacles of each board as they stand in an observation [boards, layout_columns]."""
     return array_at(at.layouts_at, (at.boards, at.layout_columns), SMALL_FLOAT)
 
 
-@pasted
+@ir_inlined
 def rules(at: Any) -> Any:
     """One record [1]."""
     return array_at(at.rules_at, (1,), RULES)
 
 
-@pasted
+@ir_inlined
 def film(at: Any) -> Any:
     """One record [1]."""
     return array_at(at.film_at, (1,), FILM)
 
 
-@pasted
+@ir_inlined
 def actions(at: Any) -> Any:
     """The buttons as bits [envs]."""
     return array_at(at.actions_at, (at.envs,), INT)
 
 
-@pasted
+@ir_inlined
 def masks(at: Any) -> Any:
     """Which environments a reset is for [envs]."""
     return array_at(at.masks_at, (at.envs,), BOOL)
 
 
-@pasted
+@ir_inlined
 def wanted(at: Any) -> Any:
     """The board of each one's next episode [envs]; −1: it is drawn."""
     return array_at(at.wanted_at, (at.envs,), INT)
 
 
-@pasted
+@ir_inlined
 def observations(at: Any) -> Any:
     """States as they are shown [envs, columns]."""
     return array_at(at.observations_at, (at.envs, at.columns), SMALL_FLOAT)
 
 
-@pasted
+@ir_inlined
 def rewards(at: Any) -> Any:
     """Of the last step [envs]."""
     return array_at(at.rewards_at, (at.envs,), FLOAT)
 
 
-@pasted
+@ir_inlined
 def terminated(at: Any) -> Any:
     """Of the last step [envs]."""
     return array_at(at.terminated_at, (at.envs,), BOOL)
 
 
-@pasted
+@ir_inlined
 def truncated(at: Any) -> Any:
     """Of the last step [envs]."""
     return array_at(at.truncated_at, (at.envs,), BOOL)
 
 
-@pasted
+@ir_inlined
 def counts(at: Any) -> Any:
     """The events of each episode so far, see `COUNTS` [envs, counts]."""
     return array_at(at.counts_at, (at.envs, at.counts), INT)
 
 
-@pasted
+@ir_inlined
 def finals(at: Any) -> Any:
     """Last observations of episodes that ended in this step [envs, columns]."""
     return array_at(at.finals_at, (at.envs, at.columns), SMALL_FLOAT)
 
 
-@pasted
+@ir_inlined
 def final_counts(at: Any) -> Any:
     """Their counts [envs, counts]."""
     return array_at(at.final_counts_at, (at.envs, at.counts), INT)
 
 
-@pasted
+@ir_inlined
 def scenes(at: Any) -> Any:
     """What the last pictures show, the newest last [envs, stack]."""
     return array_at(at.scenes_at, (at.envs, at.stack), SCENE)
 
 
-@pasted
+@ir_inlined
 def final_scenes(at: Any) -> Any:
     """The same of episodes that ended in this step [envs, stack]."""
     return array_at(at.final_scenes_at, (at.envs, at.stack), SCENE)
 
 
-@pasted
+@ir_inlined
 def drawn(at: Any) -> Any:
     """What the pictures in the ring show [envs, ring]."""
     return array_at(at.drawn_at, (at.envs, at.ring), SCENE)
 
 
-@pasted
+@ir_inlined
 def frames(at: Any) -> Any:
     """A ring of pictures [envs, ring, pixels]."""
     return array_at(at.frames_at, (at.envs, at.ring, at.pixels), BYTE)
 
 
-@pasted
+@ir_inlined
 def copies(at: Any) -> Any:
     """Where copies of the window go [envs, stack, pixels]."""
     return array_at(at.copies_at, (at.envs, at.stack, at.pixels), BYTE)
 
 
-@pasted
+@ir_inlined
 def backgrounds(at: Any) -> Any:
     """The still parts of each board [boards, pixels]."""
     return array_at(at.backgrounds_at, (at.boards, at.pixels), BYTE)
 
 
-@pasted
+@ir_inlined
 def balls(at: Any) -> Any:
     """Sprites [ball_pixels]."""
     return array_at(at.balls_at, (at.ball_pixels,), BYTE)
 
 
-@pasted
+@ir_inlined
 def paddles(at: Any) -> Any:
     """Sprites [paddle_pixels]."""
     return array_at(at.paddles_at, (at.paddle_pixels,), BYTE)

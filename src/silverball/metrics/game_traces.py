@@ -13,24 +13,28 @@ from collections.abc import Callable
 from enum import IntEnum
 from functools import partial
 from math import sqrt
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
-from silverball.physics.kernel import internal, kernel
+from silverball.physics.kernel import as_int, internal, kernel
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.random import uniform
+from silverball.physics.portable_math import uniform
 from silverball.physics.records import (
+    BatchGeometry,
+    BoardGeometry,
+    BoardRecord,
+    Colliders,
     EventKind,
     Fault,
     Kind,
     Lane,
     Lanes,
     Part,
-    Playfield,
-    Playfields,
+    Places,
+    WorldRecord,
     records,
 )
 from silverball.physics.step import step_world
@@ -82,6 +86,7 @@ GAME = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+GameRecord: TypeAlias = Any  # a GAME record
 
 
 class Games(NamedTuple):
@@ -141,7 +146,7 @@ class Setup(NamedTuple):
 
     player: int
     limit: int
-    places: Any
+    places: Places
 
 
 def play_games(
@@ -209,7 +214,7 @@ def _play_slice(
 
 @kernel
 def play_balls(
-    lanes: Lanes, geometries: Playfields, traces: Traces, maps: Maps, setup: Setup, chosen: Any, ticks: int
+    lanes: Lanes, geometries: BatchGeometry, traces: Traces, maps: Maps, setup: Setup, chosen: Any, ticks: int
 ) -> None:
     """Play the `chosen` worlds on by a number of ticks, or to the end of their games."""
     colliders, tick = geometries.colliders, 1.0 / TICK_RATE
@@ -217,7 +222,8 @@ def play_balls(
         index = chosen[number]
         world, log, game = lanes.worlds[index], lanes.logs[index], traces.game[index]
         board = geometries.boards[lanes.board_of[index]]
-        lane, geometry = Lane(world, log, lanes.tallies[index]), Playfield(board, colliders, geometries.grid)
+        lane = Lane(world, log, lanes.tallies[index])
+        geometry = BoardGeometry(board, colliders, geometries.grid)
         ball = world.ball[0]
         for _ in range(ticks):
             if game.over != Over.NO:
@@ -238,15 +244,17 @@ def play_balls(
             game.dry = game.dry + 1 if world.score == score else 0
             game.longest_dry = max(game.longest_dry, game.dry)
             if ball.id == 0:
-                game.over = Over.DRAINED + 0
+                game.over = as_int(Over.DRAINED)
             elif game.ticks >= setup.limit or world.fault != Fault.NONE:
-                game.over = Over.CUT_SHORT + 0
+                game.over = as_int(Over.CUT_SHORT)
             else:
                 follow_ball(game, world, board, colliders, maps)
 
 
 @kernel
-def beginner_presses(world: Any, board: Any, colliders: Any, wishes: Any, tick: float) -> tuple[bool, bool]:
+def beginner_presses(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, wishes: Any, tick: float
+) -> tuple[bool, bool]:
     """The buttons (left, right) that the beginner holds in the next tick: its wish of one reaction time ago.
 
     It allows for being slow and looks ahead by its usual reaction time.
@@ -264,7 +272,9 @@ def beginner_presses(world: Any, board: Any, colliders: Any, wishes: Any, tick: 
 
 
 @internal
-def follow_hits(lane: Lane, geometry: Playfield, game: Any, reached: Any, seen: Any, gaps: Any) -> None:
+def follow_hits(
+    lane: Lane, geometry: BoardGeometry, game: GameRecord, reached: Any, seen: Any, gaps: Any
+) -> None:
     """Record the hits of a tick: how long after the last one, and what a struck ball has met."""
     ball, log = lane.world.ball[0], lane.log
     first = geometry.board.collider_first
@@ -299,7 +309,9 @@ def follow_hits(lane: Lane, geometry: Playfield, game: Any, reached: Any, seen: 
 
 
 @internal
-def follow_ball(game: Any, world: Any, board: Any, colliders: Any, maps: Maps) -> None:
+def follow_ball(
+    game: GameRecord, world: WorldRecord, board: BoardRecord, colliders: Colliders, maps: Maps
+) -> None:
     """Record where the ball is after a tick, how fast, and for how long it has stayed there."""
     ball = world.ball[0]
     maps.heat[int(CELLS * (ball.x + board.half_length)), int(CELLS * (ball.z + board.half_width))] += 1

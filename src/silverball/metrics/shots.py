@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
 from silverball.physics.balls import put_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import NOTHING, EventKind, Lane, Lanes, Playfield, Playfields, records
+from silverball.physics.records import NOTHING, BatchGeometry, BoardGeometry, EventKind, Lane, Lanes, records
 from silverball.physics.step import step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
@@ -166,11 +166,11 @@ class Approach(NamedTuple):
 
 @kernel
 def shoot(
-    lanes: Lanes, geometries: Playfields, shots: Any, approach: Approach, first: int, end: int, tick: float
+    lanes: Lanes, geometries: BatchGeometry, shots: Any, approach: Approach, first: int, end: int, tick: float
 ) -> None:
     """Play one shot in each of the worlds first … end − 1, all on the first board."""
     board, left = geometries.boards[0], approach.left
-    geometry = Playfield(board, geometries.colliders, geometries.grid)
+    geometry = BoardGeometry(board, geometries.colliders, geometries.grid)
     for index in range(first, end):
         world, log, shot = lanes.worlds[index], lanes.logs[index], shots[index]
         lane = Lane(world, log, lanes.tallies[index])

@@ -9,10 +9,17 @@ It runs only where somebody asks for it: in tests, soaks and `silverball simulat
 from __future__ import annotations
 
 from math import cos, hypot, inf, sin, sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.records import BALL_COUNT, Kind, Part
+from silverball.physics.records import (
+    BALL_COUNT,
+    BoardRecord,
+    ColliderRecord,
+    Colliders,
+    Kind,
+    Part,
+    WorldRecord,
+)
 
 
 @kernel
@@ -45,7 +52,7 @@ def corners_gap(
 
 
 @kernel
-def part_gap(c: Any, angle: float, x: float, z: float) -> float:
+def part_gap(c: ColliderRecord, angle: float, x: float, z: float) -> float:
     """Distance of (x, z) from a part, a paddle standing at `angle` [rad]; infinite for a border."""
     if c.kind == Kind.CYLINDER:
         return hypot(x - c.x, z - c.z) - c.radius
@@ -62,7 +69,7 @@ def part_gap(c: Any, angle: float, x: float, z: float) -> float:
 
 
 @kernel
-def gap_to(c: Any, part: int, angle: float, x: float, z: float) -> float:
+def gap_to(c: ColliderRecord, part: int, angle: float, x: float, z: float) -> float:
     """Distance of (x, z) from any part, the borders included; `part` is its number on the board."""
     if part == Part.LEFT_WALL:
         return z - c.z
@@ -74,7 +81,7 @@ def gap_to(c: Any, part: int, angle: float, x: float, z: float) -> float:
 
 
 @kernel
-def box(c: Any) -> tuple[float, float, float, float]:
+def box(c: ColliderRecord) -> tuple[float, float, float, float]:
     """The least and greatest x, the least and greatest z of a part that stands still [u]."""
     if c.kind == Kind.CYLINDER:
         return c.x - c.radius, c.x + c.radius, c.z - c.radius, c.z + c.radius
@@ -86,14 +93,14 @@ def box(c: Any) -> tuple[float, float, float, float]:
 
 
 @inlined
-def is_off(c: Any, x: float, z: float, radius: float) -> bool:
+def is_outside_box(c: ColliderRecord, x: float, z: float, radius: float) -> bool:
     """Whether (x, z) is further than `radius` from the box of a part that stands still."""
     low_x, high_x, low_z, high_z = box(c)
     return x < low_x - radius or x > high_x + radius or z < low_z - radius or z > high_z + radius
 
 
 @inlined
-def is_out_of_reach(c: Any, x: float, z: float, radius: float) -> bool:
+def is_out_of_reach(c: ColliderRecord, x: float, z: float, radius: float) -> bool:
     """Whether (x, z) is further than `radius` from all that a paddle can sweep, or there is no paddle."""
     if c.kind != Kind.PADDLE:
         return True
@@ -103,7 +110,7 @@ def is_out_of_reach(c: Any, x: float, z: float, radius: float) -> bool:
 
 
 @kernel
-def depth_in_borders(board: Any, colliders: Any, x: float, z: float) -> float:
+def depth_in_borders(board: BoardRecord, colliders: Colliders, x: float, z: float) -> float:
     """How deep a ball at (x, z) is inside a border [u]; 0 if it is not."""
     first, radius = board.collider_first, board.ball_radius
     return max(
@@ -115,18 +122,18 @@ def depth_in_borders(board: Any, colliders: Any, x: float, z: float) -> float:
 
 
 @kernel
-def depth_in_standing(board: Any, colliders: Any, x: float, z: float) -> float:
+def depth_in_stationary(board: BoardRecord, colliders: Colliders, x: float, z: float) -> float:
     """How deep a ball at (x, z) is inside a part that stands still [u]; 0 if it is not."""
     depth, radius = 0.0, board.ball_radius
     for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
         c = colliders[index]
-        if not is_off(c, x, z, radius):
+        if not is_outside_box(c, x, z, radius):
             depth = max(depth, radius - part_gap(c, 0.0, x, z))
     return depth
 
 
 @kernel
-def depth_in_paddle(c: Any, angle: float, x: float, z: float, radius: float) -> float:
+def depth_in_paddle(c: ColliderRecord, angle: float, x: float, z: float, radius: float) -> float:
     """How deep a ball at (x, z) is inside a paddle that stands at `angle` [rad]; 0 if it is not [u]."""
     if is_out_of_reach(c, x, z, radius):
         return 0.0
@@ -134,7 +141,7 @@ def depth_in_paddle(c: Any, angle: float, x: float, z: float, radius: float) -> 
 
 
 @kernel
-def depth_in_each_other(world: Any, radius: float) -> float:
+def depth_in_other_ball(world: WorldRecord, radius: float) -> float:
     """How deep the two balls are inside each other [u]; 0 if they are not."""
     a, b = world.ball[0], world.ball[1]
     if a.id == 0 or b.id == 0:
@@ -143,16 +150,16 @@ def depth_in_each_other(world: Any, radius: float) -> float:
 
 
 @kernel
-def deepest(world: Any, board: Any, colliders: Any) -> float:
+def deepest(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> float:
     """How deep any ball is inside any part, border or other ball [u]; 0 if none is."""
-    depth = depth_in_each_other(world, board.ball_radius)
+    depth = depth_in_other_ball(world, board.ball_radius)
     paddles = board.collider_first + Part.LEFT_PADDLE
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
         depth = max(depth, depth_in_borders(board, colliders, ball.x, ball.z))
-        depth = max(depth, depth_in_standing(board, colliders, ball.x, ball.z))
+        depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
         for side in range(2):
             angle = world.paddle[side].angle
             inside = depth_in_paddle(colliders[paddles + side], angle, ball.x, ball.z, board.ball_radius)
@@ -161,7 +168,7 @@ def deepest(world: Any, board: Any, colliders: Any) -> float:
 
 
 @kernel
-def turned_for(c: Any, start: float, end: float, time: float) -> float:
+def turned_for(c: ColliderRecord, start: float, end: float, time: float) -> float:
     """The angle of a paddle `time` [s] after `start` [rad] on its way to `end` [rad], where it stays."""
     if end > start:
         return min(start + c.lift_speed * time, end)

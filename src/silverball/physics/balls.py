@@ -9,32 +9,45 @@ appears behind a corner wall.
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
-from silverball.physics.bounce import capped
-from silverball.physics.event_log import leave, mark, record
-from silverball.physics.kernel import internal, kernel
-from silverball.physics.motion import depart
+from silverball.physics.bounce import clamp_speed
+from silverball.physics.event_log import flight_checksum, log_event, store_checksum
+from silverball.physics.kernel import as_int, internal, kernel
+from silverball.physics.motion import start_flight
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, NOTHING, Contact, EventKind, Kind, Outcome, Part
+from silverball.physics.portable_math import sine_cosine, uniform
+from silverball.physics.records import (
+    BALL_COUNT,
+    NOTHING,
+    BoardRecord,
+    Colliders,
+    Contact,
+    EventKind,
+    Kind,
+    LogRecord,
+    Outcome,
+    Part,
+    Places,
+    WorldRecord,
+)
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
-from silverball.physics.trigonometry import sine_cosine
 
 TWO_PI = 6.283185307179586
 
 
 @kernel
-def clearance(world: Any, board: Any, colliders: Any, x: float, z: float) -> tuple[float, int]:
+def clearance(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float
+) -> tuple[float, int]:
     """The smallest gap [u] between a ball at (x, z) and the parts (paddles as they stand), and which part."""
     first = board.collider_first
     left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
-    least, part = z - left.z, Part.LEFT_WALL + 0
+    least, part = z - left.z, as_int(Part.LEFT_WALL)
     if right.z - z < least:
-        least, part = right.z - z, Part.RIGHT_WALL + 0
+        least, part = right.z - z, as_int(Part.RIGHT_WALL)
     if top.x - x < least:
-        least, part = top.x - x, Part.TOP_WALL + 0
+        least, part = top.x - x, as_int(Part.TOP_WALL)
     for index in range(first + Part.LEFT_PADDLE, board.collider_end):
         c = colliders[index]
         if c.kind == Kind.ABSENT:
@@ -49,7 +62,7 @@ def clearance(world: Any, board: Any, colliders: Any, x: float, z: float) -> tup
 
 
 @kernel
-def clearance_of_balls(world: Any, board: Any, x: float, z: float) -> float:
+def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float) -> float:
     """The smallest gap [u] between a ball at (x, z) and the balls on the board."""
     least = 1e300
     for index in range(BALL_COUNT):
@@ -61,7 +74,7 @@ def clearance_of_balls(world: Any, board: Any, x: float, z: float) -> float:
 
 
 @internal
-def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
+def is_free(world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float) -> bool:
     """Whether a ball at (x, z) would overlap nothing."""
     if x <= board.gutter + board.ball_radius:
         return False
@@ -70,7 +83,9 @@ def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
 
 
 @internal
-def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[bool, float, float, int]:
+def find_free_place(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places
+) -> tuple[bool, float, float, int]:
     """A free place for a ball, and how many random numbers it took to find it."""
     count = board.place_end - board.place_first
     size = board.place_size
@@ -95,22 +110,31 @@ def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[boo
 
 
 @kernel
-def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
+def put_ball(
+    world: WorldRecord,
+    board: BoardRecord,
+    log: LogRecord,
+    slot: int,
+    x: float,
+    z: float,
+    vx: float,
+    vz: float,
+) -> None:
     """A new ball at (x, z) in an empty slot of the world."""
-    is_known = mark(world) == log.mark
+    is_known = flight_checksum(world) == log.checksum
     world.created += 1
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = world.created
-    depart(ball, board, 0.0)
+    start_flight(ball, board, 0.0)
     if is_known:
-        leave(world, log)
-    record(log, EventKind.CREATED + 0, ball, world.tick, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
+        store_checksum(world, log)
+    log_event(log, as_int(EventKind.CREATED), ball, world.tick, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
 
 
 @kernel
-def empty_slot(world: Any, board: Any) -> int:
+def empty_slot(world: WorldRecord, board: BoardRecord) -> int:
     """The first slot without a ball, or −1 when the board holds as many as the table allows."""
     for slot in range(board.max_balls):
         if world.ball[slot].id == 0:
@@ -119,7 +143,9 @@ def empty_slot(world: Any, board: Any) -> int:
 
 
 @kernel
-def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -> int:
+def create_ball(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places, log: LogRecord
+) -> int:
     """One more ball at rest in a free place.
 
     Returns:
@@ -127,17 +153,17 @@ def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -
     """
     slot = empty_slot(world, board)
     if slot < 0:
-        return Outcome.BOARD_FULL + 0
-    found, x, z, draws = free_place(world, board, colliders, places)
+        return as_int(Outcome.BOARD_FULL)
+    found, x, z, draws = find_free_place(world, board, colliders, places)
     if not found:
-        return Outcome.NO_ROOM + 0
+        return as_int(Outcome.NO_ROOM)
     world.draws = draws
     put_ball(world, board, log, slot, x, z, 0.0, 0.0)
-    return Outcome.CREATED + 0
+    return as_int(Outcome.CREATED)
 
 
 @internal
-def shove_balls(world: Any, board: Any, log: Any) -> None:
+def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Jitter: every ball on the board gets an impulse of fixed size in a random direction of its own."""
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
@@ -147,13 +173,15 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
         world.draws += 1
         ball.vx += board.jitter * sine
         ball.vz += board.jitter * cosine
-        ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
-        depart(ball, board, 0.0)
-        record(log, EventKind.JITTER + 0, ball, world.tick, Contact(0.0, NOTHING, sine, cosine), board.jitter)
+        ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
+        start_flight(ball, board, 0.0)
+        log_event(
+            log, as_int(EventKind.JITTER), ball, world.tick, Contact(0.0, NOTHING, sine, cosine), board.jitter
+        )
 
 
 @kernel
-def part_balls(world: Any, board: Any, colliders: Any) -> bool:
+def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> bool:
     """Split an overlap of the two balls equally between them.
 
     Only a state from outside holds one; an exact step never makes it.

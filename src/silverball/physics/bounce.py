@@ -21,12 +21,11 @@ On a table with friction the surfaces rub too; see friction.py.
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
-from silverball.physics.friction import rub_balls, rub_surface
+from silverball.physics.friction import apply_ball_friction, apply_surface_friction
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import Contact
-from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, LEAST_HOP
+from silverball.physics.records import BallRecord, BoardRecord, ColliderRecord, Contact
+from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, MIN_HOP_SPEED
 
 
 @inlined
@@ -40,13 +39,13 @@ def hop_speed(acceleration: float, hit_speed: float) -> float:
     """Least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
 
     A hop must come back as a touch, or a ball at rest would score; so it stays below the speed of a hit.
-    Where nothing pulls it is LEAST_HOP.
+    Where nothing pulls it is MIN_HOP_SPEED.
     """
-    return max(min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed), LEAST_HOP)
+    return max(min(sqrt(2.0 * acceleration * HOP), HOP_SHARE * hit_speed), MIN_HOP_SPEED)
 
 
 @inlined
-def capped(vx: float, vz: float, cap: float) -> tuple[float, float]:
+def clamp_speed(vx: float, vz: float, cap: float) -> tuple[float, float]:
     """A velocity, its size at most the cap [u/s], its direction kept."""
     square = vx * vx + vz * vz
     if square <= cap * cap:
@@ -56,7 +55,7 @@ def capped(vx: float, vz: float, cap: float) -> tuple[float, float]:
 
 
 @inlined
-def capped_along(vx: float, vz: float, nx: float, nz: float, cap: float) -> tuple[float, float]:
+def clamp_speed_along(vx: float, vz: float, nx: float, nz: float, cap: float) -> tuple[float, float]:
     """A velocity, its size at most the cap, cut from the part along the surface first.
 
     The ball must still leave the moving paddle that it has met. A table is only valid when every paddle's tip
@@ -76,7 +75,13 @@ def capped_along(vx: float, vz: float, nx: float, nz: float, cap: float) -> tupl
 
 @internal
 def bounce(
-    ball: Any, board: Any, c: Any, contact: Contact, ux: float, uz: float, acceleration: float
+    ball: BallRecord,
+    board: BoardRecord,
+    c: ColliderRecord,
+    contact: Contact,
+    ux: float,
+    uz: float,
+    acceleration: float,
 ) -> float:
     """Give a ball the velocity and spin after its contact with a surface that moves with (ux, uz).
 
@@ -92,20 +97,20 @@ def bounce(
     if approach <= board.hit_speed:
         rebound = max(rebound, hop_speed(acceleration, board.hit_speed))
         factor = 1.0
-    push = approach + rebound
+    normal_impulse = approach + rebound
     if board.friction != 0.0:
-        rub_surface(ball, board, nx, nz, ux, uz, push)
-    vx = (ball.vx + push * nx) * factor
-    vz = (ball.vz + push * nz) * factor
+        apply_surface_friction(ball, board, nx, nz, ux, uz, normal_impulse)
+    vx = (ball.vx + normal_impulse * nx) * factor
+    vz = (ball.vz + normal_impulse * nz) * factor
     if ux == 0.0 and uz == 0.0:
-        ball.vx, ball.vz = capped(vx, vz, board.speed_cap)
+        ball.vx, ball.vz = clamp_speed(vx, vz, board.speed_cap)
     else:
-        ball.vx, ball.vz = capped_along(vx, vz, nx, nz, board.speed_cap)
+        ball.vx, ball.vz = clamp_speed_along(vx, vz, nx, nz, board.speed_cap)
     return approach
 
 
 @internal
-def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
+def bounce_balls(a: BallRecord, b: BallRecord, board: BoardRecord, contact: Contact) -> float:
     """Give two balls of equal mass the velocities and spins after their contact.
 
     Along the line of centres, from b to a, each takes half of (1 + e)·w.
@@ -118,16 +123,16 @@ def exchange(a: Any, b: Any, board: Any, contact: Contact) -> float:
     rebound = approach * board.ball_restitution
     if approach <= board.hit_speed:
         rebound = max(rebound, hop_speed(board.gravity, board.hit_speed))
-    push = 0.5 * (approach + rebound)
+    normal_impulse = 0.5 * (approach + rebound)
     if board.friction != 0.0:
-        rub_balls(a, b, board, nx, nz, push)
-    a.vx, a.vz = capped(a.vx + push * nx, a.vz + push * nz, board.speed_cap)
-    b.vx, b.vz = capped(b.vx - push * nx, b.vz - push * nz, board.speed_cap)
+        apply_ball_friction(a, b, board, nx, nz, normal_impulse)
+    a.vx, a.vz = clamp_speed(a.vx + normal_impulse * nx, a.vz + normal_impulse * nz, board.speed_cap)
+    b.vx, b.vz = clamp_speed(b.vx - normal_impulse * nx, b.vz - normal_impulse * nz, board.speed_cap)
     return approach
 
 
 @internal
-def bounce_off_held(ball: Any, board: Any, nx: float, nz: float) -> float:
+def bounce_off_held(ball: BallRecord, board: BoardRecord, nx: float, nz: float) -> float:
     """Give a ball the velocity and spin after its contact with one that is held, along (nx, nz) from it.
 
     Returns:
@@ -137,8 +142,10 @@ def bounce_off_held(ball: Any, board: Any, nx: float, nz: float) -> float:
     rebound = approach * board.ball_restitution
     if approach <= board.hit_speed:
         rebound = max(rebound, hop_speed(board.gravity, board.hit_speed))
-    push = approach + rebound
+    normal_impulse = approach + rebound
     if board.friction != 0.0:
-        rub_surface(ball, board, nx, nz, 0.0, 0.0, push)
-    ball.vx, ball.vz = capped(ball.vx + push * nx, ball.vz + push * nz, board.speed_cap)
+        apply_surface_friction(ball, board, nx, nz, 0.0, 0.0, normal_impulse)
+    ball.vx, ball.vz = clamp_speed(
+        ball.vx + normal_impulse * nx, ball.vz + normal_impulse * nz, board.speed_cap
+    )
     return approach

@@ -38,17 +38,17 @@ class Damage:
     """What was found damaged in this process.
 
     Attributes:
-        words: A sentence about it; empty if there is nothing to say.
+        message: A sentence about it; empty if there is nothing to say.
     """
 
-    words = ""
+    message = ""
 
     @classmethod
-    def say(cls, folder: Path) -> None:
+    def report(cls, folder: Path) -> None:
         """Tell it to whoever runs the program, the first time."""
-        if not cls.words:
-            cls.words = f"compiled code in {str(folder)!r} was damaged, and is compiled anew"
-            logging.getLogger("silverball").warning("silverball: %s", cls.words)
+        if not cls.message:
+            cls.message = f"compiled code in {str(folder)!r} was damaged, and is compiled anew"
+            logging.getLogger("silverball").warning("silverball: %s", cls.message)
 
 
 class CodeCache(Base):  # type: ignore[misc,valid-type]
@@ -88,9 +88,9 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
         index = self._index(key)
         if not os.path.lexists(index):
             return None
-        content = code_of(index)
+        content = read_code(index)
         if content is None:
-            Damage.say(self._folder.parent)
+            Damage.report(self._folder.parent)
             discard(index)
             return None
         kept, code = pickle.loads(content)
@@ -103,12 +103,12 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
         key = self._index_key(signature, code.codegen)
         content = dumps((key, code._reduce()))
         index = self._index(key)
-        digest = digest_of(index, content)
+        digest = code_digest(index, content)
         with contextlib.suppress(OSError):
             if not self._folder.is_dir():
                 remove(self._folder)  # whatever else stands there
             self._folder.mkdir(parents=True, exist_ok=True)
-            write(place_of_code(index, digest), content)
+            write(code_path(index, digest), content)
             write(index, digest.encode())
 
     def _index(self, key: Any) -> Path:
@@ -119,27 +119,27 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
 def sweep(folder: Path) -> bool:
     """Discard what is damaged in a folder of compiled code; whether all was whole."""
     try:
-        damaged = [index for index in folder.rglob(f"*{INDEX}") if code_of(index) is None]
+        damaged = [index for index in folder.rglob(f"*{INDEX}") if read_code(index) is None]
     except OSError:
         return True  # it cannot be looked through; each file is checked again before it is used
     for index in damaged:
         discard(index)
     if damaged:
-        Damage.say(folder)
+        Damage.report(folder)
     return not damaged
 
 
-def code_of(index: Path) -> bytes | None:
+def read_code(index: Path) -> bytes | None:
     """The code that an index names; None if either of the two is not what was written."""
-    digest = content_of(index)
+    digest = read_file(index)
     if digest is None or len(digest) != hashlib.sha256().digest_size * 2 or not digest.isalnum():
         return None
     name = digest.decode("ascii", "replace")
-    content = content_of(place_of_code(index, name))
-    return content if content is not None and digest_of(index, content) == name else None
+    content = read_file(code_path(index, name))
+    return content if content is not None and code_digest(index, content) == name else None
 
 
-def content_of(path: Path) -> bytes | None:
+def read_file(path: Path) -> bytes | None:
     """What stands in a file; None if it is none, or cannot be read."""
     try:
         return path.read_bytes() if path.is_file() else None  # a pipe would wait for ever
@@ -147,12 +147,12 @@ def content_of(path: Path) -> bytes | None:
         return None
 
 
-def digest_of(index: Path, content: bytes) -> str:
+def code_digest(index: Path, content: bytes) -> str:
     """What tells this code for this index from any other."""
     return hashlib.sha256(index.name.encode() + b"\0" + content).hexdigest()
 
 
-def place_of_code(index: Path, digest: str) -> Path:
+def code_path(index: Path, digest: str) -> Path:
     """The file with the code of a digest."""
     function = index.name.removesuffix(INDEX).rpartition(".")[0]
     return index.with_name(f"{function}.{digest[:32]}{CODE}")
@@ -160,9 +160,9 @@ def place_of_code(index: Path, digest: str) -> Path:
 
 def discard(index: Path) -> None:
     """Remove an index, whatever stands in its place, and the code that it names."""
-    digest = content_of(index)
+    digest = read_file(index)
     if digest and digest.isalnum() and digest.isascii():
-        remove(place_of_code(index, digest.decode()))
+        remove(code_path(index, digest.decode()))
     remove(index)
 
 

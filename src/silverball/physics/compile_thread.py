@@ -23,14 +23,14 @@ POLL_SECONDS = 0.1  # on Windows a wait hears of Ctrl-C only when it ends
 MOST_SECONDS = 60.0  # that the end of Python waits
 
 
-class Leaving(BaseException):
+class Exiting(BaseException):
     """Python ends: nothing more is compiled."""
 
 
 class _State:
     lock = threading.Lock()
     busy = 0  # threads in the compiler
-    is_leaving = False
+    is_exiting = False
 
 
 class _Job:
@@ -52,15 +52,15 @@ class _Job:
             self.done.set()
 
 
-def aside(call: Callable[..., Any], *arguments: Any) -> Any:
+def run_in_compiler_thread(call: Callable[..., Any], *arguments: Any) -> Any:
     """Call something that compiles where no signal interrupts it; its result.
 
     Raises:
         KeyboardInterrupt: Or whatever else a signal's handler raises; the call goes on.
         BaseException: Whatever the call raised.
     """
-    if _State.is_leaving:
-        raise Leaving
+    if _State.is_exiting:
+        raise Exiting
     # Who compiles already, or imports, holds a lock for which another thread would wait in vain.
     is_main = threading.current_thread() is threading.main_thread()
     if not is_main or _is_compiling() or _is_importing():
@@ -75,15 +75,15 @@ def aside(call: Callable[..., Any], *arguments: Any) -> Any:
     return job.result
 
 
-def wait_for_the_compiler() -> None:
+def wait_for_compiler() -> None:
     """Let no thread be in the compiler when Python ends."""
-    _State.is_leaving = True
+    _State.is_exiting = True
     end = time.monotonic() + MOST_SECONDS
     while _State.busy and time.monotonic() < end:
         time.sleep(POLL_SECONDS / 10)
 
 
-atexit.register(wait_for_the_compiler)
+atexit.register(wait_for_compiler)
 
 
 def _is_compiling() -> bool:

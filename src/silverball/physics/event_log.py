@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import LOG_RESERVE, LOG_SIZE, Contact, EventKind
+from silverball.physics.records import (
+    LOG_RESERVE,
+    LOG_SIZE,
+    BallRecord,
+    Contact,
+    EventKind,
+    LogRecord,
+    WorldRecord,
+)
 
 
 @internal
-def record(log: Any, kind: int, ball: Any, tick: int, contact: Contact, speed: float) -> None:
+def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
     """Append an event of a ball where it is (see `records.EVENT`) to a world's log, or count it as lost."""
     room = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
     if log.count >= room:
@@ -25,21 +31,21 @@ def record(log: Any, kind: int, ball: Any, tick: int, contact: Contact, speed: f
 
 
 @internal
-def leave(world: Any, log: Any) -> None:
+def store_checksum(world: WorldRecord, log: LogRecord) -> None:
     """Keep in the log what a call leaves."""
-    log.mark = mark(world)
+    log.checksum = flight_checksum(world)
 
 
 @inlined
-def mark(world: Any) -> float:
+def flight_checksum(world: WorldRecord) -> float:
     """A number that no other flights, contacts to come and angles have, if nobody seeks some that do."""
     angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
-    return mark_of(world.ball[0]) + mark_of(world.ball[1]) + angles
+    return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles
 
 
 @inlined
-def mark_of(ball: Any) -> float:
+def _ball_checksum(ball: BallRecord) -> float:
     """The share of one ball."""
-    begin = (ball.from_x + ball.from_z) + (ball.from_vx + ball.from_vz)
-    pull = (ball.pull_x + ball.pull_z) + (ball.offset + ball.motion)
-    return begin + pull + (ball.due + ball.meets)
+    begin = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
+    pull = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
+    return begin + pull + (ball.contact_age + ball.contact_part)

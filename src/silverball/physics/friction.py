@@ -21,9 +21,9 @@ grip's elasticity.
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, internal
+from silverball.physics.records import BallRecord, BoardRecord
 
 ALONG_SHARE = 3.5  # slip along t changes by this times the impulse
 UPRIGHT_SHARE = 2.5  # slip along y, where only the spin changes; also the spin's own share
@@ -41,7 +41,9 @@ def _friction(slip_t: float, slip_y: float, bodies: float, most: float) -> tuple
 
 
 @inlined
-def _push_along(ball: Any, curvature: float, nx: float, nz: float, jt: float, jy: float) -> None:
+def _apply_friction_impulse(
+    ball: BallRecord, curvature: float, nx: float, nz: float, jt: float, jy: float
+) -> None:
     """Give a ball an impulse along t and y at the point −r·n of its surface."""
     gain = UPRIGHT_SHARE * curvature
     ball.vx -= jt * nz
@@ -52,17 +54,21 @@ def _push_along(ball: Any, curvature: float, nx: float, nz: float, jt: float, jy
 
 
 @internal
-def rub_surface(ball: Any, board: Any, nx: float, nz: float, ux: float, uz: float, push: float) -> None:
+def apply_surface_friction(
+    ball: BallRecord, board: BoardRecord, nx: float, nz: float, ux: float, uz: float, normal_impulse: float
+) -> None:
     """Friction at a surface that moves with (ux, uz) and pushes with an impulse [u/s] along (nx, nz)."""
     radius = board.ball_radius
     slip_t = nx * (ball.vz - uz) - nz * (ball.vx - ux) + radius * ball.spin_y
     slip_y = radius * (ball.spin_x * nz - ball.spin_z * nx)
-    jt, jy = _friction(slip_t, slip_y, 1.0, board.friction * push)
-    _push_along(ball, board.curvature, nx, nz, jt, jy)
+    jt, jy = _friction(slip_t, slip_y, 1.0, board.friction * normal_impulse)
+    _apply_friction_impulse(ball, board.curvature, nx, nz, jt, jy)
 
 
 @internal
-def rub_balls(a: Any, b: Any, board: Any, nx: float, nz: float, push: float) -> None:
+def apply_ball_friction(
+    a: BallRecord, b: BallRecord, board: BoardRecord, nx: float, nz: float, normal_impulse: float
+) -> None:
     """Friction between two balls that push each other with an impulse [u/s] along (nx, nz), from b to a.
 
     b's surface at the contact lies at +r·n, so its spin adds to a's; it takes the opposite impulse there,
@@ -71,8 +77,8 @@ def rub_balls(a: Any, b: Any, board: Any, nx: float, nz: float, push: float) -> 
     radius = board.ball_radius
     slip_t = nx * (a.vz - b.vz) - nz * (a.vx - b.vx) + radius * (a.spin_y + b.spin_y)
     slip_y = radius * ((a.spin_x + b.spin_x) * nz - (a.spin_z + b.spin_z) * nx)
-    jt, jy = _friction(slip_t, slip_y, 2.0, board.friction * push)
-    _push_along(a, board.curvature, nx, nz, jt, jy)
+    jt, jy = _friction(slip_t, slip_y, 2.0, board.friction * normal_impulse)
+    _apply_friction_impulse(a, board.curvature, nx, nz, jt, jy)
     gain = UPRIGHT_SHARE * board.curvature
     b.vx += jt * nz
     b.vz -= jt * nx

@@ -32,10 +32,11 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+from numba import extending, types
 from numba.core.registry import CPUDispatcher
 
-from silverball.physics.code_cache import INDEX, CodeCache, code_of, discard, remove, sweep
-from silverball.physics.compile_thread import aside
+from silverball.physics.code_cache import INDEX, CodeCache, discard, read_code, remove, sweep
+from silverball.physics.compile_thread import run_in_compiler_thread
 
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
@@ -54,7 +55,7 @@ class Compiled(CPUDispatcher):
 
     def compile(self, signature: Any) -> Any:
         """The machine code for arguments of these types."""
-        return aside(super().compile, signature)
+        return run_in_compiler_thread(super().compile, signature)
 
 
 class Internal(Compiled):
@@ -87,7 +88,7 @@ def inlined(function: F) -> F:
     return _compile(function, no_cpython_wrapper=True, forceinline=True)
 
 
-def pasted(function: F) -> F:
+def ir_inlined(function: F) -> F:
     """Put a helper into its callers before they are compiled, so that it is not compiled by itself.
 
     For what has one caller, or makes an array: without reference counting no compiled function returns one.
@@ -95,7 +96,7 @@ def pasted(function: F) -> F:
     return _compile(function, inline="always")
 
 
-def straight(function: Any, *arguments: Any) -> Callable[..., Any]:
+def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
     """A kernel without Numba's look at the types of its arguments, which takes longer than a tick does.
 
     Args:
@@ -108,6 +109,22 @@ def straight(function: Any, *arguments: Any) -> Callable[..., Any]:
     types = tuple(cast(Any, numba).typeof(one) for one in arguments)
     found: Callable[..., Any] = function.compile(types)
     return found
+
+
+@extending.intrinsic
+def _compiled_as_int(typing_context: Any, value: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.cast(builder, arguments[0], signature.args[0], types.int64)
+
+    return types.int64(value), generate
+
+
+as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
+"""The plain integer of an enum's member or of a literal.
+
+To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
+them would be compiled once for each.
+"""
 
 
 @cache
@@ -145,7 +162,7 @@ def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> b
     folder = cache_folder(packages)
     if folder is None:
         return False
-    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if code_of(index) is not None]
+    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if read_code(index) is not None]
     if folder not in _swept:
         _swept.add(folder)
         if not sweep(folder):
@@ -172,7 +189,7 @@ def _machine() -> tuple[Any, ...]:
     return sys.implementation.cache_tag, numba.__version__, processor, bool(SETTINGS.BOUNDSCHECK)
 
 
-def forget_old_code() -> None:
+def evict_old_code() -> None:
     """Remove the machine code of sources that nobody has run for a month."""
     folder = cache_folder()
     if folder is None:

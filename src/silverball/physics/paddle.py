@@ -12,78 +12,77 @@ and a surface that turns with ω moves with (ω·r_z, −ω·r_x) at r from the 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
-from silverball.physics.flight import flown, lasts, polished, time_to_line
+from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import PAUSE, Contact, Paddle
+from silverball.physics.portable_math import sine_cosine
+from silverball.physics.records import NULL_EVENT, BallRecord, ColliderRecord, Contact, PaddleSweep
 from silverball.physics.shapes import point_distance
-from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, LEAST_ADVANCE_GAP, NEVER
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, MIN_ADVANCE_GAP, NEVER
 
 
 @inlined
-def aimed(c: Any, angle: float, raised: bool) -> Paddle:
+def start_sweep(c: ColliderRecord, angle: float, raised: bool) -> PaddleSweep:
     """A paddle in a tick that it begins at this angle, turning at constant speed to its button's stop."""
     stop = c.angle_up if raised else c.angle_rest
-    turn = 0.0
+    omega = 0.0
     if angle < stop:
-        turn = c.lift_speed
+        omega = c.lift_speed
     elif angle > stop:
-        turn = -c.return_speed
-    return Paddle(angle, turn, stop)
+        omega = -c.return_speed
+    return PaddleSweep(angle, omega, stop)
 
 
 @inlined
-def reaches_stop(paddle: Paddle, tick: float) -> bool:
+def reaches_stop(paddle: PaddleSweep, tick: float) -> bool:
     """Whether the paddle turns and comes to its stop within the tick."""
-    return paddle.turn != 0.0 and angle_at(paddle, tick) == paddle.stop
+    return paddle.omega != 0.0 and angle_at(paddle, tick) == paddle.stop
 
 
 @inlined
-def time_to_stop(paddle: Paddle, tick: float) -> float:
+def time_to_stop(paddle: PaddleSweep, tick: float) -> float:
     """When in the tick the paddle reaches its stop [s]; NEVER if it does not."""
-    return min((paddle.stop - paddle.angle) / paddle.turn, tick) if reaches_stop(paddle, tick) else NEVER
+    return min((paddle.stop - paddle.angle) / paddle.omega, tick) if reaches_stop(paddle, tick) else NEVER
 
 
 @inlined
-def angle_at(paddle: Paddle, time: float) -> float:
+def angle_at(paddle: PaddleSweep, time: float) -> float:
     """The angle at a time of the tick, never beyond the stop."""
-    angle = paddle.angle + paddle.turn * time
-    return min(angle, paddle.stop) if paddle.turn > 0.0 else max(angle, paddle.stop)
+    angle = paddle.angle + paddle.omega * time
+    return min(angle, paddle.stop) if paddle.omega > 0.0 else max(angle, paddle.stop)
 
 
 @inlined
-def at_stop(paddle: Paddle) -> Paddle:
+def end_at_stop(paddle: PaddleSweep) -> PaddleSweep:
     """The paddle at its stop, where its angle is exact and the turning ends."""
-    return Paddle(paddle.stop, 0.0, paddle.stop)
+    return PaddleSweep(paddle.stop, 0.0, paddle.stop)
 
 
 @inlined
-def held(paddle: Paddle, time: float) -> Paddle:
+def stop_sweep(paddle: PaddleSweep, time: float) -> PaddleSweep:
     """The paddle stopped where it is at a time of the tick."""
-    if paddle.turn == 0.0:
+    if paddle.omega == 0.0:
         return paddle
-    return Paddle(angle_at(paddle, time), 0.0, paddle.stop)
+    return PaddleSweep(angle_at(paddle, time), 0.0, paddle.stop)
 
 
 @inlined
-def surface_velocity(c: Any, turn: float, x: float, z: float) -> tuple[float, float]:
+def surface_velocity(c: ColliderRecord, omega: float, x: float, z: float) -> tuple[float, float]:
     """Velocity [u/s] of the turning paddle's surface at (x, z) [u]:  ω × r."""
     rx = x - c.x
     rz = c.side * (z - c.z)
-    return turn * rz, c.side * (-turn * rx)
+    return omega * rz, c.side * (-omega * rx)
 
 
 @kernel
-def paddle_distance(c: Any, angle: float, x: float, z: float) -> tuple[float, float, float]:
+def paddle_distance(c: ColliderRecord, angle: float, x: float, z: float) -> tuple[float, float, float]:
     """Distance of a point from a paddle at an angle, and the unit normal there."""
     sine, cosine = sine_cosine(angle)
     return _distance_turned(c, sine, cosine, x, z)
 
 
 @inlined
-def standing(c: Any, angle: float) -> tuple[float, float]:
+def stationary_sine_cosine(c: ColliderRecord, angle: float) -> tuple[float, float]:
     """Sine and cosine of the angle of a paddle that stands still, at its stops by heart."""
     if angle == c.angle_rest:
         return c.sine_rest, c.cosine_rest
@@ -93,7 +92,9 @@ def standing(c: Any, angle: float) -> tuple[float, float]:
 
 
 @inlined
-def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> tuple[float, float, float]:
+def _distance_turned(
+    c: ColliderRecord, sine: float, cosine: float, x: float, z: float
+) -> tuple[float, float, float]:
     rx = x - c.x
     rz = c.side * (z - c.z)
     gap, nx, nz = _outline_distance(c, rx * cosine - rz * sine, rx * sine + rz * cosine)
@@ -101,7 +102,7 @@ def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> 
 
 
 @inlined
-def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Distance from the paddle's triangle in its own frame, and the unit normal there.
 
     The triangle is the same on both sides of the line from pivot to tip, so the lower side is seen as the
@@ -127,8 +128,15 @@ def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 
 
 @internal
-def flight_to_paddle(
-    c: Any, part: int, paddle: Paddle, ball: Any, radius: float, speed: float, start: float, best: Contact
+def contact_with_paddle(
+    c: ColliderRecord,
+    part: int,
+    paddle: PaddleSweep,
+    ball: BallRecord,
+    radius: float,
+    speed: float,
+    start: float,
+    best: Contact,
 ) -> Contact:
     """The first contact of a ball with a paddle from a time of the tick on, or `best` if that comes first.
 
@@ -138,46 +146,48 @@ def flight_to_paddle(
     touch.
     `speed` is the ball's at the start, where it is within reach of the paddle.
     """
-    turn, limit = paddle.turn, best.time
+    omega, limit = paddle.omega, best.time
     bound, least, sine, cosine = 0.0, 0.0, 0.0, 1.0
     angle = paddle.angle
-    if turn != 0.0:
-        pull = abs(ball.pull_x) + abs(ball.pull_z)
+    if omega != 0.0:
+        pull = abs(ball.accel_x) + abs(ball.accel_z)
         fastest = speed + pull * (limit - start)
         furthest = c.reach + radius + 2.0 * fastest * (limit - start)
-        bound = pull + 2.0 * abs(turn) * fastest + turn * turn * furthest
-        least = sqrt(2.0 * LEAST_ADVANCE_GAP / bound)
-    if turn == 0.0:
-        sine, cosine = standing(c, angle)
+        bound = pull + 2.0 * abs(omega) * fastest + omega * omega * furthest
+        least = sqrt(2.0 * MIN_ADVANCE_GAP / bound)
+    if omega == 0.0:
+        sine, cosine = stationary_sine_cosine(c, angle)
     time = start
     for _ in range(FLIGHT_STEPS):
-        here = flown(ball, ball.age + time)
-        if turn != 0.0:
+        here = state_at(ball, ball.age + time)
+        if omega != 0.0:
             angle = angle_at(paddle, time)
             sine, cosine = sine_cosine(angle)
         gap, nx, nz = _distance_turned(c, sine, cosine, here.x, here.z)
         gap -= radius
-        ux, uz = surface_velocity(c, turn, here.x, here.z)
+        ux, uz = surface_velocity(c, omega, here.x, here.z)
         rate = nx * (here.vx - ux) + nz * (here.vz - uz)
         if gap <= CONTACT_GAP and rate < 0.0:
-            time = max(start, polished(time, gap, rate))
+            time = max(start, newton_refined(time, gap, rate))
             if not time < limit:
                 return best
-            here = flown(ball, ball.age + time)
-            gap, nx, nz = paddle_distance(c, angle_at(paddle, time) if turn != 0.0 else angle, here.x, here.z)
+            here = state_at(ball, ball.age + time)
+            gap, nx, nz = paddle_distance(
+                c, angle_at(paddle, time) if omega != 0.0 else angle, here.x, here.z
+            )
             return Contact(time, part, nx, nz)
-        bend = nx * ball.pull_x + nz * ball.pull_z if turn == 0.0 else -bound
+        gap_accel = nx * ball.accel_x + nz * ball.accel_z if omega == 0.0 else -bound
         gap = max(gap, 0.0)
-        if lasts(gap, rate, bend, limit - time):
+        if stays_open(gap, rate, gap_accel, limit - time):
             return best
-        step = time_to_line(gap, rate, bend)
-        if turn == 0.0:
+        step = time_to_line(gap, rate, gap_accel)
+        if omega == 0.0:
             if step == 0.0:  # at rest on the paddle and pressed against it
                 return Contact(time, part, nx, nz)
         elif step < least and rate >= 0.0:
-            # Side by side with the surface: get on, at most LEAST_ADVANCE_GAP too far.
+            # Side by side with the surface: get on, at most MIN_ADVANCE_GAP too far.
             step = least
         time += step
         if not time < limit:
             return best
-    return Contact(time, PAUSE, 0.0, 0.0)
+    return Contact(time, NULL_EVENT, 0.0, 0.0)

@@ -12,7 +12,7 @@ positive).
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +45,8 @@ class Part(IntEnum):
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
-PAUSE = -4  # a null event: the search was safe up to here
-GRIP = -5  # a slipping ball begins to roll
+NULL_EVENT = -4  # a null event: the search was safe up to here
+ROLL_START = -5  # a slipping ball begins to roll
 
 
 class Kind(IntEnum):
@@ -109,13 +109,13 @@ BALL = np.dtype(
         ("id", "i8"),  # 1, 2, 3, … in the order of creation; 0: no ball
         # The flight that brought it here: since its last contact the ball has been on one parabola, and is
         # always worked out from its beginning, so that rounding does not grow from tick to tick.
-        ("from_x", "f8"), ("from_z", "f8"), ("from_vx", "f8"), ("from_vz", "f8"),
-        ("pull_x", "f8"), ("pull_z", "f8"),  # acceleration [u/s²]
+        ("start_x", "f8"), ("start_z", "f8"), ("start_vx", "f8"), ("start_vz", "f8"),
+        ("accel_x", "f8"), ("accel_z", "f8"),  # acceleration [u/s²]
         ("motion", "i8"),  # Motion
-        ("grips", "f8"),  # the age at which a slipping ball begins to roll
+        ("roll_age", "f8"),  # the age at which a slipping ball begins to roll
         ("ticks", "i8"), ("offset", "f8"),  # it began so many ticks ago, and so late [s] in that tick
         ("age", "f8"),  # so this old it is: at the beginning of the next tick [s]
-        ("due", "f8"), ("meets", "i8"),  # its next contact with a still part: at what age, which part;
+        ("contact_age", "f8"), ("contact_part", "i8"),  # its next contact with a stationary part;
         # with NOTHING: the flight is known to be free up to this age
     ],
     align=True,
@@ -149,15 +149,15 @@ WORLD = np.dtype(
 
 BOARD = np.dtype(
     [
-        ("pull_x", "f8"), ("pull_z", "f8"), ("gravity", "f8"),  # acceleration of a free ball, its size [u/s²]
+        ("accel_x", "f8"), ("accel_z", "f8"), ("gravity", "f8"),  # acceleration of a free ball [u/s²]
         ("ball_radius", "f8"), ("curvature", "f8"),  # [u], and one by it [1/u]
         ("ball_restitution", "f8"),
         ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"),
         ("gutter", "f8"),  # x of the gutter line [u]
         ("half_length", "f8"), ("half_width", "f8"),
         ("friction", "f8"),  # coefficient
-        ("press", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
-        ("steepest", "f8"),  # bound on the acceleration of any flight [u/s²]
+        ("normal_accel", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
+        ("max_accel", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
         ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # where the borders stop a ball's centre [u]
         ("paddle_top", "f8"),  # no paddle reaches a ball whose centre is above this x [u]
@@ -217,11 +217,24 @@ EVENT = np.dtype(
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
-        ("mark", "f8"),  # of the flights and angles that the last call left (see validation.py)
+        ("checksum", "f8"),  # of the flights and angles that the last call left (see validation.py)
         ("event", EVENT, (LOG_SIZE,)),
     ],
     align=True,
 )  # fmt: skip
+
+
+# The arguments of kernels: rows of arrays of these types, and whole arrays. mypy cannot know them.
+WorldRecord: TypeAlias = Any  # a WORLD record
+BallRecord: TypeAlias = Any  # a BALL record
+PaddleRecord: TypeAlias = Any  # a PADDLE record
+BoardRecord: TypeAlias = Any  # a BOARD record
+ColliderRecord: TypeAlias = Any  # a COLLIDER record
+LogRecord: TypeAlias = Any  # a LOG record
+Colliders: TypeAlias = Any  # COLLIDER records [collider] of all boards
+Grid: TypeAlias = Any  # i4 [number]: the grids of all boards
+Places: TypeAlias = Any  # f8 [place, 2]: centres (x, z) [u] of the squares in which balls may be created
+Tally: TypeAlias = Any  # i8 [part]: hits of each part of one board
 
 
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
@@ -230,7 +243,7 @@ def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
     return array.view(np.recarray) if SETTINGS.DISABLE_JIT else array
 
 
-class Ball(NamedTuple):
+class BallMotion(NamedTuple):
     """A ball at one moment: centre [u] and velocity [u/s]."""
 
     x: float
@@ -239,11 +252,11 @@ class Ball(NamedTuple):
     vz: float
 
 
-class Paddle(NamedTuple):
+class PaddleSweep(NamedTuple):
     """A paddle in one tick: angle at its beginning [rad], angular velocity [rad/s], its stop [rad]."""
 
     angle: float
-    turn: float
+    omega: float
     stop: float
 
 
@@ -256,38 +269,32 @@ class Contact(NamedTuple):
     nz: float
 
 
-class Playfield(NamedTuple):
-    """One board as the step reads it: its BOARD record, all COLLIDER records and the grids of all boards."""
+class BoardGeometry(NamedTuple):
+    """One board as the step reads it, with the colliders and grids of all boards."""
 
-    board: Any
-    colliders: Any
-    grid: Any
+    board: BoardRecord
+    colliders: Colliders
+    grid: Grid
 
 
 class Lane(NamedTuple):
-    """What changes in one world: its WORLD record, its LOG record and its hits of each part [part]."""
+    """One world of a batch with its log and tally: all that a step writes."""
 
-    world: Any
-    log: Any
-    tally: Any
+    world: WorldRecord
+    log: LogRecord
+    tally: Tally
 
 
-class Playfields(NamedTuple):
-    """All boards of a batch.
-
-    Attributes:
-        boards: BOARD records [board].
-        colliders: COLLIDER records of all boards.
-        grid: The grids of all boards.
-    """
+class BatchGeometry(NamedTuple):
+    """All boards of a batch: BOARD records [board], with their colliders and grids."""
 
     boards: Any
-    colliders: Any
-    grid: Any
+    colliders: Colliders
+    grid: Grid
 
 
 class Lanes(NamedTuple):
-    """What changes in the worlds of a batch.
+    """The worlds of a batch with their logs and tallies: all that a step writes.
 
     Attributes:
         worlds: WORLD records [world].

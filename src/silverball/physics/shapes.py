@@ -8,10 +8,10 @@ shape: corners come out rounded by themselves, and the tip of a paddle has no no
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import Kind
+from silverball.physics.records import ColliderRecord, Kind
 
 
 class Side(NamedTuple):
@@ -38,14 +38,14 @@ def point_distance(x: float, z: float, px: float, pz: float) -> tuple[float, flo
 
 
 @inlined
-def circle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+def circle_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a cylinder: from its centre, less its radius."""
     distance, nx, nz = point_distance(x, z, c.x, c.z)
     return distance - c.radius, nx, nz
 
 
 @internal
-def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+def segment_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a slant wall: a segment from corner 0 to corner 1, rounded by its thickness.
 
     With t = (p − p₀)·u the foot of the point on the line, the nearest point is an end (t ≤ 0, t ≥ length)
@@ -67,7 +67,7 @@ def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 
 
 @internal
-def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+def triangle_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Distance from a triangle with counter-clockwise corners.
 
     A side with direction u has the outward normal n = (−u_z, u_x) in (x, z). The side that the point lies
@@ -101,7 +101,7 @@ def _side_distance(outside: float, x: float, z: float, side: Side) -> tuple[floa
 
 
 @kernel
-def distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
+def distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Distance from any shape that stands still: the one rule for every collider."""
     if c.kind == Kind.CYLINDER:
         return circle_distance(c, x, z)

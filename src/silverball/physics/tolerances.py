@@ -10,7 +10,7 @@ CONTACT_GAP = 1e-13
 u, where doubles are 1.8e-15 apart, and a gap carries a few such errors. Smaller: a search may never find
 its gap closed and ends by its cap. Larger: the polish starts further out and grazing hits lose digits."""
 
-POLISH_TIME = 1e-7
+NEWTON_TIME = 1e-7
 """[s] The longest Newton step that removes the rest of a gap. In this time curvature and gravity bend a
 flight by less than 1e-11 u. Longer: a flat graze would be thrown past the surface it touches. Shorter: slow
 hits lose digits."""
@@ -20,7 +20,7 @@ HOP = 5e-4
 Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: nobody sees it.
 Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
 
-LEAST_HOP = 1e-9
+MIN_HOP_SPEED = 1e-9
 """[u/s] And at least this speed: where nothing pulls, a ball that has lost its speed towards a wall must not
 be left with a rounding of it, or it would meet the wall without end. Roundings reach 1e-14 u/s. Smaller: it
 would. Larger: energy grows by half its square a touch."""
@@ -28,14 +28,14 @@ would. Larger: energy grows by half its square a touch."""
 HOP_SHARE = 0.9
 """A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
 
-LEAST_ADVANCE_GAP = 2e-10
+MIN_ADVANCE_GAP = 2e-10
 """[u] A search that can find no step forward advances at least by the time in which the greatest
 acceleration moves a ball this far. Several such advances may follow each other: in 1e8 frames on hostile
 boards 5e-10 led to a depth of 1.001e-9 u once, hence a fifth of the promise of 1e-9 u. Smaller: more null
 events along a grazed, turning paddle. Larger: visible only to the audit, but the promise would break."""
 
 FLIGHT_STEPS = 48
-"""Safe steps per search; then the search says "free up to here" and the ball is flown there, a null event.
+"""Safe steps per search; then the search says "free up to here" and the ball is state_at there, a null event.
 An ordinary contact takes 1 to 4; a graze halves its distance every step, so 48 cover 14 digits."""
 
 JAM_EVENTS = 64
@@ -65,7 +65,7 @@ PLACE_STEPS = 4
 CAP_MARGIN = 1.0 - 4.5e-16
 """A clamped speed is multiplied by this too, so that rounding cannot leave it above the cap."""
 
-CREEP = 1e-9
+MIN_SLIP_SPEED = 1e-9
 """[u/s] A lowest point that moves no faster than this does not slip: the ball rolls. Rounding leaves some
 1e-15 u/s of slip on a ball that rolls. Smaller: a rolling ball is taken for a slipping one. Larger: a slow
 slip ends early."""
@@ -79,11 +79,11 @@ SKIN = 2.0
 SEARCH_TIME = 0.25
 """[s] And no longer than this. Source: measured."""
 
-LIGHT = 0.1
+LOW_GRAVITY = 0.1
 """[u/s²] Under less gravity than this a search may be longer: a ball may hang about for hours, and a flight
 must not come to consist of a million searches. Smaller: it would. Larger: no harm, but other bits."""
 
-LONGEST_SEARCH = 1e4
+MAX_SEARCH_TIME = 1e4
 """[s] No search is longer. Smaller: more searches for a ball at rest that nothing pulls. Larger: times lose
 digits."""
 
@@ -93,5 +93,5 @@ SKIN_SHARE = 0.5
 CELL_SHARE = 0.5
 """And a cell's side this share of it. Source: measured."""
 
-DEEPEST = 1e-9
+MAX_DEPTH = 1e-9
 """[u] The promise: no ball is ever deeper inside anything. A state from outside in which one is stops."""

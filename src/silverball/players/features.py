@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import Part
+from silverball.physics.records import Colliders, Part
 
 Rows = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ ENCODED = len(Raw) + 8
 MIRRORED = np.array([0, 2, 1, 3])  # the mirror images of the actions none, left, right, both
 
 
-def raw_features(state: Any, boards: Any, colliders: Any) -> Rows:
+def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
     """The raw features of some worlds; those of a missing ball or paddle are 0.
 
     Args:

@@ -10,12 +10,12 @@ Random numbers are a function of the world's seed and the step.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from silverball.physics.kernel import internal
-from silverball.physics.random import uniform
+from silverball.physics.kernel import as_int, internal
+from silverball.physics.portable_math import uniform
 
 PLANNER_KEY = 0x9_1A77  # keeps the planner's random numbers apart from the world's own
 DRAWS = 4096  # random numbers reserved for one step
@@ -29,6 +29,7 @@ PLAN = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+PlanRecord: TypeAlias = Any  # a PLAN record
 
 # All of the following are in decision steps, and chosen, not tuned.
 FIRST_SPAN = 90  # within which a new press begins: long enough to let a caught ball come to rest
@@ -49,7 +50,7 @@ class Change(IntEnum):
 
 
 @internal
-def is_held(plan: Any, side: int, step: int) -> bool:
+def is_held(plan: PlanRecord, side: int, step: int) -> bool:
     """Whether a plan holds a paddle's button in a step."""
     held = False
     for press in range(PRESSES):
@@ -58,7 +59,7 @@ def is_held(plan: Any, side: int, step: int) -> bool:
 
 
 @internal
-def next_change(plan: Any, step: int) -> int:
+def next_change(plan: PlanRecord, step: int) -> int:
     """The first step after this one in which the plan's buttons may change."""
     change: int = plan.until
     for side in range(2):
@@ -70,7 +71,7 @@ def next_change(plan: Any, step: int) -> int:
 
 
 @internal
-def clear_plan(plan: Any, step: int) -> None:
+def clear_plan(plan: PlanRecord, step: int) -> None:
     """Make a plan that presses nothing and leaves the paddles to the reflex player from this step on."""
     for side in range(2):
         for press in range(PRESSES):
@@ -80,7 +81,7 @@ def clear_plan(plan: Any, step: int) -> None:
 
 
 @internal
-def hold_all(plan: Any, left: bool, right: bool, step: int, steps: int) -> None:
+def hold_all(plan: PlanRecord, left: bool, right: bool, step: int, steps: int) -> None:
     """Make a plan that holds these buttons for some steps and releases the other ones."""
     clear_plan(plan, step)
     plan.end[0, 0] = step + steps if left else step
@@ -101,7 +102,9 @@ def wants_new_plan(seed: int, step: int, count: int) -> bool:
 
 
 @internal
-def draw_press(plan: Any, side: int, press: int, earliest: int, seed: int, step: int, count: int) -> int:
+def draw_press(
+    plan: PlanRecord, side: int, press: int, earliest: int, seed: int, step: int, count: int
+) -> int:
     """Draw a press, short or long; returns the count of random numbers used so far."""
     span = FIRST_SPAN if press == 0 else GAP
     begin = earliest + draw(seed, step, count, span)
@@ -112,7 +115,7 @@ def draw_press(plan: Any, side: int, press: int, earliest: int, seed: int, step:
 
 
 @internal
-def draw_plan(plan: Any, earliest: int, seed: int, step: int, count: int) -> int:
+def draw_plan(plan: PlanRecord, earliest: int, seed: int, step: int, count: int) -> int:
     """Draw a plan that begins at a step or later; returns the count of random numbers used so far."""
     clear_plan(plan, earliest)
     presses = 1 + draw(seed, step, count, 3)  # 1: left, 2: right, 3: both
@@ -132,13 +135,13 @@ def draw_plan(plan: Any, earliest: int, seed: int, step: int, count: int) -> int
 
 
 @internal
-def vary_plan(plan: Any, earliest: int, seed: int, step: int, count: int) -> int:
+def vary_plan(plan: PlanRecord, earliest: int, seed: int, step: int, count: int) -> int:
     """Change one to three things about a plan; returns the count of random numbers used so far."""
     changes = 1 + draw(seed, step, count, 3)
     count += 1
     for _ in range(changes):
         side, press = draw(seed, step, count, 2), draw(seed, step, count + 1, PRESSES)
-        change = draw(seed, step, count + 2, Change.COUNT + 0)
+        change = draw(seed, step, count + 2, as_int(Change.COUNT))
         by = 1 + draw(seed, step, count + 3, SHIFT)
         if draw(seed, step, count + 4, 2) == 0:
             by = -by

@@ -13,27 +13,33 @@ is the same on every machine.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.records import (
     BOARD,
     LOG,
     LOG_SIZE,
     WORLD,
+    BatchGeometry,
+    BoardGeometry,
+    BoardRecord,
+    Colliders,
     Lane,
+    LogRecord,
     Part,
-    Playfield,
-    Playfields,
+    Tally,
+    WorldRecord,
     records,
 )
-from silverball.physics.skip_ahead import free_ticks
-from silverball.physics.step import end_ticks, is_inside, is_ready, play_tick, turn_paddles
+from silverball.physics.skip_ahead import event_free_ticks
+from silverball.physics.step import advance_paddles, are_balls_on_board, can_step, finish_ticks, play_tick
 from silverball.players.plan import (
     PLAN,
+    PlanRecord,
     clear_plan,
     draw_plan,
     hold_all,
@@ -67,6 +73,7 @@ MEMORY = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+MemoryRecord: TypeAlias = Any  # a MEMORY record
 
 # Rows of a world's plans and copies.
 BEST, TRIAL = 0, 1  # the plan that is followed, and the one that is tried
@@ -157,7 +164,7 @@ class Planner:
         step = int(self.state.memories["step"][0])
         if tick % every == 0 or tick // every != step:
             self._copy[0] = world.records[0]
-            geometries = Playfields(self._board, world.records[2], world.grid)
+            geometries = BatchGeometry(self._board, world.records[2], world.grid)
             plan_worlds(
                 self._copy, self._board_of, geometries, self.state, 0, 1, every, 1.0 / world.tick_rate
             )
@@ -188,7 +195,7 @@ def plan_batch(batch: WorldBatch, state: PlannerState) -> NDArray[np.bool_]:
 
 @kernel
 def plan_worlds(
-    worlds: Any, board_of: Any, geometries: Playfields, state: PlannerState,
+    worlds: Any, board_of: Any, geometries: BatchGeometry, state: PlannerState,
     first: int, end: int, every: int, tick: float,
 ) -> None:  # fmt: skip
     """Decide what to press in the worlds first … end − 1 for a step.
@@ -218,8 +225,8 @@ def plan_worlds(
         log.count = LOG_SIZE  # full, so that nothing is written to it
         copies[ROOT] = worlds[index]
         root = copies[ROOT]
-        geometry = Playfield(geometries.boards[board_of[index]], geometries.colliders, geometries.grid)
-        if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(root, geometry, log, length):
+        geometry = BoardGeometry(geometries.boards[board_of[index]], geometries.colliders, geometries.grid)
+        if (root.ball[0].id != 0 or root.ball[1].id != 0) and can_step(root, geometry, log, length):
             dry = (world.tick - memory.scored_tick) * tick
             scratch = Scratch(plans, copies, log, state.tallies[index], memory)
             left, right = decide(scratch, geometry, dry, length)
@@ -231,13 +238,13 @@ class Scratch(NamedTuple):
 
     plans: Any
     copies: Any
-    log: Any
-    tally: Any
-    memory: Any
+    log: LogRecord
+    tally: Tally
+    memory: MemoryRecord
 
 
 @internal
-def decide(scratch: Scratch, geometry: Playfield, dry: float, length: float) -> tuple[bool, bool]:
+def decide(scratch: Scratch, geometry: BoardGeometry, dry: float, length: float) -> tuple[bool, bool]:
     """Try plans on copies of one world, keep the best one, and return its first buttons.
 
     `dry` [s] is the time since the last points, `length` [s] that of a step.
@@ -283,18 +290,18 @@ def decide(scratch: Scratch, geometry: Playfield, dry: float, length: float) -> 
 
 @inlined
 def buttons_of(
-    plan: Any, world: Any, board: Any, colliders: Any, step: int, length: float
+    plan: PlanRecord, world: WorldRecord, board: BoardRecord, colliders: Colliders, step: int, length: float
 ) -> tuple[bool, bool]:
     """The buttons that a plan holds in a step."""
     if step < plan.until:
         return is_held(plan, 0, step), is_held(plan, 1, step)
     if is_above(world, board):
         return False, False
-    return pressed(PlayerKind.REFLEX + 0, world, board, colliders, length)
+    return pressed(as_int(PlayerKind.REFLEX), world, board, colliders, length)
 
 
 @inlined
-def is_above(world: Any, board: Any) -> bool:
+def is_above(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether no ball is in reach of a paddle."""
     a, b = world.ball[0], world.ball[1]
     return not (a.id != 0 and a.x <= board.paddle_top) and not (b.id != 0 and b.x <= board.paddle_top)
@@ -302,7 +309,7 @@ def is_above(world: Any, board: Any) -> bool:
 
 @internal
 def look_ahead(
-    scratch: Scratch, copy: int, geometry: Playfield, first: int, horizon: int, length: float, dry: float,
+    scratch: Scratch, copy: int, geometry: BoardGeometry, first: int, horizon: int, length: float, dry: float,
     is_scout: bool,
 ) -> tuple[float, int]:  # fmt: skip
     """Carry the TRIAL plan out on a copy (ROOT or BRANCH) from a step on, for `horizon` steps at most.
@@ -322,7 +329,7 @@ def look_ahead(
     line = board.paddle_top + RISE
     a, b = world.ball[0], world.ball[1]
     low_a, low_b, rises_a, rises_b = a.x < line, b.x < line, 0, 0
-    while played < horizon and low < lowest and is_inside(world, board):
+    while played < horizon and low < lowest and are_balls_on_board(world, board):
         if not is_above(world, board):
             low += 1
             if is_scout:
@@ -332,14 +339,14 @@ def look_ahead(
         most = horizon - played
         if now < plan.until:
             most = min(most, next_change(plan, now) - now)
-        free = free_ticks(geometry, a, b, length, most)
+        free = event_free_ticks(geometry, a, b, length, most)
         if free == 0:
             play_tick(lane, geometry, left, right, length)
             played += 1
         else:
             for _ in range(free):
-                turn_paddles(world, board, colliders, left, right, length)
-            end_ticks(world, board, length, free)
+                advance_paddles(world, board, colliders, left, right, length)
+            finish_ticks(world, board, length, free)
             played += free
         memory.moves += 1
         if world.score != score:
@@ -359,7 +366,7 @@ def look_ahead(
 
 
 @inlined
-def most_points(board: Any, colliders: Any) -> float:
+def most_points(board: BoardRecord, colliders: Colliders) -> float:
     """The points of the most valuable part of a board, at least 1."""
     most = 1
     for index in range(board.collider_first, board.collider_end):

@@ -16,7 +16,16 @@ import numpy as np
 from silverball.physics.audit import deepest
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import BALL_COUNT, Fault, Lane, Lanes, Playfield, Playfields
+from silverball.physics.records import (
+    BALL_COUNT,
+    BatchGeometry,
+    BoardGeometry,
+    Fault,
+    Lane,
+    Lanes,
+    Places,
+    WorldRecord,
+)
 from silverball.physics.step import step_world
 from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
@@ -70,7 +79,7 @@ class Rollout(NamedTuple):
     player: int
     balls: int
     audit: bool
-    places: Any
+    places: Places
     depths: Any
     buttons: Any
 
@@ -150,7 +159,7 @@ def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> Pla
 
 @kernel
 def play_worlds(
-    lanes: Lanes, geometries: Playfields, rollout: Rollout, first: int, end: int, ticks: int, tick: float
+    lanes: Lanes, geometries: BatchGeometry, rollout: Rollout, first: int, end: int, ticks: int, tick: float
 ) -> None:
     """Let a player play the worlds first … end − 1 for a number of ticks of length `tick` [s]."""
     colliders = geometries.colliders
@@ -158,7 +167,8 @@ def play_worlds(
     for index in range(first, end):
         world, log = lanes.worlds[index], lanes.logs[index]
         board = geometries.boards[lanes.board_of[index]]
-        lane, geometry = Lane(world, log, lanes.tallies[index]), Playfield(board, colliders, geometries.grid)
+        lane = Lane(world, log, lanes.tallies[index])
+        geometry = BoardGeometry(board, colliders, geometries.grid)
         for done in range(ticks):
             log.count, log.lost = 0, 0
             # Before a decision `play` has created the balls, so that the player could see them.
@@ -174,7 +184,7 @@ def play_worlds(
 
 
 @kernel
-def ball_count(world: Any) -> int:
+def ball_count(world: WorldRecord) -> int:
     """The number of balls on the board."""
     count = 0
     for slot in range(BALL_COUNT):

@@ -9,9 +9,16 @@ from enum import IntEnum
 from typing import Any
 
 from silverball.physics.kernel import kernel
-from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, Kind, Part
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.portable_math import sine_cosine, uniform
+from silverball.physics.records import (
+    BALL_COUNT,
+    BoardRecord,
+    ColliderRecord,
+    Colliders,
+    Kind,
+    Part,
+    WorldRecord,
+)
 from silverball.world import World
 
 RANDOM_KEY = 0x5EED  # keeps the random player's numbers apart from the world's own
@@ -52,7 +59,9 @@ class SimplePlayer:
 
 
 @kernel
-def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) -> tuple[bool, bool]:
+def pressed(
+    player: int, world: WorldRecord, board: BoardRecord, colliders: Colliders, tick: float
+) -> tuple[bool, bool]:
     """The buttons (left, right) that a simple player holds in the next tick; `player` is a PlayerKind."""
     if player == PlayerKind.RANDOM:
         turn = int(world.tick * tick / RANDOM_HOLD)
@@ -68,7 +77,7 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
 
 @kernel
 def press_all(
-    player: int, worlds: Any, boards: Any, board_of: Any, colliders: Any, tick: float, actions: Any
+    player: int, worlds: Any, boards: Any, board_of: Any, colliders: Colliders, tick: float, actions: Any
 ) -> None:
     """Write what a player holds in the next tick of each world into `actions`, bool [1, world, 3]."""
     for index in range(len(worlds)):
@@ -78,7 +87,7 @@ def press_all(
 
 
 @kernel
-def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
+def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: float) -> bool:
     """Whether the reflex player lifts this paddle: a ball will be just above its outer half.
 
     It looks `ahead` [s], as if the ball met nothing until then.
@@ -90,8 +99,8 @@ def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        dx = ball.x + (ball.vx + 0.5 * ball.pull_x * ahead) * ahead - c.x
-        dz = (ball.z + (ball.vz + 0.5 * ball.pull_z * ahead) * ahead - c.z) * c.side
+        dx = ball.x + (ball.vx + 0.5 * ball.accel_x * ahead) * ahead - c.x
+        dz = (ball.z + (ball.vz + 0.5 * ball.accel_z * ahead) * ahead - c.z) * c.side
         along = dx * sine + dz * cosine  # from the pivot to the tip
         above = dx * cosine - dz * sine - board.ball_radius
         if NEAR_SHARE * c.z1 < along < c.z1 + board.ball_radius and -0.5 < above < STRIKE_HEIGHT:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import SilverballError
-from silverball.physics.records import Part
+from silverball.physics.records import BoardRecord, Colliders, Part
 from silverball.players.features import ENCODED, MIRRORED, Rows, encode, raw_features
 from silverball.world import World, WorldBatch
 
@@ -149,7 +149,7 @@ class Trained:
         return bits & 1 != 0, bits & 2 != 0
 
 
-def is_lifted(state: Any, board: Any, colliders: Any, side: int) -> bool:
+def is_lifted(state: Any, board: BoardRecord, colliders: Colliders, side: int) -> bool:
     """Whether the paddle of a side, 0 left, 1 right, is commanded to be up."""
     collider = colliders[board["collider_first"] + (Part.LEFT_PADDLE, Part.RIGHT_PADDLE)[side]]
     commanded = state["paddle"][side]["angle_commanded"]

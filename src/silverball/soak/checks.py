@@ -9,33 +9,47 @@ from __future__ import annotations
 
 from enum import IntEnum
 from math import hypot, sqrt
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from silverball.physics.audit import (
     depth_in_borders,
-    depth_in_each_other,
+    depth_in_other_ball,
     depth_in_paddle,
-    depth_in_standing,
+    depth_in_stationary,
     gap_to,
     is_out_of_reach,
     turned_for,
 )
-from silverball.physics.kernel import kernel
+from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import (
     BALL_COUNT,
+    BallRecord,
+    BatchGeometry,
+    BoardGeometry,
+    BoardRecord,
+    Colliders,
     EventKind,
     Fault,
     Lane,
     Lanes,
+    LogRecord,
     Part,
-    Playfield,
-    Playfields,
+    Places,
+    WorldRecord,
 )
 from silverball.physics.step import step_world
-from silverball.soak.driver import Drivers, apply_action, choose_action
-from silverball.soak.regions import BLOCKED, MAIN_REGION, OFF_BOARD, is_narrow, label_at, region_of
+from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action
+from silverball.soak.regions import (
+    BLOCKED,
+    MAIN_REGION,
+    OFF_BOARD,
+    GridHeaderRecord,
+    is_narrow,
+    label_at,
+    region_of,
+)
 
 DEPTH = 1e-9  # [u] deeper is a penetration
 STUCK_RADIUS = 0.3  # [u] a ball that does not get further than this from a place …
@@ -94,6 +108,7 @@ WATCH = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+WatchRecord: TypeAlias = Any  # a WATCH record
 
 
 class Truth(NamedTuple):
@@ -107,9 +122,9 @@ class Truth(NamedTuple):
         hostile: Whether the board was not checked: then a ball may start in any region, and get stuck.
     """
 
-    board: Any
-    colliders: Any
-    header: Any
+    board: BoardRecord
+    colliders: Colliders
+    header: GridHeaderRecord
     labels: Any
     hostile: bool
 
@@ -127,7 +142,7 @@ class Watches(NamedTuple):
     """
 
     boards: Any
-    colliders: Any
+    colliders: Colliders
     headers: Any
     labels: Any
     states: Any
@@ -135,7 +150,7 @@ class Watches(NamedTuple):
 
 
 @kernel
-def register_new_balls(world: Any, truth: Truth, watch: Any) -> None:
+def register_new_balls(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
     """Note where new balls start. On a board that was checked, that can only be the region of the gutter."""
     for slot in range(BALL_COUNT):
         ball, tracker = world.ball[slot], watch.tracker[slot]
@@ -148,14 +163,14 @@ def register_new_balls(world: Any, truth: Truth, watch: Any) -> None:
 
 
 @kernel
-def report(world: Any, watch: Any, found: int, slot: int, since: int, depth: float) -> None:
+def report(world: WorldRecord, watch: WatchRecord, found: int, slot: int, since: int, depth: float) -> None:
     """Record a finding, if it is the first of its world."""
     if watch.found == Found.NOTHING:
         watch.found, watch.slot, watch.since, watch.depth = found, slot, since, depth
 
 
 @kernel
-def check_places(world: Any, truth: Truth, watch: Any) -> None:
+def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
     """Check that no ball is where it cannot be, or inside anything."""
     board, colliders, now = truth.board, truth.colliders, world.tick
     for slot in range(BALL_COUNT):
@@ -165,26 +180,26 @@ def check_places(world: Any, truth: Truth, watch: Any) -> None:
         label = label_at(truth.header, truth.labels, ball.x, ball.z)
         region = region_of(label)
         if label == OFF_BOARD or ball.x < board.gutter - GUTTER_MARGIN:
-            report(world, watch, Found.ESCAPE + 0, slot, now, 0.0)
+            report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
             continue
         if region != BLOCKED and region != watch.tracker[slot].region:
-            report(world, watch, Found.ESCAPE + 0, slot, now, 0.0)
+            report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
         depth = depth_in_borders(board, colliders, ball.x, ball.z)
         if is_narrow(label):
-            depth = max(depth, depth_in_standing(board, colliders, ball.x, ball.z))
+            depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
         for side in range(2):
             c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
             inside = depth_in_paddle(c, world.paddle[side].angle, ball.x, ball.z, board.ball_radius)
             depth = max(depth, inside)
         if slot == 0:
-            depth = max(depth, depth_in_each_other(world, board.ball_radius))
+            depth = max(depth, depth_in_other_ball(world, board.ball_radius))
         watch.deepest = max(watch.deepest, depth)
         if depth > DEPTH:
-            report(world, watch, Found.PENETRATION + 0, slot, now, depth)
+            report(world, watch, as_int(Found.PENETRATION), slot, now, depth)
 
 
 @kernel
-def check_contacts(lane: Lane, truth: Truth, watch: Any, before: Before, tick: float) -> None:
+def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
     """Check that every ball was at the surface of the part that it met, neither inside nor away from it."""
     world, log = lane.world, lane.log
     if log.lost > 0:
@@ -203,13 +218,13 @@ def check_contacts(lane: Lane, truth: Truth, watch: Any, before: Before, tick: f
         slot = 0 if event.ball == watch.tracker[0].id else 1
         watch.deepest = max(watch.deepest, -gap)
         if -gap > DEPTH:
-            report(world, watch, Found.PENETRATION + 0, slot, world.tick - 1, -gap)
+            report(world, watch, as_int(Found.PENETRATION), slot, world.tick - 1, -gap)
         elif gap > DEPTH:
-            report(world, watch, Found.PHANTOM + 0, slot, world.tick - 1, -gap)
+            report(world, watch, as_int(Found.PHANTOM), slot, world.tick - 1, -gap)
 
 
 @kernel
-def is_untouched(log: Any, ball: int) -> bool:
+def is_untouched(log: LogRecord, ball: int) -> bool:
     """Whether a ball met nothing in the last tick, by the log."""
     if log.lost > 0:
         return False
@@ -223,20 +238,20 @@ def is_untouched(log: Any, ball: int) -> bool:
 
 
 @kernel
-def max_sagitta(board: Any, tick: float) -> float:
+def max_sagitta(board: BoardRecord, tick: float) -> float:
     """How far a flight can be from the straight line between its ends, a tick [s] apart [u].
 
     At most a quarter of the tick times everything that changes the velocity on the way: gravity, friction,
     and, where a slipping ball begins to roll, once more what gravity does in a tick.
     """
-    pull = sqrt(board.pull_x * board.pull_x + board.pull_z * board.pull_z)
-    changes: float = tick * (2.0 * pull + board.friction * board.press)
+    pull = sqrt(board.accel_x * board.accel_x + board.accel_z * board.accel_z)
+    changes: float = tick * (2.0 * pull + board.friction * board.normal_accel)
     return 0.25 * tick * changes
 
 
 @kernel
 def depth_along_path(
-    truth: Truth, previous: PreviousBall, ball: Any, before: Any, after: Any, tick: float
+    truth: Truth, previous: PreviousBall, ball: BallRecord, before: Any, after: Any, tick: float
 ) -> float:
     """How deep a ball was inside something on the straight path from `previous` to where it is now [u].
 
@@ -258,7 +273,7 @@ def depth_along_path(
         share = number / count
         x, z = previous.x + share * dx, previous.z + share * dz
         if is_narrow(label_at(truth.header, truth.labels, x, z)):
-            depth = max(depth, depth_in_standing(board, colliders, x, z))
+            depth = max(depth, depth_in_stationary(board, colliders, x, z))
         if at_paddle:
             for side in range(2):
                 c = colliders[paddles + side]
@@ -269,7 +284,7 @@ def depth_along_path(
 
 @kernel
 def depth_of_meeting(
-    previous_a: PreviousBall, a: Any, previous_b: PreviousBall, b: Any, radius: float
+    previous_a: PreviousBall, a: BallRecord, previous_b: PreviousBall, b: BallRecord, radius: float
 ) -> float:
     """How deep two balls were inside each other on their paths [u]; straight, so the relative one is too."""
     x, z = previous_b.x - previous_a.x, previous_b.z - previous_a.z
@@ -280,7 +295,7 @@ def depth_of_meeting(
 
 
 @kernel
-def check_passages(lane: Lane, truth: Truth, watch: Any, before: Before, tick: float) -> None:
+def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
     """Check that no ball got through something without a contact.
 
     The sagitta of a path may only seem to be inside, so that much is allowed.
@@ -294,19 +309,19 @@ def check_passages(lane: Lane, truth: Truth, watch: Any, before: Before, tick: f
     if free_a:
         depth = depth_along_path(truth, before.a, a, before.angles, after, tick)
         if depth > allowed:
-            report(world, watch, Found.PASSAGE + 0, 0, world.tick - 1, depth)
+            report(world, watch, as_int(Found.PASSAGE), 0, world.tick - 1, depth)
     if free_b:
         depth = depth_along_path(truth, before.b, b, before.angles, after, tick)
         if depth > allowed:
-            report(world, watch, Found.PASSAGE + 0, 1, world.tick - 1, depth)
+            report(world, watch, as_int(Found.PASSAGE), 1, world.tick - 1, depth)
     if free_a and free_b:
         depth = depth_of_meeting(before.a, a, before.b, b, truth.board.ball_radius)
         if depth > 2.0 * allowed:
-            report(world, watch, Found.PASSAGE + 0, 0, world.tick - 1, depth)
+            report(world, watch, as_int(Found.PASSAGE), 0, world.tick - 1, depth)
 
 
 @kernel
-def check_stuck(world: Any, watch: Any, tick: float) -> None:
+def check_stuck(world: WorldRecord, watch: WatchRecord, tick: float) -> None:
     """Check that no ball stays in one place for too long without a jam."""
     for slot in range(BALL_COUNT):
         ball, tracker = world.ball[slot], watch.tracker[slot]
@@ -316,12 +331,18 @@ def check_stuck(world: Any, watch: Any, tick: float) -> None:
         if away or world.jams != tracker.jams:
             tracker.x, tracker.z, tracker.since, tracker.jams = ball.x, ball.z, world.tick, world.jams
         elif (world.tick - tracker.since) * tick > STUCK_AFTER:
-            report(world, watch, Found.STUCK + 0, slot, tracker.since, 0.0)
+            report(world, watch, as_int(Found.STUCK), slot, tracker.since, 0.0)
 
 
 @kernel
 def watched_tick(
-    lane: Lane, geometry: Playfield, places: Any, truth: Truth, watch: Any, action: Any, tick: float
+    lane: Lane,
+    geometry: BoardGeometry,
+    places: Places,
+    truth: Truth,
+    watch: WatchRecord,
+    action: ActionRecord,
+    tick: float,
 ) -> None:
     """Do what the action says, move the world on by one tick, and check it.
 
@@ -347,7 +368,7 @@ def watched_tick(
     step_world(lane, geometry, left, right, shove, tick)
     watch.frames += 1
     if world.fault != Fault.NONE:
-        report(world, watch, Found.FAULT + 0, 0, world.tick, 0.0)
+        report(world, watch, as_int(Found.FAULT), 0, world.tick, 0.0)
     check_places(world, truth, watch)
     if watch.found == Found.NOTHING:
         check_contacts(lane, truth, watch, before, tick)
@@ -358,7 +379,7 @@ def watched_tick(
 
 @kernel
 def soak_worlds(
-    lanes: Lanes, geometries: Playfields, drivers: Drivers, watches: Watches,
+    lanes: Lanes, geometries: BatchGeometry, drivers: Drivers, watches: Watches,
     first: int, end: int, ticks: int, tick: float,
 ) -> None:  # fmt: skip
     """Soak the worlds first … end − 1 for a number of ticks of length `tick` [s].
@@ -369,7 +390,7 @@ def soak_worlds(
         world, log, tally = lanes.worlds[index], lanes.logs[index], lanes.tallies[index]
         watch, action, number = watches.states[index], drivers.actions[index], lanes.board_of[index]
         board, driver, wild = geometries.boards[number], drivers.states[index], drivers.wild[index]
-        lane, geometry = Lane(world, log, tally), Playfield(board, geometries.colliders, geometries.grid)
+        lane, geometry = Lane(world, log, tally), BoardGeometry(board, geometries.colliders, geometries.grid)
         truth = Truth(
             watches.boards[number], watches.colliders, watches.headers[number], watches.labels,
             watches.hostile,

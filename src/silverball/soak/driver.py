@@ -12,16 +12,23 @@ is done in a tick is an ACTION record: it can be written to a file and done agai
 from __future__ import annotations
 
 from math import pi
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, records
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.portable_math import sine_cosine, uniform
+from silverball.physics.records import (
+    BALL_COUNT,
+    BoardRecord,
+    Colliders,
+    LogRecord,
+    Places,
+    WorldRecord,
+    records,
+)
 
 SOAK_KEY = 0x50A4  # keeps these random numbers apart from the world's own
 # All of the following are chosen.
@@ -42,6 +49,7 @@ ACTION = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+ActionRecord: TypeAlias = Any  # an ACTION record
 
 DRIVER = np.dtype(
     [
@@ -51,6 +59,7 @@ DRIVER = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+DriverRecord: TypeAlias = Any  # a DRIVER record
 
 
 class Drivers(NamedTuple):
@@ -75,14 +84,21 @@ class Drivers(NamedTuple):
 
 
 @kernel
-def drawn(world: Any, driver: Any) -> float:
+def drawn(world: WorldRecord, driver: DriverRecord) -> float:
     """The next of the soak's random numbers of a world, in [0, 1)."""
     driver.draws += 1
     return uniform(world.seed ^ SOAK_KEY, driver.draws)
 
 
 @kernel
-def choose_action(world: Any, board: Any, driver: Any, action: Any, tick: float, wild: bool) -> None:
+def choose_action(
+    world: WorldRecord,
+    board: BoardRecord,
+    driver: DriverRecord,
+    action: ActionRecord,
+    tick: float,
+    wild: bool,
+) -> None:
     """Choose what is done to a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
@@ -120,7 +136,14 @@ def choose_action(world: Any, board: Any, driver: Any, action: Any, tick: float,
 
 
 @kernel
-def apply_action(world: Any, board: Any, colliders: Any, places: Any, log: Any, action: Any) -> None:
+def apply_action(
+    world: WorldRecord,
+    board: BoardRecord,
+    colliders: Colliders,
+    places: Places,
+    log: LogRecord,
+    action: ActionRecord,
+) -> None:
     """Do the part of an action that comes before the tick: new velocities and a new ball."""
     log.count, log.lost = 0, 0
     for slot in range(BALL_COUNT):

@@ -20,9 +20,10 @@ from pydantic.dataclasses import dataclass
 from silverball.errors import StateError
 from silverball.game.replay.reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import BALL_COUNT, NOTHING, Lane, Motion, Playfield
-from silverball.physics.validation import is_sound
+from silverball.physics.records import BALL_COUNT, NOTHING, BoardGeometry, Lane, Motion
+from silverball.physics.validation import validate_world
 from silverball.soak.checks import Found, watched_tick
+from silverball.soak.driver import ActionRecord
 from silverball.soak.json_file import STRICT, Amount, Count, file_text, parse_json
 from silverball.soak.rounds import KINDS, FindingPlace, Options, SoakBatch, round_batch
 from silverball.table import Table, dump_table, table_digest
@@ -195,7 +196,7 @@ def reproduce(finding: Finding) -> Found:
     if not _is_possible(soaked):
         raise StateError("the state of this finding is impossible; it was changed")
     lane = Lane(batch.state[0], batch.logs[0], batch.tallies[0])
-    geometry = Playfield(batch.boards.board[0], batch.boards.collider, batch.boards.grid)
+    geometry = BoardGeometry(batch.boards.board[0], batch.boards.collider, batch.boards.grid)
     watch, action, truth = soaked.watches.states[0], drivers.actions[0], soaked.truth(0)
     for values in finding.actions:
         if watch["found"] != Found.NOTHING:
@@ -213,14 +214,14 @@ def _is_possible(soaked: SoakBatch) -> bool:
     numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
     return bool(
         not any(map(math.isnan, numbers))  # a time may be infinite, which means never
-        and ((balls["meets"] >= NOTHING) & (balls["meets"] < parts)).all()
+        and ((balls["contact_part"] >= NOTHING) & (balls["contact_part"] < parts)).all()
         and np.isin(balls["motion"], list(Motion)).all()
         and state["tick"] >= 0
-        and is_sound(state, board)
+        and validate_world(state, board)
     )
 
 
-def _action_values(action: Any) -> list[Any]:
+def _action_values(action: ActionRecord) -> list[Any]:
     """An ACTION record as plain values."""
     kicks = [
         [float(vx), float(vz)] if kick else None
@@ -229,7 +230,7 @@ def _action_values(action: Any) -> list[Any]:
     return [*(int(action[name]) for name in BUTTONS), *kicks]
 
 
-def _fill_action(action: Any, values: list[Any]) -> None:
+def _fill_action(action: ActionRecord, values: list[Any]) -> None:
     """Write plain values into an ACTION record."""
     *buttons, first, second = values
     for name, value in zip(BUTTONS, buttons, strict=True):

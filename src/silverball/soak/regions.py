@@ -13,14 +13,14 @@ Like `audit.py`, on which it rests, this shares no code with the solver.
 from __future__ import annotations
 
 from math import floor, sqrt
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.audit import box, part_gap
 from silverball.physics.kernel import kernel
-from silverball.physics.records import Part, records
+from silverball.physics.records import BoardRecord, Colliders, Part, records
 
 CELL = 0.4  # [ball radii] side of a cell: a wall is at least two radii thick to a centre
 SLACK = 1e-6  # [u] for a ball that is deeper in something than it may be, and for rounding
@@ -41,6 +41,7 @@ GRID_HEADER = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+GridHeaderRecord: TypeAlias = Any  # a GRID_HEADER record
 
 
 class RegionMap(NamedTuple):
@@ -75,7 +76,7 @@ def region_map(boards: NDArray[Any], colliders: NDArray[Any]) -> RegionMap:
 
 
 @kernel
-def label_boards(boards: Any, colliders: Any, headers: Any, labels: Any, stack: Any) -> None:
+def label_boards(boards: Any, colliders: Colliders, headers: Any, labels: Any, stack: Any) -> None:
     """Label the cells of all boards; `stack` is scratch for the cells of the largest one."""
     for index in range(len(headers)):
         classify_cells(boards[index], colliders, headers[index], labels)
@@ -83,7 +84,7 @@ def label_boards(boards: Any, colliders: Any, headers: Any, labels: Any, stack: 
 
 
 @kernel
-def classify_cells(board: Any, colliders: Any, header: Any, labels: Any) -> None:
+def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderRecord, labels: Any) -> None:
     """Label each cell BLOCKED, NARROW or CLEAR."""
     first, radius, half = board.collider_first, board.ball_radius, header.cell / sqrt(2.0) + SLACK
     left = colliders[first + Part.LEFT_WALL].z + radius
@@ -125,7 +126,7 @@ def cell_number(value: float, low: float, cell: float, count: int) -> int:
 
 
 @kernel
-def label_regions(board: Any, header: Any, labels: Any, stack: Any) -> None:
+def label_regions(board: BoardRecord, header: GridHeaderRecord, labels: Any, stack: Any) -> None:
     """Label each cell that is not blocked with its region; the cells at the gutter line are in region 1."""
     gutter_row = cell_number(board.gutter, header.low_x, header.cell, header.rows)
     for column in range(header.columns):
@@ -138,7 +139,7 @@ def label_regions(board: Any, header: Any, labels: Any, stack: Any) -> None:
 
 
 @kernel
-def flood_fill(header: Any, labels: Any, stack: Any, start: int, region: int) -> None:
+def flood_fill(header: GridHeaderRecord, labels: Any, stack: Any, start: int, region: int) -> None:
     """Label all cells connected to `start` with a region, unless it is blocked or labelled already."""
     if labels[header.first + start] >= 0:
         return
@@ -163,7 +164,7 @@ def label_of(region: int, kind: int) -> int:
 
 
 @kernel
-def label_at(header: Any, labels: Any, x: float, z: float) -> int:
+def label_at(header: GridHeaderRecord, labels: Any, x: float, z: float) -> int:
     """The label of the cell at (x, z), or OFF_BOARD; a coordinate that is not a number is off the board."""
     if not (header.low_x <= x <= header.high_x and header.low_z <= z <= header.high_z):
         return OFF_BOARD

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import LOG, WORLD, Fault, Lanes, Outcome, Part, Playfields, records
+from silverball.physics.records import LOG, WORLD, BatchGeometry, Fault, Lanes, Outcome, Part, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
 from silverball.world import saved_world as states
@@ -95,9 +95,9 @@ class WorldBatch:
         return Lanes(self.state, self.board_of, self.logs, self.tallies)
 
     @property
-    def geometries(self) -> Playfields:
+    def geometries(self) -> BatchGeometry:
         """What the worlds move through, as kernels take it."""
-        return Playfields(self.boards.board, self.boards.collider, self.boards.grid)
+        return BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
 
     def step(self, actions: ArrayLike, ticks: int = 1) -> None:
         """Move every world on.
@@ -130,9 +130,9 @@ class WorldBatch:
             self._run_pieces(held, ticks, piece)
             return
         lanes = Lanes(self.state, self.board_of, self.logs, self.tallies)
-        playfields = Playfields(self.boards.board, self.boards.collider, self.boards.grid)
+        geometries = BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
         self.on_threads(
-            lambda first, end: run_worlds(lanes, playfields, held, first, end, ticks, 1.0 / self.tick_rate),
+            lambda first, end: run_worlds(lanes, geometries, held, first, end, ticks, 1.0 / self.tick_rate),
             self.count * abs(ticks),
         )
 

@@ -17,18 +17,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import Problem, TableError
-from silverball.physics.grid import fill_grid
+from silverball.physics.broad_phase import fill_grid
+from silverball.physics.portable_math import sine_cosine
 from silverball.physics.records import BOARD, COLLIDER, Kind, Part, records
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
-    LIGHT,
-    LONGEST_SEARCH,
+    LOW_GRAVITY,
+    MAX_SEARCH_TIME,
     SEARCH_TIME,
     SKIN,
     SKIN_SHARE,
 )
-from silverball.physics.trigonometry import sine_cosine
 from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
 
 SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
@@ -43,7 +43,7 @@ class Boards(NamedTuple):
     Attributes:
         board: BOARD records, shape [board].
         collider: COLLIDER records of all boards, shape [collider].
-        grid: The grids of all boards, 32-bit numbers (see physics/grid.py).
+        grid: The grids of all boards, 32-bit numbers (see physics/broad_phase.py).
         place: Centres (x, z) [u] of the squares in which balls may be created, shape [place, 2].
         names: For each board, the names of its parts in the order of their numbers.
         digests: For each board, the hash of its table.
@@ -68,7 +68,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         parts, part_names = _colliders(table)
         cells, size = ball_places(table)
         b = table.board
-        row["pull_x"], row["pull_z"] = 0.0 - b.gravity, 0.0  # not −0.0
+        row["accel_x"], row["accel_z"] = 0.0 - b.gravity, 0.0  # not −0.0
         for name in (
             "ball_radius",
             "ball_restitution",
@@ -118,9 +118,9 @@ def _set_friction(row: Any, board: Board) -> None:
     row["friction"] = board.friction
     if board.rolling and board.friction > 0.0:
         sine, cosine = sine_cosine(math.radians(board.slope))
-        row["press"] = board.gravity * cosine / sine
+        row["normal_accel"] = board.gravity * cosine / sine
     row["gravity"] = board.gravity
-    row["steepest"] = board.gravity + board.friction * row["press"]
+    row["max_accel"] = board.gravity + board.friction * row["normal_accel"]
 
 
 def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
@@ -145,9 +145,9 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
 
 def _search_time(board: Any) -> float:
     """How long a search may be [s]; where hardly anything pulls, until a ball from rest has gone the skin."""
-    if board["gravity"] >= LIGHT:
+    if board["gravity"] >= LOW_GRAVITY:
         return SEARCH_TIME
-    return min(math.sqrt(board["skin"] / max(board["steepest"], TINY)), LONGEST_SEARCH)
+    return min(math.sqrt(board["skin"] / max(board["max_accel"], TINY)), MAX_SEARCH_TIME)
 
 
 def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:

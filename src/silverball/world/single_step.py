@@ -3,7 +3,7 @@
 Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
 addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
 there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
-types of the arguments again (`straight`), since they are always the same.
+types of the arguments again (`bind_types`), since they are always the same.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, kernel, straight
-from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, Lanes, Playfields
+from silverball.physics.kernel import SETTINGS, bind_types, kernel
+from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, BatchGeometry, Lanes
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
 
@@ -83,7 +83,7 @@ class SingleStepper:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
             state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
             run_worlds(
-                Lanes(state, board_of, logs, tallies), Playfields(board, colliders, grid),
+                Lanes(state, board_of, logs, tallies), BatchGeometry(board, colliders, grid),
                 action, 0, 1, ticks, self._tick,
             )  # fmt: skip
             return int(self._arrays[0][0]["fault"])
@@ -91,7 +91,7 @@ class SingleStepper:
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
         """Make the step; it is compiled now, and no earlier."""
-        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        self._step = step = bind_types(step_alone, addresses, buttons, ticks)
         fault: int = step(addresses, buttons, ticks)
         return fault
 
@@ -141,10 +141,10 @@ def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
         array_at(at.log, (1,), LOG),
         array_at(at.tally, (1, at.parts), INT),
     )
-    playfields = Playfields(
+    geometries = BatchGeometry(
         array_at(at.board, (1,), BOARD),
         array_at(at.collider, (at.colliders,), COLLIDER),
         array_at(at.grid, (at.numbers,), SHORT_INT),
     )
-    run_worlds(lanes, playfields, action, 0, 1, ticks, at.tick)
+    run_worlds(lanes, geometries, action, 0, 1, ticks, at.tick)
     return int(worlds[0].fault)

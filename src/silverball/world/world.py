@@ -19,12 +19,12 @@ from silverball.physics.balls import (
     clearance_of_balls,
     create_ball,
     empty_slot,
-    part_balls,
     put_ball,
+    separate_balls,
 )
 from silverball.physics.records import WORLD, Fault, Outcome
-from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
-from silverball.physics.validation import is_sound
+from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
+from silverball.physics.validation import validate_world
 from silverball.table import Table
 from silverball.world import saved_world as states
 from silverball.world.batch import WorldBatch, checked_int
@@ -328,7 +328,7 @@ class World:
         ids = balls["id"][balls["id"] != 0]
         if (ids < 0).any() or (ids > record["created"]).any() or len(set(ids.tolist())) < len(ids):
             raise StateError("the state holds balls whose ids are not those of balls that were created")
-        if not is_sound(self._record, self._board):
+        if not validate_world(self._record, self._board):
             raise StateError("the state holds a ball that is outside of the board, too fast, or not a number")
         if len(ids) > self.table.board.max_balls:
             raise StateError("the state holds more balls than the table allows")
@@ -338,13 +338,13 @@ class World:
         angles = record["paddle"]["angle"]
         if not ((low <= angles) & (angles <= high)).all():
             raise StateError("the state holds a paddle beyond its stops")
-        if not part_balls(self._record, *self._static):
+        if not separate_balls(self._record, *self._static):
             raise StateError(
                 "the state holds two overlapping balls that cannot be parted without pressing one into a part"
             )
         for x, z, id_ in balls[["x", "z", "id"]].tolist():
             gap, part = clearance(self._record, *self._static, x, z)
-            if id_ and gap < -LEAST_ADVANCE_GAP:
+            if id_ and gap < -MIN_ADVANCE_GAP:
                 raise StateError(f"the state holds a ball {-gap:.3g} u deep inside {self._names[part]}")
 
 

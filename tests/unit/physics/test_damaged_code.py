@@ -86,7 +86,7 @@ if os.name != "posix":
 @pytest.fixture
 def said(caplog, monkeypatch):
     """The warnings of a process that begins now."""
-    monkeypatch.setattr(codecache.Damage, "words", "")
+    monkeypatch.setattr(codecache.Damage, "message", "")
     caplog.set_level(logging.WARNING, "silverball")
     return lambda: [record.getMessage() for record in caplog.records if record.name == "silverball"]
 
@@ -118,7 +118,7 @@ def test_code_of_another_function_in_its_place_is_found_out(tmp_path, said):
     for path in list(tmp_path.rglob("*.nb?")):
         path.write_bytes(other[path.suffix])
         if path.suffix == codecache.INDEX:
-            codecache.place_of_code(path, other[codecache.INDEX].decode()).write_bytes(other[codecache.CODE])
+            codecache.code_path(path, other[codecache.INDEX].decode()).write_bytes(other[codecache.CODE])
     assert compiled(tripled_and, tmp_path)(5, 0) == 15
     assert len(said()) == 1
 

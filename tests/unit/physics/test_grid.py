@@ -9,7 +9,7 @@ from numba import njit
 from boards import full_table
 from silverball.benchmarks.marks import crowded_table
 from silverball.physics.audit import part_gap
-from silverball.physics.grid import cell_of
+from silverball.physics.broad_phase import cell_of
 from silverball.physics.records import Part
 from silverball.table import generate_table
 from silverball.world import WorldBatch

@@ -34,7 +34,7 @@ def kernels_in(source: str) -> Iterator[ast.FunctionDef]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef):
             names = [ast.unparse(decorator) for decorator in node.decorator_list]
-            if any(re.match(r"(kernel|internal|inlined|pasted)\b", name) for name in names):
+            if any(re.match(r"(kernel|internal|inlined|ir_inlined)\b", name) for name in names):
                 yield node
 
 

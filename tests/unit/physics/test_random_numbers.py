@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from silverball.physics.random import threefry, uniform
+from silverball.physics.portable_math import threefry, uniform
 
 ROTATIONS = (13, 15, 26, 6, 17, 29, 16, 24)
 

@@ -21,7 +21,7 @@ import pytest
 from boards import Paddle, first_contact, launched, moment, place, speed_of, table_of
 from oracle import Body, Twin
 from silverball.physics.records import Motion
-from silverball.physics.tolerances import CREEP
+from silverball.physics.tolerances import MIN_SLIP_SPEED
 from silverball.table import Cylinder, Table, TriangularPrism
 from silverball.world import World
 from spinning import Spin, energy, spin_balls, spinning, touch_speed
@@ -268,7 +268,7 @@ def test_what_is_left_across_the_slip_at_its_end_is_no_more_than_gravity_makes_i
 
 def test_a_ball_whose_slip_is_below_creep_rolls() -> None:
     for share, expected in ((0.5, Motion.ROLLING), (2.0, Motion.SLIPPING)):
-        world = spinning(plain(), ((0.0, 0.0, 0.0, share * CREEP), (0.0, 0.0, 0.0)))
+        world = spinning(plain(), ((0.0, 0.0, 0.0, share * MIN_SLIP_SPEED), (0.0, 0.0, 0.0)))
         assert motion_of(world) == expected
 
 

@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.portable_math import sine_cosine
 
 
 def arguments() -> list[float]:

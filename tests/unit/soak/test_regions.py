@@ -10,7 +10,7 @@ import pytest
 
 from boards import full_table, table_of
 from silverball.physics import audit
-from silverball.physics.audit import depth_in_borders, depth_in_standing
+from silverball.physics.audit import depth_in_borders, depth_in_stationary
 from silverball.soak import regions
 from silverball.soak.hostile import hostile_table
 from silverball.soak.regions import (
@@ -49,7 +49,7 @@ class Chart:
 
     def is_free(self, x: float, z: float) -> bool:
         board, colliders = self.boards.board[0], self.boards.collider
-        return depth_in_borders(board, colliders, x, z) == depth_in_standing(board, colliders, x, z) == 0.0
+        return depth_in_borders(board, colliders, x, z) == depth_in_stationary(board, colliders, x, z) == 0.0
 
 
 @pytest.mark.parametrize("module", [audit, regions])

@@ -8,15 +8,13 @@ in it; they are asked for by coordinates.
 
 from __future__ import annotations
 
-from typing import Any
-
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.records import Part
+from silverball.physics.records import BallMotion, BoardRecord, ColliderRecord, Colliders, Grid, Part
 from silverball.physics.shapes import distance
 
 
 @inlined
-def cell_of(board: Any, x: float, z: float) -> int:
+def cell_of(board: BoardRecord, x: float, z: float) -> int:
     """The number of the cell that holds (x, z); of the nearest one, should that be beyond the board."""
     row = int((x + board.half_length) * board.grid_scale)
     column = int((z + board.half_width) * board.grid_scale)
@@ -26,7 +24,7 @@ def cell_of(board: Any, x: float, z: float) -> int:
 
 
 @kernel
-def fill_grid(board: Any, colliders: Any, grid: Any) -> int:
+def fill_grid(board: BoardRecord, colliders: Colliders, grid: Grid) -> int:
     """Write a board's cells and lists into `grid` from `board.grid_first` on, as far as there is room.
 
     Returns:
@@ -50,3 +48,30 @@ def fill_grid(board: Any, colliders: Any, grid: Any) -> int:
     if board.grid_first + cells < len(grid):
         grid[board.grid_first + cells] = end
     return end - board.grid_first
+
+
+@inlined
+def is_culled(c: ColliderRecord, here: BallMotion, speed: float, travel: float, sagitta: float) -> bool:
+    """Whether a ball that goes so far and strays so far from its straight line misses a part's circle.
+
+    The line comes as near as  √(d² − (d·v)²/v²)  to the middle, or as d if it leads away.
+    """
+    dx, dz = here.x - c.x, here.z - c.z
+    square = dx * dx + dz * dz
+    if square > (c.reach + travel) * (c.reach + travel):
+        return True
+    outside = square - (c.reach + sagitta) * (c.reach + sagitta)
+    toward = -(dx * here.vx + dz * here.vz)
+    return outside > 0.0 and (toward <= 0.0 or outside * speed * speed > toward * toward)
+
+
+@inlined
+def is_near(x: float, z: float, px: float, pz: float, reach: float) -> bool:
+    """Whether two points are closer to each other than a reach that is positive."""
+    return (x - px) * (x - px) + (z - pz) * (z - pz) < reach * reach
+
+
+@inlined
+def max_travel(board: BoardRecord, start: float, end: float) -> float:
+    """A bound on a ball's way [u] between two times of a tick [s] that it began below the speed cap."""
+    return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.max_accel * end)

@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 
 from boards import full_table, table_of
-from silverball.physics.contact import search
-from silverball.physics.flight import flight_to_shape
-from silverball.physics.motion import depart
-from silverball.physics.records import BALL, GRIP, NOTHING, Part, Playfield
+from silverball.physics.contact import find_contact
+from silverball.physics.flight import time_to_shape
+from silverball.physics.motion import start_flight
+from silverball.physics.records import BALL, NOTHING, ROLL_START, BoardGeometry, Part
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table
 from silverball.world import World, WorldBatch
 from silverball.world.compile import Boards, compile_tables
@@ -90,12 +90,12 @@ def test_a_leap_on_a_board_without_paddles_ends_at_the_contact() -> None:
 
 @numba.njit(error_model="numpy")
 def _search(board, colliders, grid, ball, tick):  # pragma: no cover  (compiled)
-    search(Playfield(board, colliders, grid), ball, tick)
+    find_contact(BoardGeometry(board, colliders, grid), ball, tick)
 
 
 def is_same_flight(before, after) -> bool:
     """Whether a ball is still on the flight that it was on."""
-    names = ("id", "from_x", "from_z", "from_vx", "from_vz", "pull_x", "pull_z", "motion", "offset")
+    names = ("id", "start_x", "start_z", "start_vx", "start_vz", "accel_x", "accel_z", "motion", "offset")
     return all(before[name] == after[name] for name in names) and after["ticks"] > before["ticks"]
 
 
@@ -113,19 +113,22 @@ def test_the_contact_that_a_flight_holds_is_what_a_search_from_its_beginning_fin
         before = world.records[0]["ball"].copy()
         world.step(left=bool(rng.random() < 0.3), jitter=tick % 200 == 0)
         for old, ball in zip(before, world.records[0]["ball"].copy(), strict=True):
-            if ball["id"] == 0 or not is_same_flight(old, ball) or ball["due"] == old["due"]:
+            if ball["id"] == 0 or not is_same_flight(old, ball) or ball["contact_age"] == old["contact_age"]:
                 continue
             copy = np.zeros(1, BALL)
             copy[0] = ball
             again = copy[0]
-            again["due"], again["meets"], again["age"] = 0.0, NOTHING, -again["offset"]
+            again["contact_age"], again["contact_part"], again["age"] = 0.0, NOTHING, -again["offset"]
             for _ in range(500):
                 _search(board, colliders, grid, again, 1 / 240)
-                if again["due"] >= ball["due"] or again["meets"] != NOTHING:
+                if again["contact_age"] >= ball["contact_age"] or again["contact_part"] != NOTHING:
                     break
-            assert (again["due"], again["meets"]) == (ball["due"], ball["meets"])
+            assert (again["contact_age"], again["contact_part"]) == (
+                ball["contact_age"],
+                ball["contact_part"],
+            )
             compared += 1
-            met += ball["meets"] != NOTHING
+            met += ball["contact_part"] != NOTHING
     assert compared > 60
     assert met > 10
 
@@ -139,7 +142,7 @@ def test_a_game_whose_flights_are_searched_anew_in_every_tick_is_the_same_game(r
         world.create_ball((6.5, -3.0), (3.0, 19.0))
     for _ in range(240):
         for ball in worlds[1].records[0]["ball"]:
-            ball["due"], ball["meets"] = max(ball["age"], 0.0), NOTHING
+            ball["contact_age"], ball["contact_part"] = max(ball["age"], 0.0), NOTHING
         for world in worlds:
             world.step()
         for one, other in zip(*(world.balls for world in worlds), strict=True):
@@ -174,12 +177,12 @@ def crowded(parts: int, seed: int, **board) -> Table:
 
 @numba.njit(error_model="numpy")
 def _begin(ball, board):  # pragma: no cover  (compiled)
-    depart(ball, board, 0.0)
+    start_flight(ball, board, 0.0)
 
 
 @numba.njit(error_model="numpy")
 def _meets(c, ball, radius, start, limit):  # pragma: no cover  (compiled)
-    return flight_to_shape(c, ball, radius, start, limit)
+    return time_to_shape(c, ball, radius, start, limit)
 
 
 @numba.njit(error_model="numpy")
@@ -187,7 +190,7 @@ def _first_shape(board, colliders, ball, start, limit):  # pragma: no cover  (co
     """The first shape of all that a flight meets between two ages, without grid and without short cuts."""
     time, part = limit, NOTHING
     for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
-        at, met = flight_to_shape(colliders[index], ball, board.ball_radius, start, time)
+        at, met = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
         if met and at < time:
             time, part = at, index - board.collider_first
     return time, part
@@ -212,10 +215,10 @@ def random_ball(rng, boards: Boards, world: World):
 def searches(boards: Boards, ball, tick: float) -> Iterator[tuple[float, float, int]]:
     """Search on until something is met: from which age, to which age, and what."""
     for _ in range(60):
-        start = float(ball["due"])
+        start = float(ball["contact_age"])
         _search(boards.board[0], boards.collider, boards.grid, ball, tick)
-        yield start, float(ball["due"]), int(ball["meets"])
-        if ball["meets"] != NOTHING or ball["due"] == start:
+        yield start, float(ball["contact_age"]), int(ball["contact_part"])
+        if ball["contact_part"] != NOTHING or ball["contact_age"] == start:
             return
 
 
@@ -240,7 +243,7 @@ def test_the_grid_misses_no_contact(parts: int, rub) -> None:
             else:
                 assert first == NOTHING, (start, end, part, time, first)
                 free += part == NOTHING
-            assert part != GRIP or rub
+            assert part != ROLL_START or rub
     assert met > 10
     assert free > 50
 
