@@ -151,7 +151,7 @@ def _player_feel(batch: WorldBatch, games: Games) -> PlayerFeel:
         "p95_between_hits": _quantile(games.gaps, 0.95),
     }
     at = (float(game["longest_x"][where]), float(game["longest_z"][where]))
-    return PlayerFeel(figures, longest, at, int((~drained).sum()), _cylinders(batch, games), games)
+    return PlayerFeel(figures, longest, at, int((~drained).sum()), shares_of_cylinders(batch, games), games)
 
 
 def _quantile(gaps: NDArray[np.int64], part: float) -> float:
@@ -160,7 +160,7 @@ def _quantile(gaps: NDArray[np.int64], part: float) -> float:
     return (below + 1) / 10.0 if below < GAPS - 1 else float("inf")
 
 
-def _cylinders(batch: WorldBatch, games: Games) -> dict[str, Estimate]:
+def shares_of_cylinders(batch: WorldBatch, games: Games) -> dict[str, Estimate]:
     """Of the struck balls, the share that met each cylinder of the first board; boards without it aside."""
     found = {}
     for number, part in enumerate(batch.tables[0].cylinder):

@@ -1,4 +1,4 @@
-"""Ball time: how long a ball lives, when it counts as lost, and what is said of balls not yet lost."""
+"""Ball time: how long a ball lives, when it counts as lost, and how balls not yet lost are counted."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_a_ball_that_makes_no_points_is_lost_after_fifteen_seconds() -> None:
     assert not batch.state["ball"]["id"].any()
 
 
-def test_both_paddles_held_up_for_ever_do_not_win() -> None:
+def test_holding_both_paddles_up_does_not_pay() -> None:
     lives = {}
     for kind in ("hold", "reflex"):
         lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50), kind, 60.0)

@@ -1,4 +1,4 @@
-"""The compiled loop that watches whole games, against a plain one that plays them tick by tick."""
+"""The compiled traces of games, against a plain loop that plays them tick by tick."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def watched(seed: int, player: str) -> dict[str, float]:
 
 
 @pytest.mark.parametrize("player", ["idle", "reflex"])
-def test_a_game_is_watched_as_one_would_watch_it_from_outside(player: str) -> None:
+def test_the_trace_of_a_game_is_what_one_sees_from_outside(player: str) -> None:
     games = games_of(4, 20, player)
     for index in range(4):
         for name, value in watched(20 + index, player).items():
@@ -103,7 +103,7 @@ def test_a_game_that_does_not_end_is_cut_short() -> None:
     assert (games.game["ticks"] == TICK_RATE // 2).all()
 
 
-def test_what_a_struck_ball_reaches_is_no_more_than_there_are_strikes() -> None:
+def test_a_part_is_reached_at_most_once_per_strike() -> None:
     games = games_of(32, 0, "reflex")
     strikes = games.game["strikes"]
     assert strikes.sum() > 100
@@ -130,11 +130,12 @@ def test_the_beginner_presses_a_reaction_time_after_the_ball_could_be_seen_comin
     assert REACTION[0] - UNSTEADY - 1.0 / TICK_RATE <= late <= REACTION[1] + UNSTEADY
 
 
-def test_the_worlds_are_as_they_were_after_their_games_are_played() -> None:
+def test_the_worlds_and_their_tallies_are_restored_after_the_games() -> None:
     batch = WorldBatch(TABLE, 4, 7, TICK_RATE)
-    before = batch.digests()
+    before, tallies = batch.digests(), batch.tallies.copy()
     first, second = play_games(batch, "idle"), play_games(batch, "idle")
     assert batch.digests() == before
+    assert (batch.tallies == tallies).all()
     assert (first.game["ticks"] == second.game["ticks"]).all()
     assert (first.state["score"] == second.state["score"]).all()
     with pytest.raises(ValueError, match="240 ticks per second"):

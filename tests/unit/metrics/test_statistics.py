@@ -27,7 +27,7 @@ def test_the_interval_of_a_ratio_holds_the_true_one_in_19_of_20_cases() -> None:
     assert abs(held - 0.95 * cases) < 5.0 * math.sqrt(cases * 0.95 * 0.05)
 
 
-def test_the_interval_of_a_share_never_leaves_nought_to_one_and_is_not_empty_for_rare_cases() -> None:
+def test_the_interval_of_a_share_stays_within_0_and_1_and_is_not_empty_for_rare_cases() -> None:
     none, half, every = share(0, 1000), share(500, 1000), share(1000, 1000)
     assert none.value == none.low == 0.0
     assert none.high == pytest.approx(NORMAL_95**2 / (1000 + NORMAL_95**2))  # Wilson's at k = 0
@@ -45,7 +45,7 @@ def test_the_mean_has_the_interval_of_the_normal_distribution() -> None:
     assert all(math.isnan(part) for part in mean([]))
 
 
-def test_the_median_of_balls_that_all_ended_is_that_of_their_lives() -> None:
+def test_the_median_of_lives_that_all_ended_is_their_plain_median() -> None:
     rng = np.random.default_rng(1)
     times = rng.exponential(50.0, 401)
     median, low, high = median_life(times, np.ones(401, np.bool_))
@@ -53,7 +53,7 @@ def test_the_median_of_balls_that_all_ended_is_that_of_their_lives() -> None:
     assert low < median < high
 
 
-def test_the_median_takes_censored_balls_for_what_they_are() -> None:
+def test_the_median_is_right_for_censored_lives() -> None:
     # Lives of a known distribution, each watched for a random time only: the median of what was seen is far
     # too short, the estimate is not.
     rng = np.random.default_rng(2)

@@ -1,4 +1,4 @@
-"""The planner: it looks ahead, knows nothing but what a copy of the world tells, and works within bounds."""
+"""The planner: it looks ahead, knows only what a copy of the world shows, and works within bounds."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def test_planning_does_not_change_a_batch_by_a_bit() -> None:
 
 
 @pytest.mark.parametrize("branches", [4, 9, 30])
-def test_the_cost_of_a_decision_is_bounded_by_its_branches_and_their_steps(branches: int) -> None:
+def test_the_cost_of_a_decision_is_bounded_by_its_branches_and_their_moves(branches: int) -> None:
     world, planner = World("random", seed=8), Planner(branches)
     world.create_ball()
     longest = 0
@@ -82,7 +82,7 @@ def test_the_cost_of_a_decision_is_bounded_by_its_branches_and_their_steps(branc
     assert branches < longest <= 600 * (branches + 2)
 
 
-def test_a_decision_stops_at_its_limit_of_steps() -> None:
+def test_a_decision_stops_at_its_limit_of_moves() -> None:
     world, planner = World("random", seed=8), Planner(10**6)
     world.create_ball()
     planner.press(world)
@@ -98,7 +98,7 @@ def test_it_decides_sixty_times_a_second_and_holds_its_buttons_in_between() -> N
     assert changes == {0}
 
 
-def test_it_meets_another_moment_of_the_world_without_the_plan_of_this_one() -> None:
+def test_a_restored_world_is_played_without_the_old_plan() -> None:
     world, planner = World("random", seed=6), Planner(FEW)
     state = world.save()
     game(6, 900, planner, world)
@@ -107,7 +107,7 @@ def test_it_meets_another_moment_of_the_world_without_the_plan_of_this_one() -> 
     assert again == game(6, 900, Planner(FEW))
 
 
-def test_it_knows_no_random_number_that_the_world_will_draw() -> None:
+def test_it_does_not_know_the_random_numbers_that_the_world_will_draw() -> None:
     one, other = World("random", seed=9), World("random", seed=9)
     for world in (one, other):
         world.create_ball()
@@ -164,7 +164,7 @@ def test_two_balls_at_once_are_both_played() -> None:
     assert world.drained == 0
 
 
-def test_a_board_without_paddles_is_no_trouble() -> None:
+def test_it_accepts_a_board_without_paddles() -> None:
     world, planner = launched(table_of(), (0.0, 0.0, 0.0, 0.0)), Planner(FEW)
     for _ in range(480):
         world.step(*planner.press(world))

@@ -26,7 +26,7 @@ def test_the_idle_player_presses_nothing() -> None:
         world.step()
 
 
-def test_the_random_player_keeps_a_button_for_a_while_and_presses_half_of_the_time() -> None:
+def test_the_random_player_holds_a_button_for_a_while_and_presses_half_of_the_time() -> None:
     world = World(table_of(*PADDLES), seed=4, tick_rate=60)
     player = make_player("random")
     pressed = []
@@ -73,7 +73,7 @@ def test_the_reflex_player_lifts_the_paddle_that_a_ball_comes_down_on(side: int)
     assert world.balls[0].position[0] > -7.0
 
 
-def test_the_reflex_player_keeps_its_balls_longer_than_nobody() -> None:
+def test_the_reflex_player_loses_fewer_balls_than_the_idle_one() -> None:
     drained = {}
     for name in SIMPLE:
         batch = WorldBatch(full_table(), count=32, seed=1)
@@ -95,7 +95,7 @@ def test_a_player_alone_plays_the_same_game_as_in_the_compiled_loop(name: str) -
         assert world.digest() == digest(batch.state[index])
 
 
-def test_the_totals_of_a_play_add_up() -> None:
+def test_the_totals_of_a_rollout_add_up() -> None:
     batch = WorldBatch("random", count=6, seed=1)
     progress: list[float] = []
     played = play(batch, "reflex", 50.0, balls=2, audit=True, progress=progress.append)
@@ -112,8 +112,8 @@ def test_the_totals_of_a_play_add_up() -> None:
     assert math.isnan(play(batch, "idle", 1.0).deepest)
 
 
-def test_a_player_of_no_known_name_is_refused_with_the_nearest() -> None:
+def test_an_unknown_player_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(SilverballError, match="reflex"):
         make_player("reflexx")
     with pytest.raises(SilverballError, match="idle, random, reflex, hold, planner, trained"):
-        make_player("somebody")
+        make_player("no-such-player")

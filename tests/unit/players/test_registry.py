@@ -135,7 +135,7 @@ def test_a_player_that_raises_is_one_sentence_with_its_cause() -> None:
 
 
 @pytest.mark.parametrize("pressed", [(True, False), [True, False], np.array([True, False])])
-def test_booleans_of_any_kind_are_taken(pressed) -> None:
+def test_booleans_of_any_kind_are_accepted(pressed) -> None:
     register("mine", lambda: Answers(pressed))
     assert make_player("mine").press(World("classic")) == (True, False)
 
@@ -168,7 +168,7 @@ def test_alone_and_in_a_batch_it_plays_the_same_game(player) -> None:
 
 
 @pytest.mark.parametrize(("player", "calls"), [(Swatter, 4 * 60), (FastSwatter, 60)])
-def test_the_batch_form_is_asked_once_a_tick_and_the_other_once_a_tick_and_world(player, calls) -> None:
+def test_the_batch_form_is_called_once_per_tick_and_the_other_once_per_tick_and_world(player, calls) -> None:
     made = []
 
     def make():

@@ -1,4 +1,4 @@
-"""The trained player: it sees what the environments show, plays well, and presses the same everywhere."""
+"""The trained player: its features are those of the environments, it plays well and the same everywhere."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def random_rows(count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("table", ["random", "classic"])
-def test_it_sees_what_the_environments_show(table):
+def test_its_features_are_those_of_the_environments(table):
     envs = pytest.importorskip("silverball.envs")
     vector = envs.PinballVectorEnv(16, table=table, boards=4)
     vector.reset(seed=1)
@@ -78,7 +78,7 @@ def test_no_sum_of_the_stored_policy_can_be_rounded():
         greatest = sums / SCALE + 1.0
 
 
-def test_sums_are_those_of_whole_numbers():
+def test_sums_are_those_of_integers():
     raw = random_rows(64)
     policy = stored_policy()
     for row in range(0, 64, 8):
@@ -135,7 +135,7 @@ def test_between_two_decisions_it_holds():
 
 
 @pytest.mark.parametrize("ticks", [8, 45])
-def test_it_keeps_nothing_and_goes_on_from_any_snapshot(ticks):
+def test_it_has_no_state_and_continues_from_any_snapshot(ticks):
     world, player = launched(full_table(), (-3.0, -1.5, -6.0, 1.0)), make_player("trained")
     for _ in range(ticks):
         world.step(*player.press(world))
@@ -155,7 +155,7 @@ def test_it_decides_fifteen_times_a_second_at_any_tick_rate():
     assert [ticks_per_decision(rate) for rate in (10, 15, 60, 240, 1000)] == [1, 1, 4, 16, 67]
 
 
-def test_obstacles_change_nothing_of_what_it_presses():
+def test_obstacles_do_not_change_its_presses():
     crowd = [
         Cylinder(center=(x, z), radius=0.3) for x in (-2.0, 0.0, 2.0, 4.0, 6.0) for z in (-3.0, 0.0, 3.0)
     ]
@@ -169,7 +169,7 @@ def test_obstacles_change_nothing_of_what_it_presses():
 
 
 @pytest.mark.parametrize("paddles", [(), (LEFT,)], ids=["none", "left"])
-def test_a_paddle_that_is_missing_is_seen_as_zeros(paddles):
+def test_the_features_of_a_missing_paddle_are_zero(paddles):
     batch = WorldBatch(table_of(*paddles), 2, 1)
     batch.run(np.ones((1, 2, 3), bool), 5)
     with np.errstate(all="raise"):
@@ -179,7 +179,7 @@ def test_a_paddle_that_is_missing_is_seen_as_zeros(paddles):
     assert play(batch, "trained", 5.0).created > 0
 
 
-def test_it_looks_at_the_lowest_ball_and_rests_with_none():
+def test_its_features_are_those_of_the_lowest_ball_and_zero_without_one():
     batch = WorldBatch("classic", 2)
     batch.create_balls(np.array([True, False]))
     batch.run(np.zeros((1, 2, 3), bool), 240)
@@ -208,7 +208,7 @@ def test_the_stored_policy_says_how_it_was_made():
 @pytest.mark.parametrize(
     "content", [b"", b"not a zip", b"PK\x03\x04 broken"], ids=["empty", "text", "broken zip"]
 )
-def test_what_is_no_policy_is_refused_in_one_sentence(tmp_path, content):
+def test_a_file_that_is_not_a_policy_is_refused_in_one_sentence(tmp_path, content):
     path = tmp_path / "p.npz"
     path.write_bytes(content)
     with pytest.raises(SilverballError, match=r"p\.npz is not a policy") as caught:
@@ -234,7 +234,7 @@ def test_arrays_that_do_not_fit_are_refused(tmp_path):
         Policy.load(path)
 
 
-def test_many_rows_are_answered_as_one_by_one():
+def test_many_rows_give_the_same_actions_as_one_by_one():
     raw = np.random.default_rng(0).uniform(-1.0, 1.0, (2 * ROWS + 7, len(Raw)))
     bits = stored_policy().actions(raw)
     assert bits.tolist() == [int(stored_policy().actions(row[None])[0]) for row in raw]

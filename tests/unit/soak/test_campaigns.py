@@ -1,4 +1,4 @@
-"""What a soak keeps: findings that happen again, and totals that go on where they were."""
+"""Campaigns: findings that can be reproduced, and totals that continue from a file."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ BOARD = full_table()
 
 
 @pytest.mark.parametrize(("solver", "kinds"), [(Holed, {"penetration", "passage"}), (Narrow, {"fault"})])
-def test_a_finding_is_written_down_and_happens_again_with_the_same_broken_solver_only(
+def test_a_finding_is_recorded_and_reproduced_with_the_same_broken_solver_only(
     short_rounds, monkeypatch, tmp_path, solver, kinds
 ) -> None:
     path = tmp_path / "soak.json"
@@ -39,7 +39,7 @@ def test_a_finding_is_written_down_and_happens_again_with_the_same_broken_solver
     assert sorted(tmp_path.iterdir()) == sorted([path, *(tmp_path / name for name in log.findings)])
 
 
-def test_a_stuck_ball_is_written_down_with_all_of_its_minute(monkeypatch, tmp_path) -> None:
+def test_a_stuck_ball_is_recorded_with_all_of_its_minute(monkeypatch, tmp_path) -> None:
     monkeypatch.setattr(soak_module, "ROUND_SECONDS", 74.0)
     cradle = [SlantWall(start=(-3.0, 0.0), end=(1.0, side * 4.1)) for side in (-1.0, 1.0)]
     log = soak(Options(table_of(*cradle), 0, 1, 60, False), 1, tmp_path / "soak.json")

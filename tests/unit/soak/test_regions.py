@@ -97,7 +97,7 @@ def test_behind_a_corner_wall_is_another_region(name: str, side: float) -> None:
     assert chart.region(9.6, side * 4.6) not in (BLOCKED, OFF_BOARD, MAIN_REGION)
 
 
-def test_a_room_without_a_door_is_another_region_and_one_with_a_door_is_not() -> None:
+def test_an_enclosed_area_is_another_region_and_an_open_one_is_not() -> None:
     corners = [(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)]
     walls = [SlantWall(start=a, end=b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
     closed, open_ = Chart(table_of(*walls)), Chart(table_of(*walls[1:]))
@@ -108,7 +108,7 @@ def test_a_room_without_a_door_is_another_region_and_one_with_a_door_is_not() ->
 @pytest.mark.parametrize(
     ("x", "z"), [(10.001, 0.0), (-10.001, 0.0), (0.0, 5.001), (0.0, -5.001), (np.nan, 0.0), (0.0, np.nan)]
 )
-def test_a_place_beyond_the_board_or_nowhere_is_off_the_board(x: float, z: float) -> None:
+def test_a_place_beyond_the_board_or_not_a_number_is_off_the_board(x: float, z: float) -> None:
     chart = Chart(TABLES["classic"])
     assert chart.label(x, z) == OFF_BOARD
     assert chart.region(x, z) == OFF_BOARD

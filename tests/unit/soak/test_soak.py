@@ -1,4 +1,4 @@
-"""The soak: does its watch see what should never happen, and is it written down so that it happens again?"""
+"""The checks of the soak report what should never happen, its driver plays, and its rounds find nothing."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def checked(soaked: SoakBatch) -> Found:
     return found(soaked)
 
 
-# What the watch sees
+# What the checks report
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,7 @@ def test_a_ball_that_a_broken_solver_lets_through_a_turning_paddle_is_reported(s
     assert (found(sound), found(broken)) == (Found.NOTHING, Found.PASSAGE)
 
 
-def test_balls_that_go_through_each_other_within_a_tick_are_deep_on_their_way() -> None:
+def test_balls_that_pass_through_each_other_within_a_tick_overlap_on_their_paths() -> None:
     table = table_of(gravity=0.1)
     soaked = still(table, (0.0, -1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0))
     a, b = soaked.batch.state["ball"][0]
@@ -190,7 +190,7 @@ def test_a_ball_is_not_stuck_that_was_counted_as_jammed_or_lies_on_a_hostile_boa
     assert jammed.batch.state["tick"][0] < QUIET * 60
 
 
-def test_no_flight_sags_further_from_the_straight_way_than_the_watch_takes_off() -> None:
+def test_no_flight_has_a_larger_sagitta_than_the_checks_allow() -> None:
     soaked = still(table_of(gravity=10.0))
     # A parabola sags by a·t²/8 in its middle.
     assert max_sagitta(soaked.truth(0).board, 0.1) >= 10.0 * 0.1**2 / 8
@@ -269,7 +269,7 @@ def test_a_soak_of_a_hundred_hostile_boards_finds_nothing() -> None:
 
 
 @pytest.mark.parametrize("hostile", [False, True])
-def test_a_world_of_a_round_alone_is_the_same_as_among_the_others(short_rounds, hostile: bool) -> None:
+def test_a_world_of_a_round_is_the_same_alone_and_among_the_others(short_rounds, hostile: bool) -> None:
     options = options_of(hostile, worlds=6)
     together = round_batch(options, 2)
     together.run(700)
