@@ -1,8 +1,8 @@
-"""For how many ticks does nothing happen? Then the balls are flown through all of them at once.
+"""Skip-ahead: the number of event-free ticks, through which the balls are advanced at once.
 
-A ball is always worked out from the beginning of its flight, so a leap over many ticks gives the same bits as
-one tick after the other; only the paddles are moved tick by tick. Everything in here is a safe bound: a leap
-may be shorter than it could be, never longer.
+A ball's state is always computed from the start of its flight, so skipping many ticks gives the same bits as
+one tick after the other; only the paddles are advanced tick by tick. Everything in this file is a safe bound:
+a skip may be shorter than possible, never longer.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from silverball.physics.motion import restart_slip, start_rolling
 from silverball.physics.records import NOTHING, ROLL_START, BallRecord, BoardGeometry, BoardRecord, Motion
 from silverball.physics.tolerances import FREE_GAP
 
-SHORTER = 1.0 - 1e-9  # a bound on a time is shortened by this share, so that its rounding cannot matter
+SHORTER = 1.0 - 1e-9  # factor on time bounds, so that their rounding cannot matter
 
 
 @inlined
 def starts_rolling_next(ball: BallRecord, tick: float) -> bool:
-    """Whether the slip of a ball comes to its end in the next tick, before it meets anything."""
+    """Whether a ball's slip ends in the next tick, before it meets anything."""
     return ball.contact_part == ROLL_START and ball.contact_age < ball.age + tick and ball.id != 0
 
 
@@ -49,7 +49,7 @@ def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bo
 
 @inlined
 def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, share: float) -> bool:
-    """Whether the balls are too far from each other to meet in the next tick, with so much room to spare."""
+    """Whether the balls are too far apart to meet in the next tick; `share` scales the travel assumed."""
     if a.id == 0 or b.id == 0:
         return True
     dx, dz = a.x - b.x, a.z - b.z
@@ -59,7 +59,7 @@ def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, s
 
 @internal
 def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
-    """Let a ball begin to roll in the next tick, far from everything else; whether it meets nothing then."""
+    """Make a ball roll that starts to do so in the next tick; whether it then meets nothing in that tick."""
     start_rolling(ball, geometry.board)
     find_contact(geometry, ball, tick)
     return ball.contact_age >= ball.age + tick
@@ -67,9 +67,10 @@ def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) ->
 
 @inlined
 def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, most: int) -> int:
-    """For how many ticks, at least one, a ball undisturbed in the next one goes on, the other left aside.
+    """Bound for how many ticks, at least one, a ball that is undisturbed in the next one stays so.
 
-    Until its contact is due, it can be in reach of a paddle, or its speed reaches the cap.
+    The bound is the first time at which its contact is due, a paddle can be in reach, or its speed reaches
+    the cap. The other ball is left aside.
     """
     if ball.id == 0 or most == 1:
         return most
@@ -88,15 +89,15 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, most: i
 
 @internal
 def event_free_ticks(geometry: BoardGeometry, a: BallRecord, b: BallRecord, tick: float, most: int) -> int:
-    """For how many of the next ticks, at most `most`, nothing happens to the balls."""
+    """Compute how many of the next ticks, at most `most`, are free of events."""
     board = geometry.board
     restart_slip(a, board)
     restart_slip(b, board)
     if not (is_undisturbed(geometry, a, tick) and is_undisturbed(geometry, b, tick)):
         return 0
     change_a, change_b = starts_rolling_next(a, tick), starts_rolling_next(b, tick)
-    # Twice the room: should b refuse after a has begun to roll, the tick is played with a's new flight, which
-    # must not be looked at before it began.
+    # Twice the distance: if b does not roll undisturbed although a already rolls, the tick is played with a's
+    # new flight, which must not be evaluated before it began.
     if not cannot_meet(board, a, b, tick, 2.0 if change_a or change_b else 1.0):
         return 0
     if change_a and not rolls_undisturbed(geometry, a, tick):
