@@ -96,18 +96,18 @@ def find_free_place(
     draws = world.draws
     if count > 0:
         for _ in range(CREATE_TRIES):
-            which = board.place_first + int(uniform(world.seed, draws) * count)
-            x = places[which, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
-            z = places[which, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
+            place = board.place_first + int(uniform(world.seed, draws) * count)
+            x = places[place, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
+            z = places[place, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
             draws += 3
             if is_free(world, board, colliders, x, z):
                 return True, x, z, draws
     if board.place_lowest < 0.0 and is_free(world, board, colliders, 0.0, 0.0):
         return True, 0.0, 0.0, draws
-    for which in range(board.place_first, board.place_end):
+    for place in range(board.place_first, board.place_end):
         for step in range(PLACE_STEPS * PLACE_STEPS):
-            x = places[which, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
-            z = places[which, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            x = places[place, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            z = places[place, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
             if is_free(world, board, colliders, x, z):
                 return True, x, z, draws
     return False, 0.0, 0.0, world.draws

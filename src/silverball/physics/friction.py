@@ -30,13 +30,13 @@ UPRIGHT_SHARE = 2.5  # slip along y, where only the spin changes; also the spin'
 
 
 @inlined
-def _friction(slip_t: float, slip_y: float, bodies: float, most: float) -> tuple[float, float]:
-    """Compute the friction impulses along t and y [u/s] between `bodies` balls, at most `most` in size."""
-    jt = -slip_t / (ALONG_SHARE * bodies)
-    jy = -slip_y / (UPRIGHT_SHARE * bodies)
-    if jt * jt + jy * jy <= most * most:
+def _friction(slip_t: float, slip_y: float, ball_count: float, limit: float) -> tuple[float, float]:
+    """Compute the friction impulses along t and y [u/s] between balls, at most `limit` in size."""
+    jt = -slip_t / (ALONG_SHARE * ball_count)
+    jy = -slip_y / (UPRIGHT_SHARE * ball_count)
+    if jt * jt + jy * jy <= limit * limit:
         return jt, jy
-    scale = -most / sqrt(slip_t * slip_t + slip_y * slip_y)
+    scale = -limit / sqrt(slip_t * slip_t + slip_y * slip_y)
     return scale * slip_t, scale * slip_y
 
 

@@ -46,7 +46,7 @@ AGENTS = (*PLAY, "envs")
 KERNEL_PACKAGES = (*STUDY, "envs", "drawing")  # all packages with kernels; a test checks it
 LAST_SHARE = 0.2  # share of a first start that the last kernels take; measured
 KEEP_SECONDS = 30 * 24 * 3600.0
-_kernels: list[Any] = []  # all of this process
+_kernels: list[Any] = []  # all kernels of this process
 _swept: set[Path] = set()  # folders of compiled code whose files were checked
 
 
@@ -109,9 +109,9 @@ def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
     """
     if SETTINGS.DISABLE_JIT:
         return cast(Callable[..., Any], function)
-    types = tuple(cast(Any, numba).typeof(one) for one in arguments)
-    found: Callable[..., Any] = function.compile(types)
-    return found
+    signature = tuple(cast(Any, numba).typeof(argument) for argument in arguments)
+    compiled: Callable[..., Any] = function.compile(signature)
+    return compiled
 
 
 @extending.intrinsic

@@ -69,18 +69,18 @@ def store(ball: BallRecord, at: BallMotion) -> None:
 @inlined
 def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
     """Start a new flight from the state in the ball's record, `offset` [s] into the tick."""
-    _begin(ball, offset)
+    _set_start(ball, offset)
     if board.normal_accel == 0.0:
         ball.accel_x, ball.accel_z, ball.motion = board.accel_x, board.accel_z, as_int(Motion.SLIDING)
         ball.roll_age = NEVER
     else:
-        _set_friction_motion(ball, board)
+        set_friction_motion(ball, board)
 
 
 @internal
 def hold_still(ball: BallRecord, offset: float) -> None:
     """Keep a ball where its record says it is, from `offset` [s] into the tick until `release`."""
-    _begin(ball, offset)
+    _set_start(ball, offset)
     ball.accel_x, ball.accel_z, ball.motion = 0.0, 0.0, as_int(Motion.HELD)
     ball.roll_age, ball.contact_age = NEVER, NEVER
 
@@ -96,12 +96,13 @@ def release(ball: BallRecord, board: BoardRecord, tick: float) -> None:
 def restart_slip(ball: BallRecord, board: BoardRecord) -> None:
     """Start a new flight along a slipping ball's present slip, whose direction holds for one tick at most."""
     if ball.motion == Motion.SLIPPING and ball.id != 0:
-        _begin(ball, 0.0)
-        set_friction_motion(ball, board)
+        _set_start(ball, 0.0)
+        inline_friction_motion(ball, board)
 
 
 @inlined
-def _begin(ball: BallRecord, offset: float) -> None:
+def _set_start(ball: BallRecord, offset: float) -> None:
+    """Make the state in the ball's record the start of a flight, `offset` [s] into the tick."""
     ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = ball.x, ball.z, ball.vx, ball.vz
     ball.ticks, ball.offset, ball.age = 0, offset, -offset
     reset_search(ball)
@@ -109,18 +110,18 @@ def _begin(ball: BallRecord, offset: float) -> None:
 
 @inlined
 def reset_search(ball: BallRecord) -> None:
-    """Discard the known next contact: the flight is searched again from its beginning."""
+    """Discard the known next contact: the flight is searched again from its start."""
     ball.contact_age, ball.contact_part = 0.0, NOTHING
 
 
 @internal
-def _set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
-    """Call `set_friction_motion` without compiling it into many callers."""
-    set_friction_motion(ball, board)
+def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
+    """Call `inline_friction_motion`, which is then not compiled into every caller."""
+    inline_friction_motion(ball, board)
 
 
 @inlined
-def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
+def inline_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
     """Set whether a ball on a playfield with friction slips or rolls, and its acceleration.
 
     Along its direction the slip decreases from |u| at the rate  7/2·μ·p − g·u/|u|.
@@ -134,10 +135,8 @@ def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
             ball.motion = as_int(Motion.ROLLING)
             ball.accel_x, ball.accel_z = ROLLING_SHARE * board.accel_x, ROLLING_SHARE * board.accel_z
             return
-        along_x, along_z = (
-            board.accel_x / board.gravity,
-            board.accel_z / board.gravity,
-        )  # too smooth: it begins to slip
+        # Too smooth to roll: the ball starts to slip down the slope.
+        along_x, along_z = board.accel_x / board.gravity, board.accel_z / board.gravity
     else:
         inverse = 1.0 / speed
         along_x, along_z = slip_x * inverse, slip_z * inverse

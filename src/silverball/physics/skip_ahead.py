@@ -35,12 +35,10 @@ def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bo
     if ball.contact_age < end and ball.contact_part != ROLL_START:
         return False
     board = geometry.board
-    share = (
-        1.0 if ball.contact_age >= end else 2.0
-    )  # room to spare for a ball that changes its flight on the way
-    if ball.x + share * tick * (min(ball.vx, 0.0) - board.max_accel * tick) > board.paddle_top:
+    margin = 1.0 if ball.contact_age >= end else 2.0  # a ball that starts to roll changes its flight
+    if ball.x + margin * tick * (min(ball.vx, 0.0) - board.max_accel * tick) > board.paddle_top:
         return True
-    travel = share * tick * (abs(ball.vx) + abs(ball.vz) + board.max_accel * tick)
+    travel = margin * tick * (abs(ball.vx) + abs(ball.vz) + board.max_accel * tick)
     return not (
         is_near(ball.x, ball.z, board.left_x, board.left_z, board.left_reach + travel)
         or is_near(ball.x, ball.z, board.right_x, board.right_z, board.right_reach + travel)
@@ -48,12 +46,12 @@ def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bo
 
 
 @inlined
-def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, share: float) -> bool:
-    """Whether the balls are too far apart to meet in the next tick; `share` scales the travel assumed."""
+def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, margin: float) -> bool:
+    """Whether the balls are too far apart to meet in the next tick; `margin` scales the travel assumed."""
     if a.id == 0 or b.id == 0:
         return True
     dx, dz = a.x - b.x, a.z - b.z
-    reach = 2.0 * (board.ball_radius + share * max_travel(board, 0.0, tick))
+    reach = 2.0 * (board.ball_radius + margin * max_travel(board, 0.0, tick))
     return dx * dx + dz * dz > reach * reach
 
 
@@ -66,30 +64,34 @@ def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) ->
 
 
 @inlined
-def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, most: int) -> int:
+def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: int) -> int:
     """Bound for how many ticks, at least one, a ball that is undisturbed in the next one stays so.
 
     The bound is the first time at which its contact is due, a paddle can be in reach, or its speed reaches
     the cap. The other ball is left aside.
     """
-    if ball.id == 0 or most == 1:
-        return most
+    if ball.id == 0 or limit == 1:
+        return limit
     if ball.motion == Motion.SLIPPING:
         return 1
     if ball.x <= board.paddle_top:
         return 1
     above = time_to_line(ball.x - board.paddle_top, ball.vx, -board.max_accel)
     free = min(above, ball.contact_age - ball.age) * SHORTER
-    count = int(free / tick) if free < most * tick else most
+    count = int(free / tick) if free < limit * tick else limit
     end = state_at(ball, ball.age + count * tick)
-    below = board.speed_cap * board.speed_cap * SHORTER  # of squares, which are greatest at one of the ends
-    is_slow = ball.vx * ball.vx + ball.vz * ball.vz < below and end.vx * end.vx + end.vz * end.vz < below
+    max_square = (
+        board.speed_cap * board.speed_cap * SHORTER
+    )  # the square of the speed is greatest at one of the ends
+    is_slow = (
+        ball.vx * ball.vx + ball.vz * ball.vz < max_square and end.vx * end.vx + end.vz * end.vz < max_square
+    )
     return max(count, 1) if is_slow and end.x > -board.half_length else 1
 
 
 @internal
-def event_free_ticks(geometry: BoardGeometry, a: BallRecord, b: BallRecord, tick: float, most: int) -> int:
-    """Compute how many of the next ticks, at most `most`, are free of events."""
+def event_free_ticks(geometry: BoardGeometry, a: BallRecord, b: BallRecord, tick: float, limit: int) -> int:
+    """Compute how many of the next ticks, at most `limit`, are free of events."""
     board = geometry.board
     restart_slip(a, board)
     restart_slip(b, board)
@@ -104,12 +106,12 @@ def event_free_ticks(geometry: BoardGeometry, a: BallRecord, b: BallRecord, tick
         return 0
     if change_b and not rolls_undisturbed(geometry, b, tick):
         return 0
-    count = undisturbed_ticks(board, a, tick, most)
+    count = undisturbed_ticks(board, a, tick, limit)
     count = undisturbed_ticks(board, b, tick, count)
     if count == 1 or a.id == 0 or b.id == 0:
         return count
     at_a, at_b = state_at(a, a.age), state_at(b, b.age)
     accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
     end = count * tick
-    meeting = contact_with_ball(at_a, at_b, accel_x, accel_z, board.ball_radius + FREE_GAP, end)
-    return count if meeting.part == NOTHING else max(1, int(meeting.time * SHORTER / tick))
+    contact = contact_with_ball(at_a, at_b, accel_x, accel_z, board.ball_radius + FREE_GAP, end)
+    return count if contact.part == NOTHING else max(1, int(contact.time * SHORTER / tick))
