@@ -1,4 +1,4 @@
-"""Does a world go on with the same bits wherever it was saved and whoever its neighbours are?"""
+"""A world continues with the same bits wherever it was saved and whatever its neighbours are."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
-"""How do balls come onto the board, get shoved, and part when they overlap?
+"""Creating, shoving and separating balls.
 
 Creating tries random places first (as the original did), then the origin, then searches every place
-systematically; if nothing is free it refuses and nothing changes, the random generator included. A place is
-a square of the board from which the gutter can be reached (worked out once per table), so a ball never
-appears behind a corner wall.
+systematically. If nothing is free it refuses, and nothing changes, the random generator included. A place is
+a square of the board from which the gutter can be reached (computed once per table), so a ball never appears
+behind a corner wall.
 """
 
 from __future__ import annotations
@@ -40,14 +40,14 @@ TWO_PI = 6.283185307179586
 def clearance(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float
 ) -> tuple[float, int]:
-    """The smallest gap [u] between a ball at (x, z) and the parts (paddles as they stand), and which part."""
+    """Compute the smallest gap [u] between a ball at (x, z) and the parts, and which part it is."""
     first = board.collider_first
     left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
-    least, part = z - left.z, as_int(Part.LEFT_WALL)
-    if right.z - z < least:
-        least, part = right.z - z, as_int(Part.RIGHT_WALL)
-    if top.x - x < least:
-        least, part = top.x - x, as_int(Part.TOP_WALL)
+    smallest, part = z - left.z, as_int(Part.LEFT_WALL)
+    if right.z - z < smallest:
+        smallest, part = right.z - z, as_int(Part.RIGHT_WALL)
+    if top.x - x < smallest:
+        smallest, part = top.x - x, as_int(Part.TOP_WALL)
     for index in range(first + Part.LEFT_PADDLE, board.collider_end):
         c = colliders[index]
         if c.kind == Kind.ABSENT:
@@ -56,21 +56,21 @@ def clearance(
             gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.LEFT_PADDLE].angle, x, z)
         else:
             gap, _, _ = distance(c, x, z)
-        if gap < least:
-            least, part = gap, index - first
-    return least - board.ball_radius, part
+        if gap < smallest:
+            smallest, part = gap, index - first
+    return smallest - board.ball_radius, part
 
 
 @kernel
 def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float) -> float:
-    """The smallest gap [u] between a ball at (x, z) and the balls on the board."""
-    least = 1e300
+    """Compute the smallest gap [u] between a ball at (x, z) and the balls on the board."""
+    smallest = 1e300
     for index in range(BALL_COUNT):
         ball = world.ball[index]
         if ball.id != 0:
             gap = sqrt((ball.x - x) ** 2 + (ball.z - z) ** 2) - 2.0 * board.ball_radius
-            least = min(least, gap)
-    return least
+            smallest = min(smallest, gap)
+    return smallest
 
 
 @internal
@@ -86,24 +86,28 @@ def is_free(world: WorldRecord, board: BoardRecord, colliders: Colliders, x: flo
 def find_free_place(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places
 ) -> tuple[bool, float, float, int]:
-    """A free place for a ball, and how many random numbers it took to find it."""
+    """Find a free place for a ball.
+
+    Returns:
+        Whether there is one, its x and z [u], and the draws of the world's random generator after that.
+    """
     count = board.place_end - board.place_first
     size = board.place_size
     draws = world.draws
     if count > 0:
         for _ in range(CREATE_TRIES):
-            which = board.place_first + int(uniform(world.seed, draws) * count)
-            x = places[which, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
-            z = places[which, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
+            place = board.place_first + int(uniform(world.seed, draws) * count)
+            x = places[place, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
+            z = places[place, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
             draws += 3
             if is_free(world, board, colliders, x, z):
                 return True, x, z, draws
     if board.place_lowest < 0.0 and is_free(world, board, colliders, 0.0, 0.0):
         return True, 0.0, 0.0, draws
-    for which in range(board.place_first, board.place_end):
+    for place in range(board.place_first, board.place_end):
         for step in range(PLACE_STEPS * PLACE_STEPS):
-            x = places[which, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
-            z = places[which, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            x = places[place, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            z = places[place, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
             if is_free(world, board, colliders, x, z):
                 return True, x, z, draws
     return False, 0.0, 0.0, world.draws
@@ -120,7 +124,7 @@ def put_ball(
     vx: float,
     vz: float,
 ) -> None:
-    """A new ball at (x, z) in an empty slot of the world."""
+    """Create a ball at (x, z) with a velocity, in an empty slot of the world."""
     is_known = flight_checksum(world) == log.checksum
     world.created += 1
     ball = world.ball[slot]
@@ -135,7 +139,7 @@ def put_ball(
 
 @kernel
 def empty_slot(world: WorldRecord, board: BoardRecord) -> int:
-    """The first slot without a ball, or −1 when the board holds as many as the table allows."""
+    """Find the first slot without a ball; −1 if the board holds as many as the table allows."""
     for slot in range(board.max_balls):
         if world.ball[slot].id == 0:
             return slot
@@ -146,7 +150,7 @@ def empty_slot(world: WorldRecord, board: BoardRecord) -> int:
 def create_ball(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places, log: LogRecord
 ) -> int:
-    """One more ball at rest in a free place.
+    """Create a ball at rest in a free place.
 
     Returns:
         An `Outcome`: CREATED, or why not (then nothing has changed).
@@ -164,7 +168,7 @@ def create_ball(
 
 @internal
 def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
-    """Jitter: every ball on the board gets an impulse of fixed size in a random direction of its own."""
+    """Jitter: give every ball on the board an impulse of fixed size in a random direction of its own."""
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
@@ -182,12 +186,12 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
 
 @kernel
 def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> bool:
-    """Split an overlap of the two balls equally between them.
+    """Move two overlapping balls apart, each by half of the overlap.
 
-    Only a state from outside holds one; an exact step never makes it.
+    Only a state from outside can hold an overlap; an exact step never makes one.
 
     Returns:
-        Whether the balls are apart now; False, and nothing changed, if that would press one into a part.
+        Whether the balls are apart now; False, with nothing changed, if that would push one into a part.
     """
     a, b = world.ball[0], world.ball[1]
     if a.id == 0 or b.id == 0:
@@ -198,8 +202,8 @@ def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders)
     if overlap <= FREE_GAP:
         return True
     nx, nz = (dx / apart, dz / apart) if apart > 0.0 else (0.0, 1.0)
-    push = 0.5 * (overlap + FREE_GAP)
-    ax, az, bx, bz = a.x + push * nx, a.z + push * nz, b.x - push * nx, b.z - push * nz
+    shift = 0.5 * (overlap + FREE_GAP)
+    ax, az, bx, bz = a.x + shift * nx, a.z + shift * nz, b.x - shift * nx, b.z - shift * nz
     gap_a, _ = clearance(world, board, colliders, ax, az)
     gap_b, _ = clearance(world, board, colliders, bx, bz)
     if gap_a < 0.0 or gap_b < 0.0:

@@ -1,9 +1,9 @@
-"""Which parts can a ball meet soon? The grid: the board in cells, each with a list of the parts near it.
+"""Broad phase: cheap tests for which parts a ball can touch soon.
 
-A cell lists, in the order of the table, every part that a ball whose centre is in the cell can touch before
-it has gone the way `skin`. One array of 32-bit numbers holds the grids of all boards: for a board first one
-number a cell and one more, where the list of that cell begins, then the lists. Borders and paddles are not
-in it; they are asked for by coordinates.
+The grid cuts the board into cells. Each cell lists, in the order of the table, every part that a ball whose
+centre is in the cell can touch before it has travelled `skin`. One array of 32-bit integers holds the grids
+of all boards: for each board one offset a cell and one more, where the cell's list begins, then the lists.
+Borders and paddles are not in the grid; they are tested by their coordinates.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from silverball.physics.shapes import distance
 
 @inlined
 def cell_of(board: BoardRecord, x: float, z: float) -> int:
-    """The number of the cell that holds (x, z); of the nearest one, should that be beyond the board."""
+    """Compute the number of the cell that holds (x, z), or of the nearest cell if that is off the board."""
     row = int((x + board.half_length) * board.grid_scale)
     column = int((z + board.half_width) * board.grid_scale)
     row = min(max(row, 0), board.grid_rows - 1)
@@ -25,10 +25,10 @@ def cell_of(board: BoardRecord, x: float, z: float) -> int:
 
 @kernel
 def fill_grid(board: BoardRecord, colliders: Colliders, grid: Grid) -> int:
-    """Write a board's cells and lists into `grid` from `board.grid_first` on, as far as there is room.
+    """Write a board's cells and lists into `grid` from `board.grid_first` on, as far as they fit.
 
     Returns:
-        How many numbers the board's grid takes; more than there is room for: call again with more.
+        How many numbers the board's grid takes. If that is more than fit, call again with a larger array.
     """
     side = 1.0 / board.grid_scale
     reach = board.ball_radius + board.skin + 0.7072 * side  # half a cell's diagonal, rounded up
@@ -52,9 +52,10 @@ def fill_grid(board: BoardRecord, colliders: Colliders, grid: Grid) -> int:
 
 @inlined
 def is_culled(c: ColliderRecord, here: BallMotion, speed: float, travel: float, sagitta: float) -> bool:
-    """Whether a ball that goes so far and strays so far from its straight line misses a part's circle.
+    """Whether a ball certainly misses a part's bounding circle.
 
-    The line comes as near as  √(d² − (d·v)²/v²)  to the middle, or as d if it leads away.
+    `travel` [u] bounds how far the ball gets, `sagitta` [u] how far it gets from its straight line. The
+    line's distance from the circle's centre is  √(d² − (d·v)²/v²),  or d if the ball moves away.
     """
     dx, dz = here.x - c.x, here.z - c.z
     square = dx * dx + dz * dz
@@ -67,11 +68,11 @@ def is_culled(c: ColliderRecord, here: BallMotion, speed: float, travel: float, 
 
 @inlined
 def is_near(x: float, z: float, px: float, pz: float, reach: float) -> bool:
-    """Whether two points are closer to each other than a reach that is positive."""
+    """Whether two points are closer to each other than a positive distance."""
     return (x - px) * (x - px) + (z - pz) * (z - pz) < reach * reach
 
 
 @inlined
 def max_travel(board: BoardRecord, start: float, end: float) -> float:
-    """A bound on a ball's way [u] between two times of a tick [s] that it began below the speed cap."""
+    """Bound a ball's travel [u] between two times of a tick [s] that it began below the speed cap."""
     return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.max_accel * end)

@@ -1,7 +1,8 @@
-"""What does a ball meet next, and what comes of it?
+"""The next contact of a ball, and its effect on the ball.
 
-Still parts are searched for once a flight: the contact found, or the age up to which there is none, stays in
-the ball's record until the flight ends. Paddles are searched for in every tick in which they are near.
+Contacts with stationary parts are searched for once a flight. The contact found, or the age up to which there
+is none, stays in the ball's record until the flight ends. Paddles are searched for in every tick in which
+they are near.
 """
 
 from __future__ import annotations
@@ -37,10 +38,10 @@ from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 @kernel
 def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None:
-    """Follow a ball's flight on from its age `due`, until a still part is met or `skin` [u] are gone.
+    """Continue the search of a ball's flight from `contact_age`, for a travel of `skin` at most.
 
-    The flight of a slipping ball is followed to the end of the tick alone, where it ends. At equal times the
-    earlier part in the order of the table is met first, which is the same in the mirror.
+    The flight of a slipping ball is searched to the end of the tick only, where it ends. At equal times the
+    part that comes first in the table wins, so that mirrored play stays mirrored.
     """
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     start = ball.contact_age
@@ -49,13 +50,13 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     span = board.search_time
     if ball.motion == Motion.SLIPPING:
         span = min(span, max(ball.age + tick - start, 0.0))
-    mean = speed + 0.5 * board.max_accel * span  # at most
+    mean = speed + 0.5 * board.max_accel * span  # upper bound of the mean speed
     if mean * span > board.skin:
         span = board.skin / mean
     time, part = start + span, NOTHING
     if ball.roll_age < time:
         time, part = max(ball.roll_age, start), ROLL_START
-    sagitta = 0.5 * board.max_accel * span * span  # from the straight line, at most
+    sagitta = 0.5 * board.max_accel * span * span  # upper bound of the distance from the straight line
     travel = mean * span
 
     if here.z - travel < board.low_z:
@@ -97,9 +98,10 @@ def first_contact(
     limit: float,
     tick: float,
 ) -> Contact:
-    """The first of all contacts of a ball between two times of the tick [s]; normals of still parts left out.
+    """Find the first contact of a ball between two times of the tick [s].
 
-    Of a still part and a paddle at the very same moment the still part comes first, of two paddles the left.
+    At equal times a stationary part comes before a paddle, and the left paddle before the right one. The
+    normal is set for paddles only; that of a stationary part is computed in `resolve`.
     """
     if ball.id == 0:
         return Contact(limit, NOTHING, 0.0, 0.0)
@@ -136,9 +138,9 @@ def first_contact(
 
 @internal
 def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, omega: float) -> None:
-    """Let a contact happen: the ball bounces off a part, begins to roll, or is gone through the gutter.
+    """Apply a contact: the ball bounces off a part, starts to roll, or leaves through the gutter.
 
-    `turn` is the angular velocity of the paddle met [rad/s].
+    `omega` is the angular velocity of the paddle met [rad/s].
     """
     world, board, time = lane.world, geometry.board, contact.time
     if contact.part == NULL_EVENT:
@@ -180,7 +182,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
 
 @inlined
 def clear_ball(ball: BallRecord) -> None:
-    """An empty slot is all zeros."""
+    """Set all fields of a ball's slot to zero: the slot is empty."""
     ball.x, ball.z, ball.vx, ball.vz = 0.0, 0.0, 0.0, 0.0
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = 0
@@ -191,7 +193,7 @@ def clear_ball(ball: BallRecord) -> None:
 
 @internal
 def count_hit(world: WorldRecord, kind: int) -> None:
-    """One more hit of a kind of part."""
+    """Count a hit by the kind of the part."""
     if kind == Kind.WALL:
         world.wall_hits += 1
     elif kind == Kind.SLANT_WALL:

@@ -1,4 +1,4 @@
-"""How is an event written down, and how does the next call know what this one has left?"""
+"""The event log of a world, and the checksum by which the next call recognises an unchanged state."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from silverball.physics.records import (
 
 @internal
 def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
-    """Append an event of a ball where it is (see `records.EVENT`) to a world's log, or count it as lost."""
-    room = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
-    if log.count >= room:
+    """Append an event of a ball at its present position (see `records.EVENT`), or count it as lost."""
+    capacity = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
+    if log.count >= capacity:
         log.lost += 1
         return
     event = log.event[log.count]
@@ -32,20 +32,23 @@ def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: C
 
 @internal
 def store_checksum(world: WorldRecord, log: LogRecord) -> None:
-    """Keep in the log what a call leaves."""
+    """Store the checksum of the state that a call leaves, for `validation.is_unchanged`."""
     log.checksum = flight_checksum(world)
 
 
 @inlined
 def flight_checksum(world: WorldRecord) -> float:
-    """A number that no other flights, contacts to come and angles have, if nobody seeks some that do."""
+    """Compute a number that identifies the flights, the next contacts and the paddles' angles.
+
+    It tells an unchanged state from a changed one, but is no protection against deliberate collisions.
+    """
     angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
     return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles
 
 
 @inlined
 def _ball_checksum(ball: BallRecord) -> float:
-    """The share of one ball."""
-    begin = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
-    pull = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
-    return begin + pull + (ball.contact_age + ball.contact_part)
+    """Compute the share of one ball."""
+    start = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
+    motion = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
+    return start + motion + (ball.contact_age + ball.contact_part)

@@ -38,7 +38,7 @@ PARITY = 0x1BD11BDA  # fixed by the generator's authors, against a key of zeros
 
 @inlined
 def _sine(r: float, rest: float) -> float:
-    """Sine of r + rest, |r| ≤ π/4, |rest| tiny:  r − r³/6 + r⁵/120 − …  and  rest·cos r ≈ rest·(1 − r²/2)."""
+    """Compute sine of r + rest, |r| ≤ π/4, |rest| tiny:  r − r³/6 + …,  and  rest·cos r ≈ rest·(1 − r²/2)."""
     q = r * r
     tail = q * (S7 + q * (S9 + q * (S11 + q * (S13 + q * (S15 + q * S17)))))
     return r + (r * q * (S3 + q * (S5 + tail)) + rest * (1.0 - 0.5 * q))
@@ -46,7 +46,7 @@ def _sine(r: float, rest: float) -> float:
 
 @inlined
 def _cosine(r: float, rest: float) -> float:
-    """Cosine of r + rest, |r| ≤ π/4:  1 − r²/2 + r⁴/24 − …, the rounding error of 1 − r²/2 added back."""
+    """Compute cosine of r + rest, |r| ≤ π/4:  1 − r²/2 + r⁴/24 − …, plus the rounding error of 1 − r²/2."""
     q = r * r
     half = 0.5 * q
     head = 1.0 - half
@@ -56,7 +56,7 @@ def _cosine(r: float, rest: float) -> float:
 
 @kernel
 def sine_cosine(x: float) -> tuple[float, float]:
-    """Sine and cosine of an angle [rad], |x| ≤ 1e4."""
+    """Compute sine and cosine of an angle [rad], |x| ≤ 1e4."""
     if abs(x) <= 0.7853981633974483:  # π/4: nothing to reduce; the same bits as below
         return _sine(x, 0.0), _cosine(x, 0.0)
     turns = floor(x * TWO_OVER_PI + 0.5)
@@ -81,7 +81,7 @@ def _rotated(word: int, bits: int) -> int:
 
 @inlined
 def _mixed(a: int, b: int, first: int) -> tuple[int, int]:
-    """Four rounds, each:  a ← a + b,  b ← rotate(b) xor a."""
+    """Apply four rounds, each:  a ← a + b,  b ← rotate(b) xor a."""
     for number in range(first, first + 4):
         a = (a + b) & WORD
         b = _rotated(b, ROTATIONS[number]) ^ a
@@ -90,7 +90,7 @@ def _mixed(a: int, b: int, first: int) -> tuple[int, int]:
 
 @kernel
 def threefry(key0: int, key1: int, counter0: int, counter1: int) -> tuple[int, int]:
-    """Two random 32-bit words of a key and a counter of two 32-bit words each."""
+    """Compute two random 32-bit words from a key and a counter of two 32-bit words each."""
     keys = (key0, key1, PARITY ^ key0 ^ key1)
     a = (counter0 + key0) & WORD
     b = (counter1 + key1) & WORD
@@ -103,6 +103,6 @@ def threefry(key0: int, key1: int, counter0: int, counter1: int) -> tuple[int, i
 
 @kernel
 def uniform(seed: int, draw: int) -> float:
-    """The draw-th uniform number of a seed, in [0, 1), with 53 random bits."""
+    """Compute the draw-th uniform number of a seed, in [0, 1), with 53 random bits."""
     high, low = threefry(seed & WORD, (seed >> 32) & WORD, draw & WORD, (draw >> 32) & WORD)
     return ((high >> 5) * 67108864.0 + (low >> 6)) / 9007199254740992.0

@@ -1,4 +1,4 @@
-"""A cell of the grid lists every part that a ball anywhere in it can touch on a way of `skin`."""
+"""A cell of the grid lists every part that a ball anywhere in it can touch within a travel of `skin`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The random numbers: the published generator, and fair enough."""
+"""The random numbers are those of the published generator, and uniform."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Our own sine and cosine against 40 digits."""
+"""The portable sine and cosine against 40 digits."""
 
 from __future__ import annotations
 
