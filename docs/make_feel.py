@@ -1,7 +1,7 @@
 """Draw the pictures of docs/feel.md and print its figures: `python docs/make_feel.py`.
 
-For each built-in table, or those that are named: where balls spend their time, and where a shot goes for
-each moment of the press. It needs matplotlib: `.venv/bin/pip install '.[bench]'`.
+For each built-in table, or those named: where balls spend their time, and the direction of a shot for each
+moment of the press. It needs matplotlib: `.venv/bin/pip install '.[bench]'`.
 """
 
 from __future__ import annotations

@@ -22,8 +22,7 @@ from stable_baselines3.common.vec_env import VecEnvWrapper, VecNormalize
 from silverball.envs import PinballVectorEnv
 from silverball.envs.sb3 import SilverballVecEnv
 from silverball.metrics.ball_time import time_balls
-from silverball.players import PlayerKind
-from silverball.players.features import COLUMNS, MIRRORED, SEEN, see
+from silverball.players.features import COLUMNS, ENCODED, MIRRORED, encode
 from silverball.players.trained import DECISIONS, Policy
 from silverball.world import WorldBatch
 
@@ -37,10 +36,10 @@ class Seen(VecEnvWrapper):
     """Shows what `players/features.py` makes of an observation; balls on the right are seen in the mirror."""
 
     def __init__(self, envs):
-        super().__init__(envs, Box(-10.0, 10.0, (SEEN,), np.float32))
+        super().__init__(envs, Box(-10.0, 10.0, (ENCODED,), np.float32))
 
     def _see(self, rows):
-        seen, is_mirrored = see(rows[:, COLUMNS])
+        seen, is_mirrored = encode(rows[:, COLUMNS])
         return seen.astype(np.float32), is_mirrored
 
     def reset(self):
@@ -182,7 +181,7 @@ unseen = PinballVectorEnv(
 worlds = {
     name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN, tick_rate=60) for name in ("random", "reflex")
 }
-others = {name: time_balls(one, PlayerKind[name.upper()], LONGEST).score[0] for name, one in worlds.items()}
+others = {name: time_balls(one, name, LONGEST).score[0] for name, one in worlds.items()}
 for name, points in others.items():
     print(f"the player {name}: {points:.0f} points a ball", flush=True)
 

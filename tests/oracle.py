@@ -1,7 +1,7 @@
 """A slow, obvious twin of the solver in plain Python, to test against.
 
-It moves the balls in tiny steps and looks for overlaps: just what the solver must never do. When a step
-ends in an overlap it is cut in half again and again until the overlap is gone or the step is nothing; then
+It moves the balls in tiny steps and checks for overlaps: just what the solver must never do. When a step
+ends in an overlap it is cut in half again and again until the overlap is gone or the step is negligible; then
 the contact is where the ball stands. Shapes are lists of corners taken from the table; distances come from
 the nearest point of each side. Friction is the law itself, in three dimensions. It shares no code with the
 solver.
@@ -15,7 +15,7 @@ from typing import NamedTuple
 from silverball.table import Board, Paddle, Table
 
 STEP = 1e-4  # [s] at 22 u/s a ball moves 1/110 of its radius
-SHORTEST = 1e-13  # [s] a cut step this short is none
+SHORTEST = 1e-13  # [s] a shorter step is negligible
 
 
 class Bounce(NamedTuple):
@@ -64,7 +64,7 @@ def pushed(velocity: Vector, spin: Vector, arm: Vector, impulse: Vector) -> tupl
 
 
 def rubbing(slip: Vector, normal: Vector, most: float, bodies: int = 1) -> Vector:
-    """The impulse of friction against a slip between so many balls: what stops it, or all there is.
+    """The impulse of friction against a slip between `bodies` balls: what stops it, or all that is available.
 
     An impulse J along the surface changes the slip there by J for the ball's speed and by J/INERTIA for its
     spin; along y by the latter alone.

@@ -21,7 +21,7 @@ from silverball.errors import OutputError
 from silverball.export.film import check_output
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import soak
-from silverball.soak.finding import Finding, again
+from silverball.soak.finding import Finding, reproduce
 from silverball.table import dump_table, load_table
 
 SOAK = ("soak", "--worlds", "1", "--frames", "1")
@@ -299,7 +299,7 @@ def is_as_good(key: str, value: Any, other: Any) -> bool:
 
 def test_the_undamaged_files_are_read(soaked: Path):
     finding = Finding.load(soaked / "finding.json")
-    again(finding)
+    reproduce(finding)
     assert soak(options_of(), 1, soaked / "soak.json").rounds == 1
 
 

@@ -1,4 +1,4 @@
-"""Whatever a state from outside claims, no ball gets into anything: it plays on, or it is refused."""
+"""Whatever a state from outside claims, no ball gets into anything: it continues, or it is refused."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def test_no_single_forged_number_leads_a_ball_into_anything(name: str, way, rub)
 @pytest.mark.parametrize("way", WAYS, ids=lambda way: way.__name__)
 @pytest.mark.parametrize("later", [1e-3, 0.01, TICK, 0.1, 0.2, 0.25, 3.0])
 def test_a_contact_that_is_put_off_happens_when_it_should(later: float, way, rub) -> None:
-    """The forged world goes the way of the honest one: what is due is searched for anew."""
+    """The forged world goes the way of the honest one: what is due is searched for again."""
     honest, world = played(board(rub), 3), played(board(rub), 3)
 
     def put_off(record) -> None:

@@ -1,4 +1,4 @@
-"""Is a table that went through a file the same: equal parts, the same digest, the same arrays?"""
+"""A table written to a file and read again is the same: equal parts, the same digest, the same arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where nothing pulls: balls fly straight, keep what they have, rest for ever, and get into nothing."""
+"""Without gravity balls fly straight, keep their speed, rest forever, and get into nothing."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_a_ball_at_rest_stays_and_a_restored_one_too(rub, tick_rate: int, gravit
 
 @pytest.mark.parametrize("gravity", TINY)
 @pytest.mark.parametrize("rub", RUBS, ids=str)
-def test_a_leap_and_a_batch_give_the_bits_of_one_tick_after_the_other(rub, gravity: float) -> None:
+def test_a_skip_and_a_batch_give_the_bits_of_one_tick_after_the_other(rub, gravity: float) -> None:
     tables = [weightless(generate_table(n), gravity=gravity, **rub) for n in range(8)]
     tables += [weightless(hostile_table(n), gravity=gravity, **rub) for n in range(8)]
     leaping, single = (WorldBatch(tables, len(tables), 3, 60) for _ in range(2))

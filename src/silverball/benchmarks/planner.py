@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from silverball.benchmarks.speed import Figure
-from silverball.players.planner import BRANCHES, Planner, beat_of
+from silverball.players.planner import BRANCHES, Planner, ticks_per_decision
 from silverball.table import Table
 from silverball.world import World
 
@@ -43,10 +43,10 @@ def measure_planner(
             world.create_ball()
         processor_start, wall_start = time.thread_time(), time.perf_counter()
         buttons = planner.press(world)
-        if world.tick % beat_of(world.tick_rate) == 0:
+        if world.tick % ticks_per_decision(world.tick_rate) == 0:
             processor.append(1e3 * (time.thread_time() - processor_start))
             wall.append(1e3 * (time.perf_counter() - wall_start))
-            steps.append(int(planner.notes.memories["steps"][0]))
+            steps.append(int(planner.state.memories["moves"][0]))
         world.step(*buttons)
     figures = [
         Figure("decisions", len(wall), ""),

@@ -14,8 +14,7 @@ import numpy as np
 
 from silverball.benchmarks.speed import Figure
 from silverball.envs import IDS
-from silverball.players.batch_policies import deciding
-from silverball.players.simple import PlayerKind
+from silverball.players.batch_policies import batch_policy
 
 
 def measure_thresholds(episodes: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
@@ -32,7 +31,7 @@ def mean_return(id_: str, episodes: int) -> tuple[float, float]:
     """Mean return of the trained player over one episode in each of `episodes` environments, and ± 95 %."""
     envs: Any = gymnasium.make_vec(id_, episodes, observation="state")
     envs.reset(seed=0)
-    player = deciding(PlayerKind.TRAINED, envs.unwrapped.batch)
+    player = batch_policy("trained", envs.unwrapped.batch)
     assert player is not None
     returns, plays, step = np.zeros(episodes), np.ones(episodes, bool), 0
     while plays.any():

@@ -36,23 +36,23 @@ def ball_time(
 
     Example: `silverball ball-time --table random --worlds 1000 --seconds 600 --player reflex`
     """
-    from silverball.players import PlayerKind, player_kind
+    from silverball.players.registry import check_name
     from silverball.table import load_table
 
     check_duration(seconds, tick_rate)
-    kind = player_kind(player)
+    check_name(player)
     loaded = load_table(table)
-    with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "press_all"):
+    with compiling("plan_worlds" if player == "planner" else "press_all"):
         from silverball.metrics.ball_time import time_balls
         from silverball.world import WorldBatch
 
-        time_balls(WorldBatch("classic"), kind, 0.1)
+        time_balls(WorldBatch("classic"), player if player == "planner" else "idle", 0.1)
     with progress_bar() as bar:
         batch = WorldBatch(make_boards(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"watching {worlds} ball{'s' * (worlds > 1)}", total=seconds)
-        times = time_balls(batch, kind, seconds, lambda done: bar.update(task, completed=done))
+        times = time_balls(batch, player, seconds, lambda done: bar.update(task, completed=done))
     report = report_of(times) | {
-        "table": table, "seed": seed, "player": kind.name.lower(), "tick_rate": tick_rate,
+        "table": table, "seed": seed, "player": player, "tick_rate": tick_rate,
     }  # fmt: skip
     if as_json:
         say_json(report)

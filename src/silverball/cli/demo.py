@@ -81,7 +81,7 @@ def make_demo(
 
     look = theme_named(theme)
     check_output(out, ENDINGS, force=force)
-    chosen_player = make_player(player)
+    chosen_player = make_player(player, seed)
     board = load_table(table)
     board_seed = None if board.random is None else seed
     if board.random is not None:

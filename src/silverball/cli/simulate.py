@@ -41,24 +41,24 @@ def simulate(
 
     Example: `silverball simulate --table random --seed 7 --seconds 600 --player reflex --json`
     """
-    from silverball.players import PlayerKind, player_kind
+    from silverball.players.registry import check_name
     from silverball.table import load_table
 
     check_duration(seconds, tick_rate)
-    kind = player_kind(player)
+    check_name(player)
     loaded = load_table(table)
-    with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "play_worlds"):
+    with compiling("plan_worlds" if player == "planner" else "play_worlds"):
         from silverball.players.rollout import play
         from silverball.world import WorldBatch
         from silverball.world.saved_world import digest
 
-        play(WorldBatch("classic"), kind, 0.0, 0, audit)
-        if kind == PlayerKind.PLANNER:
-            play(WorldBatch("classic"), kind, 1.0 / 60.0, 1, audit)
+        play(WorldBatch("classic"), "idle", 0.0, 0, audit)
+        if player == "planner":
+            play(WorldBatch("classic"), player, 1.0 / 60.0, 1, audit)
     with progress_bar() as bar:
         batch = WorldBatch(make_boards(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"simulating {worlds} world{'s' * (worlds > 1)}", total=seconds)
-        played = play(batch, kind, seconds, balls, audit, lambda done: bar.update(task, completed=done))
+        played = play(batch, player, seconds, balls, audit, lambda done: bar.update(task, completed=done))
     report: dict[str, Any] = {
         "table": table,
         "seed": seed,

@@ -69,12 +69,12 @@ def run_soak(
     recipe = load_table(table)
     with compiling("soak_worlds"):
         from silverball.soak import campaign
-        from silverball.soak.rounds import Options, Soaked
+        from silverball.soak.rounds import Options, SoakBatch
 
         options = Options(recipe, seed, worlds, tick_rate, hostile)
         path = progress or data_folder() / "soak" / campaign.log_name(options)
-        earlier = campaign.begun(options, path)
-        Soaked([load_table("classic")], [seed], tick_rate, hostile).run(1)
+        earlier = campaign.load_or_begin(options, path)
+        SoakBatch([load_table("classic")], [seed], tick_rate, hostile).run(1)
     started = time.perf_counter()
     try:
         with progress_bar() as bar:
@@ -128,11 +128,11 @@ def repeat(path: Path, as_json: bool) -> NoReturn:
     """
     with compiling("watched_tick"):
         from silverball.soak.checks import Found
-        from silverball.soak.finding import Finding, again
+        from silverball.soak.finding import Finding, reproduce
 
         finding = Finding.load(path)
         try:
-            found = again(finding)
+            found = reproduce(finding)
         except StateError as error:
             raise StateError(f"{path}: {error}") from None
     happens = found.name.lower() == finding.kind

@@ -28,7 +28,7 @@ from silverball.envs.slots import (
 from silverball.envs.state import COUNTS, EPISODE, End, Mode, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
-from silverball.physics.random import WORD, threefry
+from silverball.physics.portable_math import WORD, threefry
 from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
 from silverball.physics.step import run_worlds
 from silverball.world.single_step import INT, array_at

@@ -1,19 +1,19 @@
-"""What does a ball meet next, and what comes of it?
+"""The next contact of a ball, and its effect on the ball.
 
-Still parts are searched for once a flight: the contact found, or the age up to which there is none, stays in
-the ball's record until the flight ends. Paddles are searched for in every tick in which they are near.
+Contacts with stationary parts are searched for once a flight. The contact found, or the age up to which there
+is none, stays in the ball's record until the flight ends. Paddles are searched for in every tick in which
+they are near.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.bounce import bounce
+from silverball.physics.broad_phase import cell_of, is_culled, is_near
 from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
-from silverball.physics.grid import cell_of
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, start_flight, start_rolling
 from silverball.physics.paddle import contact_with_paddle, surface_velocity
 from silverball.physics.records import (
@@ -21,7 +21,7 @@ from silverball.physics.records import (
     NOTHING,
     NULL_EVENT,
     ROLL_START,
-    BallMotion,
+    BallRecord,
     BoardGeometry,
     Contact,
     EventKind,
@@ -30,17 +30,18 @@ from silverball.physics.records import (
     Motion,
     PaddleSweep,
     Part,
+    WorldRecord,
 )
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
 @kernel
-def find_contact(geometry: BoardGeometry, ball: Any, tick: float) -> None:
-    """Follow a ball's flight on from its age `due`, until a still part is met or `skin` [u] are gone.
+def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None:
+    """Continue the search of a ball's flight from `contact_age`, for a travel of `skin` at most.
 
-    The flight of a slipping ball is followed to the end of the tick alone, where it ends. At equal times the
-    earlier part in the order of the table is met first, which is the same in the mirror.
+    The flight of a slipping ball is searched to the end of the tick only, where it ends. At equal times the
+    part that comes first in the table wins, so that mirrored play stays mirrored.
     """
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     start = ball.contact_age
@@ -49,27 +50,27 @@ def find_contact(geometry: BoardGeometry, ball: Any, tick: float) -> None:
     span = board.search_time
     if ball.motion == Motion.SLIPPING:
         span = min(span, max(ball.age + tick - start, 0.0))
-    mean = speed + 0.5 * board.max_accel * span  # at most
+    mean = speed + 0.5 * board.max_accel * span  # upper bound of the mean speed
     if mean * span > board.skin:
         span = board.skin / mean
     time, part = start + span, NOTHING
     if ball.roll_age < time:
         time, part = max(ball.roll_age, start), ROLL_START
-    sagitta = 0.5 * board.max_accel * span * span  # from the straight line, at most
+    sagitta = 0.5 * board.max_accel * span * span  # upper bound of the distance from the straight line
     travel = mean * span
 
     if here.z - travel < board.low_z:
         at = start + time_to_border(here.z - board.low_z, here.vz, ball.accel_z)
         if at < time:
-            time, part = at, Part.LEFT_WALL + 0
+            time, part = at, as_int(Part.LEFT_WALL)
     if here.z + travel > board.high_z:
         at = start + time_to_border(board.high_z - here.z, -here.vz, -ball.accel_z)
         if at < time:
-            time, part = at, Part.RIGHT_WALL + 0
+            time, part = at, as_int(Part.RIGHT_WALL)
     if here.x + travel > board.top_x:
         at = start + time_to_border(board.top_x - here.x, -here.vx, -ball.accel_x)
         if at < time:
-            time, part = at, Part.TOP_WALL + 0
+            time, part = at, as_int(Part.TOP_WALL)
     if here.x - travel < board.gutter:
         at = start + time_to_border(here.x - board.gutter, here.vx, ball.accel_x)
         if at < time:
@@ -87,34 +88,20 @@ def find_contact(geometry: BoardGeometry, ball: Any, tick: float) -> None:
     ball.contact_age, ball.contact_part = time, part
 
 
-@inlined
-def is_culled(c: Any, here: BallMotion, speed: float, travel: float, sagitta: float) -> bool:
-    """Whether a ball that goes so far and strays so far from its straight line misses a part's circle.
-
-    The line comes as near as  √(d² − (d·v)²/v²)  to the middle, or as d if it leads away.
-    """
-    dx, dz = here.x - c.x, here.z - c.z
-    square = dx * dx + dz * dz
-    if square > (c.reach + travel) * (c.reach + travel):
-        return True
-    outside = square - (c.reach + sagitta) * (c.reach + sagitta)
-    toward = -(dx * here.vx + dz * here.vz)
-    return outside > 0.0 and (toward <= 0.0 or outside * speed * speed > toward * toward)
-
-
 @internal
 def first_contact(
     geometry: BoardGeometry,
     left: PaddleSweep,
     right: PaddleSweep,
-    ball: Any,
+    ball: BallRecord,
     start: float,
     limit: float,
     tick: float,
 ) -> Contact:
-    """The first of all contacts of a ball between two times of the tick [s]; normals of still parts left out.
+    """Find the first contact of a ball between two times of the tick [s].
 
-    Of a still part and a paddle at the very same moment the still part comes first, of two paddles the left.
+    At equal times a stationary part comes before a paddle, and the left paddle before the right one. The
+    normal is set for paddles only; that of a stationary part is computed in `resolve`.
     """
     if ball.id == 0:
         return Contact(limit, NOTHING, 0.0, 0.0)
@@ -138,32 +125,22 @@ def first_contact(
     travel = span * (speed + board.max_accel * span)
     if is_near(here.x, here.z, board.left_x, board.left_z, board.left_reach + travel):
         c = colliders[board.collider_first + Part.LEFT_PADDLE]
-        best = contact_with_paddle(c, Part.LEFT_PADDLE + 0, left, ball, board.ball_radius, speed, start, best)
+        best = contact_with_paddle(
+            c, as_int(Part.LEFT_PADDLE), left, ball, board.ball_radius, speed, start, best
+        )
     if is_near(here.x, here.z, board.right_x, board.right_z, board.right_reach + travel):
         c = colliders[board.collider_first + Part.RIGHT_PADDLE]
         best = contact_with_paddle(
-            c, Part.RIGHT_PADDLE + 0, right, ball, board.ball_radius, speed, start, best
+            c, as_int(Part.RIGHT_PADDLE), right, ball, board.ball_radius, speed, start, best
         )
     return best
 
 
-@inlined
-def is_near(x: float, z: float, px: float, pz: float, reach: float) -> bool:
-    """Whether two points are closer to each other than a reach that is positive."""
-    return (x - px) * (x - px) + (z - pz) * (z - pz) < reach * reach
-
-
-@inlined
-def max_travel(board: Any, start: float, end: float) -> float:
-    """A bound on a ball's way [u] between two times of a tick [s] that it began below the speed cap."""
-    return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.max_accel * end)
-
-
 @internal
-def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, omega: float) -> None:
-    """Let a contact happen: the ball bounces off a part, begins to roll, or is gone through the gutter.
+def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, omega: float) -> None:
+    """Apply a contact: the ball bounces off a part, starts to roll, or leaves through the gutter.
 
-    `turn` is the angular velocity of the paddle met [rad/s].
+    `omega` is the angular velocity of the paddle met [rad/s].
     """
     world, board, time = lane.world, geometry.board, contact.time
     if contact.part == NULL_EVENT:
@@ -174,7 +151,9 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, om
     advance_to(ball, board, ball.age + time)
     if contact.part == GUTTER:
         world.drained += 1
-        log_event(lane.log, EventKind.GUTTER + 0, ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx)
+        log_event(
+            lane.log, as_int(EventKind.GUTTER), ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx
+        )
         clear_ball(ball)
         return
     c = geometry.colliders[board.collider_first + contact.part]
@@ -189,9 +168,9 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, om
         acceleration += omega * omega * c.reach
     contact = Contact(time, contact.part, nx, nz)
     speed = bounce(ball, board, c, contact, ux, uz, acceleration)
-    kind = EventKind.TOUCH + 0
+    kind = as_int(EventKind.TOUCH)
     if speed > board.hit_speed:
-        kind = EventKind.HIT + 0
+        kind = as_int(EventKind.HIT)
         world.score += c.points
         lane.tally[contact.part] += 1
         count_hit(world, c.kind)
@@ -202,8 +181,8 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: Any, contact: Contact, om
 
 
 @inlined
-def clear_ball(ball: Any) -> None:
-    """An empty slot is all zeros."""
+def clear_ball(ball: BallRecord) -> None:
+    """Set all fields of a ball's slot to zero: the slot is empty."""
     ball.x, ball.z, ball.vx, ball.vz = 0.0, 0.0, 0.0, 0.0
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = 0
@@ -213,8 +192,8 @@ def clear_ball(ball: Any) -> None:
 
 
 @internal
-def count_hit(world: Any, kind: int) -> None:
-    """One more hit of a kind of part."""
+def count_hit(world: WorldRecord, kind: int) -> None:
+    """Count a hit by the kind of the part."""
     if kind == Kind.WALL:
         world.wall_hits += 1
     elif kind == Kind.SLANT_WALL:

@@ -1,39 +1,47 @@
-"""When does a ball in flight touch something for the first time?
+"""Time of impact: the first moment at which a ball in flight touches a shape.
 
-Between contacts a ball flies on a parabola. Let D be the gap between ball and shape, n the unit normal at
-the nearest point, D′ = n·v its rate and α = n·a. A convex shape lies wholly behind the line through its
-nearest point at right angles to n, so the ball cannot touch it before it has used up the gap to that line:
+Between contacts a ball flies on a parabola. Let D be the gap between ball and shape, n the unit normal at the
+nearest point, D′ = n·v its rate and α = n·a. A convex shape lies wholly behind the line through its nearest
+point perpendicular to n, so the ball cannot touch it before it has used up the gap to that line:
 
     D + D′·h + ½·α·h² = 0,   h the smallest root ≥ 0.
 
-Fly h, look again, until the gap is gone; one Newton step removes what is left. A flat face is met by the
-first step, corners and circles after a few: near the contact the step is Newton's, and it always stays on
-the safe side.
+Advance by h and repeat until the gap is closed; one Newton step removes the rest. A flat face is found by the
+first step, corners and circles after a few: near the contact the step is Newton's, and it never overshoots.
 
-A flight is held by the ball's record: the state at its beginning, the acceleration, and its age. All times
-in here are ages of the flight [s].
+A flight is defined by the ball's record: the state at its start, the acceleration, and its age (see
+`motion.py`). All times in this file are ages of the flight [s].
 
-Source: the idea is that of conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid
-Body Systems", 1996, ch. 2), with the exact parabola in place of a bound on the speed.
+Source: conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996,
+ch. 2), with the exact parabola in place of a bound on the speed.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import NOTHING, NULL_EVENT, OTHER_BALL, BallMotion, Contact
+from silverball.physics.records import (
+    NOTHING,
+    NULL_EVENT,
+    OTHER_BALL,
+    BallMotion,
+    BallRecord,
+    ColliderRecord,
+    Contact,
+)
 from silverball.physics.shapes import distance, point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, NEWTON_TIME
 
 
 @inlined
 def time_to_line(gap: float, rate: float, gap_accel: float) -> float:
-    """The smallest h ≥ 0 [s] with  gap + rate·h + ½·bend·h² = 0,  for gap ≥ 0; NEVER if there is none.
+    """Compute the smallest root h ≥ 0 [s] of a gap's parabola, for gap ≥ 0; NEVER if there is none.
 
-    Of the two forms of the root, the one without cancellation:
-    (−rate ∓ √Δ)/bend = 2·gap/(√Δ − rate)  with  Δ = rate² − 2·bend·gap.
+        gap + rate·h + ½·gap_accel·h² = 0
+
+    Of the two forms of the root it takes the one without cancellation:
+    (−rate ∓ √Δ)/gap_accel = 2·gap/(√Δ − rate)  with  Δ = rate² − 2·gap_accel·gap.
     """
     square = rate * rate - 2.0 * gap_accel * gap
     if rate < 0.0:
@@ -43,13 +51,13 @@ def time_to_line(gap: float, rate: float, gap_accel: float) -> float:
 
 @inlined
 def stays_open(gap: float, rate: float, gap_accel: float, h: float) -> bool:
-    """Whether a gap is certainly not used up within h: a sum that bends down is least at an end; no root."""
+    """Whether a gap certainly stays open for h [s], without a root: a concave parabola is least at an end."""
     return gap + h * (rate + 0.5 * min(gap_accel, 0.0) * h) > 0.0
 
 
 @inlined
-def state_at(ball: Any, age: float) -> BallMotion:
-    """The ball at an age of its flight:  p + v·h + ½·a·h²,  v + a·h."""
+def state_at(ball: BallRecord, age: float) -> BallMotion:
+    """Compute the ball's state at an age of its flight:  p + v·h + ½·a·h²,  v + a·h."""
     return BallMotion(
         ball.start_x + age * (ball.start_vx + 0.5 * ball.accel_x * age),
         ball.start_z + age * (ball.start_vz + 0.5 * ball.accel_z * age),
@@ -60,7 +68,7 @@ def state_at(ball: Any, age: float) -> BallMotion:
 
 @inlined
 def newton_refined(time: float, gap: float, rate: float) -> float:
-    """The time after one Newton step on the gap; a graze too flat for a short step stays as it is."""
+    """Refine a time by one Newton step on the gap; a graze too flat for a short step is left as it is."""
     if abs(gap) >= abs(rate) * NEWTON_TIME:  # also where both are 0
         return time
     return max(0.0, time - gap / rate)
@@ -68,7 +76,7 @@ def newton_refined(time: float, gap: float, rate: float) -> float:
 
 @internal
 def time_to_border(gap: float, rate: float, gap_accel: float) -> float:
-    """When the gap to a straight border is used up: the closed form, refined once."""
+    """Compute when the gap to a straight border closes: the closed form, refined once."""
     if gap <= 0.0 and rate < 0.0:
         return 0.0
     time = time_to_line(max(gap, 0.0), rate, gap_accel)
@@ -78,12 +86,14 @@ def time_to_border(gap: float, rate: float, gap_accel: float) -> float:
 
 
 @kernel
-def time_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float) -> tuple[float, bool]:
-    """When a ball first meets a shape that stands still, from the age `start` on and before `limit`.
+def time_to_shape(
+    c: ColliderRecord, ball: BallRecord, radius: float, start: float, limit: float
+) -> tuple[float, bool]:
+    """Find when a ball first touches a stationary shape, from the age `start` on and before `limit`.
 
     Returns:
-        The age and True; or False and an age up to which the flight is free: the limit, or less if the search
-        has not ended (a long graze).
+        The age and True; or False and an age up to which there is no contact: the limit, or less if the
+        search has not ended (a long graze).
     """
     time = start
     for _ in range(FLIGHT_STEPS):
@@ -110,7 +120,7 @@ def time_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float) 
 def contact_with_ball(
     a: BallMotion, b: BallMotion, accel_x: float, accel_z: float, radius: float, limit: float
 ) -> Contact:
-    """The first contact of two balls before `limit` [s from now]; the normal points from b to a.
+    """Find the first contact of two balls before `limit` [s from now]; the normal points from b to a.
 
     Args:
         a: The one ball now.
@@ -136,10 +146,10 @@ def contact_with_ball(
 
 @inlined
 def _time_to_ball_uniform(px: float, pz: float, vx: float, vz: float, reach: float, limit: float) -> float:
-    """When two balls meet that fall alike: their relative motion p + v·h is a straight line.
+    """Compute when two balls with equal accelerations meet: their relative motion p + v·h is uniform.
 
-    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0; with b = −p·v > 0 and c = p² − 4r² the earlier root
-    is c / (b + √(b² − v²·c)): no cancellation.
+    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0. With b = −p·v > 0 and c = p² − 4r² the earlier root
+    is c / (b + √(b² − v²·c)), which has no cancellation.
     """
     toward = -(px * vx + pz * vz)
     if toward <= 0.0:
@@ -163,7 +173,7 @@ def _time_to_ball_uniform(px: float, pz: float, vx: float, vz: float, reach: flo
 def _time_to_ball_accelerated(
     px: float, pz: float, vx: float, vz: float, accel_x: float, accel_z: float, reach: float, limit: float
 ) -> float:
-    """The same where one ball rolls and the other slips: the safe steps of `time_to_shape`, to a circle."""
+    """Compute the same for different accelerations, by the safe steps of `time_to_shape` to a circle."""
     time = 0.0
     for _ in range(FLIGHT_STEPS):
         x, z = px + time * (vx + 0.5 * accel_x * time), pz + time * (vz + 0.5 * accel_z * time)

@@ -1,25 +1,26 @@
 """One tick of one world: the whole simulation on one screen.
 
-    the paddles get their motion
-    → nothing is near: fly the balls, turn the paddles
+    set the paddles' motion
+    → if nothing is near: advance balls and paddles to the end of the tick
     → else, until the tick is used up:
-        for each ball the earliest contact along its flight (parts, gutter, the other ball)
-        → bring the ball there → bounce → write it down → a new flight begins
-    → bring the balls to the tick's end, clamp their speeds → count the tick
+        find the earliest contact of each ball (parts, gutter, other ball)
+        → advance the ball to it → bounce → log the event → start a new flight
+    → advance the balls to the end of the tick, clamp their speeds → count the tick
 
-The moment at which a paddle reaches its stop ends a search too, so that none looks across it.
+A search also ends at the moment a paddle reaches its stop, so a paddle's motion is uniform within a search.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
-from silverball.physics.contact import first_contact, is_near, resolve
-from silverball.physics.event_log import begin_step, log_event, store_checksum
+from silverball.physics.broad_phase import is_near
+from silverball.physics.contact import first_contact, resolve
+from silverball.physics.event_log import log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
     angle_at,
@@ -32,20 +33,45 @@ from silverball.physics.paddle import (
 from silverball.physics.records import (
     NOTHING,
     NULL_EVENT,
+    BallRecord,
     BatchGeometry,
     BoardGeometry,
+    BoardRecord,
+    ColliderRecord,
+    Colliders,
     Contact,
     EventKind,
     Fault,
     Lane,
     Lanes,
+    LogRecord,
     Motion,
+    PaddleRecord,
     PaddleSweep,
     Part,
+    WorldRecord,
 )
 from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
+
+
+class EventCounts(NamedTuple):
+    """Events of this tick, to detect jams.
+
+    Attributes:
+        a: Events of ball 0 since its last jam.
+        b: The same of ball 1.
+        shared: How many of these were contacts between the two balls.
+        jams_a: Jams of ball 0.
+        jams_b: Jams of ball 1.
+    """
+
+    a: int
+    b: int
+    shared: int
+    jams_a: int
+    jams_b: int
 
 
 @kernel
@@ -59,17 +85,22 @@ def step_world(
             shove_balls(world, board, lane.log)
         if event_free_ticks(geometry, world.ball[0], world.ball[1], tick, 1) == 1:
             advance_paddles(world, board, geometry.colliders, raise_left, raise_right, tick)
-            finish_ticks(world, board, tick, 1 + 0)  # a bare 1 would be compiled as a version of its own
+            finish_ticks(world, board, tick, as_int(1))
         else:
             play_tick(lane, geometry, raise_left, raise_right, tick)
         if not are_balls_on_board(world, board):
-            validate_world(world, board)  # names the fault
+            validate_world(world, board)  # sets the fault
         store_checksum(world, lane.log)
 
 
 @inlined
 def advance_paddles(
-    world: Any, board: Any, colliders: Any, raise_left: bool, raise_right: bool, tick: float
+    world: WorldRecord,
+    board: BoardRecord,
+    colliders: Colliders,
+    raise_left: bool,
+    raise_right: bool,
+    tick: float,
 ) -> None:
     """Turn the paddles through a tick in which they meet nothing."""
     left, right = world.paddle[0], world.paddle[1]
@@ -80,8 +111,8 @@ def advance_paddles(
 
 
 @inlined
-def finish_ticks(world: Any, board: Any, tick: float, count: int) -> None:
-    """Bring the balls to the end of a tick, or of several in which nothing happens to them."""
+def finish_ticks(world: WorldRecord, board: BoardRecord, tick: float, count: int) -> None:
+    """Advance the balls to the end of a tick, or of several event-free ones, and count the ticks."""
     advance_ticks(world.ball[0], board, tick, count)
     advance_ticks(world.ball[1], board, tick, count)
     world.tick += count
@@ -89,65 +120,61 @@ def finish_ticks(world: Any, board: Any, tick: float, count: int) -> None:
 
 @internal
 def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, tick: float) -> None:
-    """Let everything happen that happens within a tick, in its order."""
+    """Play all events of one tick in their order."""
     world, board, colliders = lane.world, geometry.board, geometry.colliders
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
     left = start_sweep(left_part, world.paddle[0].angle, raise_left)
     right = start_sweep(right_part, world.paddle[1].angle, raise_right)
-    a, b = world.ball[0], world.ball[1]
-    apart = cannot_meet(board, a, b, tick, 1.0)
     left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
-    time, events_a, events_b, ball_events, repeat_a, repeat_b = 0.0, 0, 0, 0, False, False
+    a, b = world.ball[0], world.ball[1]
+    are_apart = cannot_meet(board, a, b, tick, 1.0)
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
+    counts = EventCounts(0, 0, 0, 0, 0)
+    time = 0.0
     while True:
         limit = min(tick, left_stop_time, right_stop_time)
         contact_a = first_contact(geometry, left, right, a, time, limit, tick)
         contact_b = first_contact(geometry, left, right, b, time, limit, tick)
-        contact = Contact(min(contact_a.time, contact_b.time), NOTHING, 0.0, 0.0)
-        if not apart:
-            contact = first_ball_contact(board, a, b, time, contact.time)
-        time = min(contact.time, limit)
-        free = contact.part == NOTHING and contact_a.part == NOTHING and contact_b.part == NOTHING
-        if free and limit == tick:
+        ball_contact = Contact(min(contact_a.time, contact_b.time), NOTHING, 0.0, 0.0)
+        if not are_apart:
+            ball_contact = first_ball_contact(board, a, b, time, ball_contact.time)
+        time = min(ball_contact.time, limit)
+        is_free = ball_contact.part == NOTHING and contact_a.part == NOTHING and contact_b.part == NOTHING
+        if is_free and limit == tick:
             break
 
-        if contact.part != NOTHING:
-            resolve_ball_contact(world, board, lane.log, contact)
-            events_a, events_b, ball_events = events_a + 1, events_b + 1, ball_events + 1
+        if ball_contact.part != NOTHING:
+            resolve_ball_contact(world, board, lane.log, ball_contact)
+            counts = EventCounts(counts.a + 1, counts.b + 1, counts.shared + 1, counts.jams_a, counts.jams_b)
         elif contact_a.part != NOTHING and contact_a.time <= contact_b.time:
             omega = left.omega if contact_a.part == Part.LEFT_PADDLE else right.omega
             resolve(lane, geometry, a, contact_a, omega)
-            events_a += 1
+            counts = EventCounts(counts.a + 1, counts.b, counts.shared, counts.jams_a, counts.jams_b)
         elif contact_b.part != NOTHING:
             omega = left.omega if contact_b.part == Part.LEFT_PADDLE else right.omega
             resolve(lane, geometry, b, contact_b, omega)
-            events_b += 1
+            counts = EventCounts(counts.a, counts.b + 1, counts.shared, counts.jams_a, counts.jams_b)
         if time >= left_stop_time:
             left, left_stop_time = end_at_stop(left), NEVER
         if time >= right_stop_time:
             right, right_stop_time = end_at_stop(right), NEVER
 
-        if events_a >= jam_limit or events_b >= jam_limit:
-            both = JAM_SHARE * ball_events >= jam_limit  # they press each other
-            if both or events_a >= jam_limit:
-                left, right = stop_jammed_ball(lane, geometry, a, left, right, time, repeat_a)
-                events_a, repeat_a = 0, True
-            if both or events_b >= jam_limit:
-                left, right = stop_jammed_ball(lane, geometry, b, left, right, time, repeat_b)
-                events_b, repeat_b = 0, True
-            ball_events = 0
+        if counts.a >= jam_limit or counts.b >= jam_limit:
+            left, right, counts = hold_jam(lane, geometry, left, right, time, counts, jam_limit)
             left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
     release(a, board, tick)
     release(b, board, tick)
     store_paddle(world.paddle[0], left, tick)
     store_paddle(world.paddle[1], right, tick)
-    finish_ticks(world, board, tick, 1 + 0)
+    finish_ticks(world, board, tick, as_int(1))
 
 
 @inlined
-def first_ball_contact(board: Any, a: Any, b: Any, start: float, limit: float) -> Contact:
-    """The contact of the two balls, if nothing comes first."""
+def first_ball_contact(
+    board: BoardRecord, a: BallRecord, b: BallRecord, start: float, limit: float
+) -> Contact:
+    """Find the first contact of the two balls between two times of the tick [s]."""
     if a.id == 0 or b.id == 0:
         return Contact(limit, NOTHING, 0.0, 0.0)
     accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
@@ -157,8 +184,8 @@ def first_ball_contact(board: Any, a: Any, b: Any, start: float, limit: float) -
 
 
 @internal
-def resolve_ball_contact(world: Any, board: Any, log: Any, contact: Contact) -> None:
-    """Let two balls bounce off each other; one that is held is like a wall."""
+def resolve_ball_contact(world: WorldRecord, board: BoardRecord, log: LogRecord, contact: Contact) -> None:
+    """Bounce the two balls off each other. A ball that is held acts like a wall."""
     a, b, time = world.ball[0], world.ball[1], contact.time
     if contact.part == NULL_EVENT:
         return
@@ -170,9 +197,9 @@ def resolve_ball_contact(world: Any, board: Any, log: Any, contact: Contact) -> 
         speed = bounce_off_held(a, board, contact.nx, contact.nz)
     else:
         speed = bounce_balls(a, b, board, contact)
-    kind = EventKind.BALL_TOUCH + 0
+    kind = as_int(EventKind.BALL_TOUCH)
     if speed > board.hit_speed:
-        kind = EventKind.BALL_HIT + 0
+        kind = as_int(EventKind.BALL_HIT)
         world.ball_hits += 1
     else:
         world.touches += 1
@@ -184,18 +211,49 @@ def resolve_ball_contact(world: Any, board: Any, log: Any, contact: Contact) -> 
 
 
 @internal
+def hold_jam(
+    lane: Lane,
+    geometry: BoardGeometry,
+    left: PaddleSweep,
+    right: PaddleSweep,
+    time: float,
+    counts: EventCounts,
+    limit: int,
+) -> tuple[PaddleSweep, PaddleSweep, EventCounts]:
+    """Stop the balls that have reached `limit` events in this tick, and stall the paddles at them.
+
+    Both balls are stopped if most of their events were contacts with each other.
+
+    Returns:
+        Both paddles and the counts after that.
+    """
+    a, b, jams_a, jams_b = counts.a, counts.b, counts.jams_a, counts.jams_b
+    is_shared = JAM_SHARE * counts.shared >= limit
+    if is_shared or counts.a >= limit:
+        left, right = stop_jammed_ball(lane, geometry, lane.world.ball[0], left, right, time, jams_a > 0)
+        a, jams_a = 0, jams_a + 1
+    if is_shared or counts.b >= limit:
+        left, right = stop_jammed_ball(lane, geometry, lane.world.ball[1], left, right, time, jams_b > 0)
+        b, jams_b = 0, jams_b + 1
+    return left, right, EventCounts(a, b, 0, jams_a, jams_b)
+
+
+@internal
 def stop_jammed_ball(
     lane: Lane,
     geometry: BoardGeometry,
-    ball: Any,
+    ball: BallRecord,
     left: PaddleSweep,
     right: PaddleSweep,
     time: float,
     is_repeat: bool,
 ) -> tuple[PaddleSweep, PaddleSweep]:
-    """Stop a jammed ball dead at a time of the tick, and stall the paddles at it; both paddles.
+    """Stop a jammed ball at a time of the tick, and stall the paddles at it.
 
-    If it is jammed again in the same tick, even with the paddles still, it is held until the tick is over.
+    A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
+
+    Returns:
+        Both paddles after that.
     """
     if ball.id == 0 or ball.motion == Motion.HELD:
         return left, right
@@ -208,7 +266,7 @@ def stop_jammed_ball(
     )
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
-    log_event(lane.log, EventKind.JAM + 0, ball, world.tick, Contact(time, NOTHING, 0.0, 0.0), 0.0)
+    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, Contact(time, NOTHING, 0.0, 0.0), 0.0)
     if is_repeat:
         hold_still(ball, time)
     else:
@@ -218,11 +276,12 @@ def stop_jammed_ball(
 
 @internal
 def stall_near(
-    paddle: PaddleSweep, c: Any, ball: Any, near: float, time: float, is_repeat: bool
+    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float, is_repeat: bool
 ) -> PaddleSweep:
-    """The paddle, stopped for the rest of the tick if a jammed ball is at it.
+    """Stop a paddle for the rest of the tick if it is within `near` [u] of a jammed ball's centre.
 
-    No paddle may run into a ball that is held; so then one that only might come to it stops too.
+    If the ball is about to be held (`is_repeat`), a paddle that could reach it stops too: no paddle may run
+    into a held ball.
     """
     if paddle.omega == 0.0:
         return paddle
@@ -233,8 +292,8 @@ def stall_near(
 
 
 @inlined
-def store_paddle(record: Any, paddle: PaddleSweep, tick: float) -> None:
-    """Write a paddle back as it is at the tick's end, with the stop that its button commands."""
+def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None:
+    """Store a paddle as it is at the end of the tick, with the stop that its button commands."""
     angle, omega = paddle.angle, paddle.omega
     if omega != 0.0:
         angle = angle_at(paddle, tick)
@@ -244,16 +303,16 @@ def store_paddle(record: Any, paddle: PaddleSweep, tick: float) -> None:
 
 
 @internal
-def can_step(world: Any, geometry: BoardGeometry, log: Any, tick: float) -> bool:
-    """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
+def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: float) -> bool:
+    """Whether a world can move on. A state that was changed from outside is validated first."""
     if world.fault != Fault.NONE:
         return False
     return is_unchanged(world, geometry.board, log, tick) or admit_state(world, geometry, tick)
 
 
 @inlined
-def are_balls_on_board(world: Any, board: Any) -> bool:
-    """Whether the balls are within the borders: the one mishap that a world can come to by itself."""
+def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
+    """Whether the balls are within the borders: the only condition that a step itself can violate."""
     a, b = world.ball[0], world.ball[1]
     x, z = board.half_length, board.half_width
     return (a.id == 0 or (abs(a.x) <= x and abs(a.z) <= z)) and (
@@ -268,32 +327,32 @@ def run_worlds(
     """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
-        lanes: The worlds; their logs lose the events of the previous step, their tallies are added to.
+        lanes: The worlds. Their logs are emptied first, their tallies added to.
         geometries: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
-        ticks: How many ticks; below zero: so many more, as if the call before this one went on. Logs are
-            then left as they are, and with one row there is no jitter.
+        ticks: How many ticks. A negative number continues the previous call by −ticks: logs are not emptied,
+            and with one row there is no jitter.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
-    continues_flight = ticks < 0
+    is_continued = ticks < 0
     ticks = abs(ticks)
     for index in range(first, end):
         lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index])
         world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)
-        if not continues_flight:
-            begin_step(log)
+        if not is_continued:
+            log.count, log.lost = 0, 0
         if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
         step = 0
         while step < ticks and are_balls_on_board(world, board):
             row = 0 if is_held else step
-            if actions[row, index, 2] and (not is_held or (step == 0 and not continues_flight)):
+            if actions[row, index, 2] and (not is_held or (step == 0 and not is_continued)):
                 shove_balls(world, board, log)
             free = event_free_ticks(geometry, world.ball[0], world.ball[1], tick, ticks - step)
             if free == 0:
@@ -309,6 +368,5 @@ def run_worlds(
             finish_ticks(world, board, tick, count)
             step += count
         if not are_balls_on_board(world, board):
-            validate_world(world, board)  # names the fault
+            validate_world(world, board)  # sets the fault
         store_checksum(world, log)
-        log.done = log.count

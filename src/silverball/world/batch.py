@@ -90,6 +90,16 @@ class WorldBatch:
         """The number of worlds."""
         return self.count
 
+    @property
+    def lanes(self) -> Lanes:
+        """What changes in the worlds, as kernels take it."""
+        return Lanes(self.state, self.board_of, self.logs, self.tallies)
+
+    @property
+    def geometries(self) -> BatchGeometry:
+        """What the worlds move through, as kernels take it."""
+        return BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
+
     def step(self, actions: ArrayLike, ticks: int = 1) -> None:
         """Move every world on.
 

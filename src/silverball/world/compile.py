@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import Problem, TableError
-from silverball.physics.grid import fill_grid
+from silverball.physics.broad_phase import fill_grid
+from silverball.physics.portable_math import sine_cosine
 from silverball.physics.records import BOARD, COLLIDER, Kind, Part, records
 from silverball.physics.tolerances import (
     CELL_SHARE,
@@ -28,7 +29,6 @@ from silverball.physics.tolerances import (
     SKIN,
     SKIN_SHARE,
 )
-from silverball.physics.trigonometry import sine_cosine
 from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
 
 SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
@@ -43,7 +43,7 @@ class Boards(NamedTuple):
     Attributes:
         board: BOARD records, shape [board].
         collider: COLLIDER records of all boards, shape [collider].
-        grid: The grids of all boards, 32-bit numbers (see physics/grid.py).
+        grid: The grids of all boards, 32-bit numbers (see physics/broad_phase.py).
         place: Centres (x, z) [u] of the squares in which balls may be created, shape [place, 2].
         names: For each board, the names of its parts in the order of their numbers.
         digests: For each board, the hash of its table.

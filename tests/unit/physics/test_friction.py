@@ -1,4 +1,4 @@
-"""What friction does where a ball meets something: Coulomb's law, worked out here from vectors.
+"""Friction at a contact: Coulomb's law, computed here from vectors.
 
 A contact pushes with the impulse P = (1 + e)·w along its normal n (by the mass). The ball's surface there
 slides with s = v + ω × (−r·n) − u over a surface that moves with u. Friction J against it is what stops the
@@ -101,7 +101,7 @@ def test_a_spinning_ball_leaves_a_part_as_coulomb_s_law_says(part: str) -> None:
 
 @pytest.mark.parametrize(("friction", "roll_age"), [(1.0, True), (0.05, False)])
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_ball_that_slides_along_a_border_keeps_five_sevenths_of_its_speed_or_loses_what_friction_can_take(
+def test_a_border_slows_a_sliding_ball_to_five_sevenths_or_by_all_of_its_friction(
     friction: float, roll_age: bool, side: float
 ) -> None:
     """Without spin: J = v/(7/2) stops the slide, and then r·ω_y is the speed along the border."""

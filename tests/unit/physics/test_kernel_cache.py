@@ -1,4 +1,4 @@
-"""Where compiled code is kept: never in a place where a change of a callee could leave it stale."""
+"""Compiled code is cached where a change of a callee cannot leave it stale."""
 
 from __future__ import annotations
 

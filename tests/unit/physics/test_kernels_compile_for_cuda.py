@@ -1,4 +1,4 @@
-"""Do the kernels stay plain scalar functions, so that they compile for a graphics card as they are?
+"""The kernels are plain scalar functions and compile for a graphics card as they are.
 
 The first test reads their text. The others compile them, with all they call, to PTX, the assembly of CUDA;
 that needs no card, only `pip install 'numba-cuda[cu12]'`.

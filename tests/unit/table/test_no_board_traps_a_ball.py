@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from silverball.physics.tolerances import HOP, HOP_SHARE
-from silverball.players import PlayerKind
 from silverball.players.rollout import play
 from silverball.table import check, generate_table, load_table
 from silverball.world import WorldBatch
@@ -19,7 +18,7 @@ def balls_left(tables):
     worlds = [table for table in tables for _ in range(PLACES)]
     batch = WorldBatch(worlds, len(worlds), seed=1000, tick_rate=60)
     assert batch.create_balls().all()
-    played = play(batch, PlayerKind.IDLE, PATIENCE, balls=0)
+    played = play(batch, "idle", PATIENCE, balls=0)
     assert played.faults == 0
     return len(worlds) - played.drained
 

@@ -1,4 +1,4 @@
-"""What a soak keeps: findings that happen again, and totals that go on where they were."""
+"""Campaigns: findings that can be reproduced, and totals that continue from a file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from silverball.errors import StateError
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import SoakLog, code_digest, log_name, soak
 from silverball.soak.checks import STUCK_AFTER, Found
-from silverball.soak.finding import Finding, again
+from silverball.soak.finding import Finding, reproduce
 from silverball.soak.rounds import Options
 from silverball.table import SlantWall, parse_table
 
@@ -20,7 +20,7 @@ BOARD = full_table()
 
 
 @pytest.mark.parametrize(("solver", "kinds"), [(Holed, {"penetration", "passage"}), (Narrow, {"fault"})])
-def test_a_finding_is_written_down_and_happens_again_with_the_same_broken_solver_only(
+def test_a_finding_is_recorded_and_reproduced_with_the_same_broken_solver_only(
     short_rounds, monkeypatch, tmp_path, solver, kinds
 ) -> None:
     path = tmp_path / "soak.json"
@@ -31,22 +31,22 @@ def test_a_finding_is_written_down_and_happens_again_with_the_same_broken_solver
         findings = [Finding.from_text((tmp_path / name).read_text(), name) for name in log.findings]
         assert {finding.kind for finding in findings} <= kinds
         for finding in findings:
-            assert again(finding) == Found[finding.kind.upper()] != Found.NOTHING
+            assert reproduce(finding) == Found[finding.kind.upper()] != Found.NOTHING
             assert len(finding.actions) <= 60 + 1
             assert parse_table(finding.table_text).name.startswith("Random")
             assert Finding.from_text(finding.to_text(), "") == finding
-    assert {again(finding) for finding in findings} == {Found.NOTHING}
+    assert {reproduce(finding) for finding in findings} == {Found.NOTHING}
     assert sorted(tmp_path.iterdir()) == sorted([path, *(tmp_path / name for name in log.findings)])
 
 
-def test_a_stuck_ball_is_written_down_with_all_of_its_minute(monkeypatch, tmp_path) -> None:
+def test_a_stuck_ball_is_recorded_with_all_of_its_minute(monkeypatch, tmp_path) -> None:
     monkeypatch.setattr(soak_module, "ROUND_SECONDS", 74.0)
     cradle = [SlantWall(start=(-3.0, 0.0), end=(1.0, side * 4.1)) for side in (-1.0, 1.0)]
     log = soak(Options(table_of(*cradle), 0, 1, 60, False), 1, tmp_path / "soak.json")
     assert log.totals.found["stuck"] == 1  # both balls come to lie in there
     finding = Finding.from_text((tmp_path / log.findings[0]).read_text(), "")
     assert len(finding.actions) == STUCK_AFTER * 60 + 1
-    assert again(finding) == Found.STUCK
+    assert reproduce(finding) == Found.STUCK
 
 
 def test_a_changed_finding_is_refused() -> None:

@@ -1,4 +1,4 @@
-"""The figures of a table's feel: intervals, shots, and the marks that the built-in tables keep."""
+"""The feel of a table: windows of shots, and the targets that the built-in tables meet."""
 
 from __future__ import annotations
 
@@ -7,40 +7,15 @@ import math
 import numpy as np
 import pytest
 
-from boards import CLASSIC, PADDLES, mirrored, table_of
-from silverball.metrics.feel import measure, ratio, share, shots_as_dict
-from silverball.metrics.game_traces import TICK_RATE
+from boards import CLASSIC, PADDLES, full_table, mirrored, table_of
+from silverball.metrics.feel import hits_of, measure, shares_of_cylinders, shots_as_dict
+from silverball.metrics.game_traces import TICK_RATE, play_games
 from silverball.metrics.shots import SHOT, Aim, Shots, shots_of
-from silverball.physics.records import records
-from silverball.table import load_table
+from silverball.physics.records import Kind, records
+from silverball.table import Cylinder, load_table
+from silverball.world import WorldBatch
 
 AIMS = (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)
-
-
-def test_a_ratio_of_games_that_are_all_alike_is_certain() -> None:
-    assert ratio([2.0, 4.0, 6.0], [1, 2, 3]) == (2.0, 2.0, 2.0)
-    assert all(math.isnan(part) for part in ratio([1.0], [0]))
-
-
-def test_the_interval_of_a_ratio_holds_the_true_one_in_19_of_20_cases() -> None:
-    rng = np.random.default_rng(0)
-    held, cases, games = 0, 400, 200
-    for _ in range(cases):
-        minutes = rng.exponential(2.0, games)
-        points = rng.poisson(30.0 * minutes)  # 30 a minute
-        found = ratio(points, minutes)
-        held += found.low < 30.0 < found.high
-    # 380 are expected; five standard deviations of the binomial below and above.
-    assert abs(held - 0.95 * cases) < 5.0 * math.sqrt(cases * 0.95 * 0.05)
-
-
-def test_the_interval_of_a_share_never_leaves_nought_to_one_and_is_not_empty_for_rare_cases() -> None:
-    none, half, every = share(0, 1000), share(500, 1000), share(1000, 1000)
-    assert none.value == none.low == 0.0
-    assert none.high == pytest.approx(1.96**2 / (1000 + 1.96**2))  # Wilson's at k = 0
-    assert every.low == pytest.approx(1.0 - none.high)
-    assert half.high - 0.5 == pytest.approx(0.5 - half.low)
-    assert half.high - 0.5 == pytest.approx(1.96 * math.sqrt(0.25 / 1000), rel=0.01)
 
 
 def shots_with(aims: str) -> Shots:
@@ -121,3 +96,33 @@ def test_shots_to_the_left_middle_and_right_have_time_enough_on_a_built_in_table
     assert len(feel.shots) == 4
     for shots in feel.shots:
         assert all(shots.window(aim)[0] >= 25.0 for aim in AIMS), shots_as_dict(shots)["windows_ms"]
+
+
+def test_the_hits_of_a_kind_are_those_of_its_parts_on_each_board() -> None:
+    batch = WorldBatch([full_table(), CLASSIC, full_table()], 3)
+    hits = np.arange(batch.tallies.size).reshape(batch.tallies.shape) * (
+        np.arange(batch.tallies.shape[1])
+        < np.array([len(batch.boards.names[row]) for row in batch.board_of])[:, None]
+    )
+    for kind in (Kind.SLANT_WALL, Kind.PADDLE, Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
+        expected = [
+            sum(
+                int(count)
+                for name, count in zip(batch.boards.names[board], row, strict=False)
+                if name.startswith(kind.name.lower())
+            )
+            for row, board in zip(hits, batch.board_of, strict=True)
+        ]
+        assert hits_of(batch, hits, kind).tolist() == expected
+    assert sum(hits_of(batch, hits, kind) for kind in Kind).tolist() == hits.sum(axis=1).tolist()
+
+
+def test_cylinders_are_found_by_name_on_boards_with_other_numbers_of_parts() -> None:
+    few = table_of(*PADDLES, Cylinder(center=(2.0, 0.0), radius=0.6, name="only"))
+    games = play_games(WorldBatch([few, full_table()], 2, 0, TICK_RATE), "idle", longest=0.1)
+    batch = WorldBatch([few, full_table()], 2, 0, TICK_RATE)
+    games.reached[:] = 0
+    games.game["strikes"] = 10
+    for row, board in enumerate(batch.board_of):
+        games.reached[row, batch.boards.names[board].index("cylinder[0]")] = 5
+    assert shares_of_cylinders(batch, games)["only"].value == 0.5

@@ -1,4 +1,4 @@
-"""The soak: does its watch see what should never happen, and is it written down so that it happens again?"""
+"""The checks of the soak report what should never happen, its driver plays, and its rounds find nothing."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from silverball.soak.checks import (
     DEPTH,
     STUCK_AFTER,
     Found,
-    Was,
+    PreviousBall,
+    check_places,
     depth_of_meeting,
-    greatest_sag,
-    look_at_places,
+    max_sagitta,
 )
 from silverball.soak.driver import QUIET
 from silverball.soak.hostile import hostile_table
-from silverball.soak.rounds import Soaked, play_round, soaked_round
+from silverball.soak.rounds import SoakBatch, play_round, round_batch
 from silverball.table import (
     Cylinder,
     SlantWall,
@@ -40,10 +40,10 @@ WALL = SlantWall(start=(2.0, -1.0), end=(2.0, 1.0))
 BOARD = full_table()
 
 
-def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> Soaked:
+def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> SoakBatch:
     """One quiet world with balls (x, z, vx, vz), in which nothing is done for a minute."""
-    soaked = Soaked([table], [0], tick_rate, hostile, [False])
-    soaked.drivers["create_at"] = soaked.drivers["press_at"][:] = 2**60
+    soaked = SoakBatch([table], [0], tick_rate, hostile, [False])
+    soaked.drivers.states["create_at"] = soaked.drivers.states["press_at"][:] = 2**60
     for slot, values in enumerate(balls):
         ball = soaked.batch.state["ball"][0, slot]
         ball["x"], ball["z"], ball["vx"], ball["vz"], ball["id"] = *values, slot + 1
@@ -51,21 +51,18 @@ def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> Soaked:
     return soaked
 
 
-def found(soaked: Soaked) -> Found:
-    return Found(int(soaked.watches["found"][0]))
+def found(soaked: SoakBatch) -> Found:
+    return Found(int(soaked.watches.states["found"][0]))
 
 
-def looked_at(soaked: Soaked) -> Found:
+def checked(soaked: SoakBatch) -> Found:
     """What the watch sees before the solver does, which would name the fault of a ball that is put into
     something."""
-    true, grounds = soaked.true, soaked.grounds
-    look_at_places(
-        soaked.batch.state[0], true.board[0], true.collider, grounds.site[0], grounds.mark, soaked.watches[0]
-    )
+    check_places(soaked.batch.state[0], soaked.truth(0), soaked.watches.states[0])
     return found(soaked)
 
 
-# What the watch sees
+# What the checks report
 
 
 @pytest.mark.parametrize(
@@ -91,18 +88,18 @@ def test_a_ball_that_is_moved_somewhere_between_two_ticks_is_reported_at_once(wh
     assert found(soaked) == Found.NOTHING
     soaked.batch.state["ball"]["x"][0, slot], soaked.batch.state["ball"]["z"][0, slot] = where
     if kind == Found.PENETRATION:
-        assert looked_at(soaked) == kind
+        assert checked(soaked) == kind
     soaked.run(1)
     assert found(soaked) == kind
-    assert soaked.watches["slot"][0] == (slot if kind in (Found.ESCAPE, Found.PENETRATION) else 0)
+    assert soaked.watches.states["slot"][0] == (slot if kind in (Found.ESCAPE, Found.PENETRATION) else 0)
 
 
 def test_a_ball_that_is_put_into_the_other_one_is_reported() -> None:
     soaked = still(BOARD, (7.0, 0.0, 0.0, 0.0), (7.0, 1.0, 0.0, 0.0))
     soaked.run(1)
     soaked.batch.state["ball"]["z"][0, 1] = 0.4
-    assert looked_at(soaked) == Found.PENETRATION
-    assert soaked.watches["depth"][0] == pytest.approx(0.1, abs=1e-12)
+    assert checked(soaked) == Found.PENETRATION
+    assert soaked.watches.states["depth"][0] == pytest.approx(0.1, abs=1e-12)
 
 
 @pytest.mark.parametrize("part", [CYLINDER, PRISM, WALL])
@@ -127,24 +124,24 @@ def test_a_ball_that_a_broken_solver_lets_through_a_turning_paddle_is_reported(s
     sound, broken = (still(table_of(*PADDLES, gravity=0.1), ball, tick_rate=10) for _ in range(2))
     hide_from_the_solver(broken.batch, Part.LEFT_PADDLE + side)
     for soaked in (sound, broken):
-        soaked.wild[:] = True  # so that the buttons are not let go
-        soaked.drivers["shove_at"] = soaked.drivers["kick_at"][:] = 2**60
-        soaked.actions["left"] = soaked.actions["right"] = 1
+        soaked.drivers.wild[:] = True  # so that the buttons are not let go
+        soaked.drivers.states["shove_at"] = soaked.drivers.states["kick_at"][:] = 2**60
+        soaked.drivers.actions["left"] = soaked.drivers.actions["right"] = 1
         soaked.run(1)
     assert (found(sound), found(broken)) == (Found.NOTHING, Found.PASSAGE)
 
 
-def test_balls_that_go_through_each_other_within_a_tick_are_deep_on_their_way() -> None:
+def test_balls_that_pass_through_each_other_within_a_tick_overlap_on_their_paths() -> None:
     table = table_of(gravity=0.1)
     soaked = still(table, (0.0, -1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0))
     a, b = soaked.batch.state["ball"][0]
-    was_a, was_b = Was(1, -0.3, -1.0), Was(2, 0.0, 1.0)
+    previous_a, previous_b = PreviousBall(1, -0.3, -1.0), PreviousBall(2, 0.0, 1.0)
     a["x"], a["z"], b["x"], b["z"] = 0.3, 1.0, 0.0, -1.0
     # Seen from a, b goes from (0.3, 2) to (−0.3, −2): past a's centre.
-    assert depth_of_meeting(was_a, a, was_b, b, 0.25) == pytest.approx(0.5, abs=1e-15)
+    assert depth_of_meeting(previous_a, a, previous_b, b, 0.25) == pytest.approx(0.5, abs=1e-15)
     a["z"], b["z"] = -1.0, 1.0
     # Nobody moves across: the nearest they come is the distance 2 less nothing.
-    assert depth_of_meeting(was_a, a, was_b, b, 0.25) == pytest.approx(0.5 - 2.0, abs=1e-12)
+    assert depth_of_meeting(previous_a, a, previous_b, b, 0.25) == pytest.approx(0.5 - 2.0, abs=1e-12)
 
 
 def test_a_contact_with_nothing_is_reported() -> None:
@@ -153,7 +150,7 @@ def test_a_contact_with_nothing_is_reported() -> None:
     soaked.batch.boards.collider[Part.FIRST_SHAPE]["radius"] += 0.01
     soaked.run(20)
     assert found(soaked) == Found.PHANTOM
-    assert soaked.watches["depth"][0] == pytest.approx(-0.01, abs=1e-9)
+    assert soaked.watches.states["depth"][0] == pytest.approx(-0.01, abs=1e-9)
 
 
 def test_a_contact_inside_a_part_is_reported_although_the_ball_has_left_it_at_the_end_of_the_tick() -> None:
@@ -161,8 +158,8 @@ def test_a_contact_inside_a_part_is_reported_although_the_ball_has_left_it_at_th
     soaked.batch.boards.collider[Part.FIRST_SHAPE]["radius"] -= 1e-6
     soaked.run(20)
     assert found(soaked) == Found.PENETRATION
-    assert soaked.watches["depth"][0] == pytest.approx(1e-6, abs=1e-9)
-    assert soaked.watches["deepest"][0] == soaked.watches["depth"][0] > DEPTH
+    assert soaked.watches.states["depth"][0] == pytest.approx(1e-6, abs=1e-9)
+    assert soaked.watches.states["deepest"][0] == soaked.watches.states["depth"][0] > DEPTH
 
 
 CRADLE = (
@@ -177,7 +174,7 @@ def test_a_ball_that_lies_for_more_than_a_minute_is_stuck() -> None:
     assert found(soaked) == Found.NOTHING
     soaked.run(10 * 60)
     assert found(soaked) == Found.STUCK
-    lain = (soaked.watches["frames"][0] - soaked.watches["since"][0]) / 60
+    lain = (soaked.watches.states["frames"][0] - soaked.watches.states["since"][0]) / 60
     assert STUCK_AFTER < lain <= STUCK_AFTER + 2 / 60
 
 
@@ -193,21 +190,21 @@ def test_a_ball_is_not_stuck_that_was_counted_as_jammed_or_lies_on_a_hostile_boa
     assert jammed.batch.state["tick"][0] < QUIET * 60
 
 
-def test_no_flight_sags_further_from_the_straight_way_than_the_watch_takes_off() -> None:
+def test_no_flight_has_a_larger_sagitta_than_the_checks_allow() -> None:
     soaked = still(table_of(gravity=10.0))
     # A parabola sags by a·t²/8 in its middle.
-    assert greatest_sag(soaked.true.board[0], 0.1) >= 10.0 * 0.1**2 / 8
+    assert max_sagitta(soaked.truth(0).board, 0.1) >= 10.0 * 0.1**2 / 8
 
 
 # How worlds are driven
 
 
 def test_a_wild_world_is_kicked_up_to_the_cap_and_pressed_for_all_times() -> None:
-    soaked = soaked_round(options_of(), 0, 1)
+    soaked = round_batch(options_of(), 0, 1)
     pressed, speeds, balls = [], [], []
     for _ in range(6000):
         soaked.run(1)
-        action = soaked.actions[0]
+        action = soaked.drivers.actions[0]
         pressed.append((int(action["left"]), int(action["right"])))
         speeds += list(np.hypot(action["vx"], action["vz"])[action["kick"] == 1])
         balls.append(int((soaked.batch.state["ball"]["id"][0] != 0).sum()))
@@ -230,11 +227,11 @@ def test_a_wild_world_is_kicked_up_to_the_cap_and_pressed_for_all_times() -> Non
 
 
 def test_a_quiet_world_is_left_alone_for_more_than_a_minute_and_then_played() -> None:
-    soaked = soaked_round(options_of(), 0, 0)
+    soaked = round_batch(options_of(), 0, 0)
     done = []
     for _ in range(100 * 60):
         soaked.run(1)
-        action = soaked.actions[0]
+        action = soaked.drivers.actions[0]
         done.append(int(action["left"] + action["right"] + action["shove"]))
         assert action["kick"].sum() == 0
     quiet = round(QUIET * 60)
@@ -272,21 +269,21 @@ def test_a_soak_of_a_hundred_hostile_boards_finds_nothing() -> None:
 
 
 @pytest.mark.parametrize("hostile", [False, True])
-def test_a_world_of_a_round_alone_is_the_same_as_among_the_others(short_rounds, hostile: bool) -> None:
+def test_a_world_of_a_round_is_the_same_alone_and_among_the_others(short_rounds, hostile: bool) -> None:
     options = options_of(hostile, worlds=6)
-    together = soaked_round(options, 2)
+    together = round_batch(options, 2)
     together.run(700)
     for world in (0, 5):
-        alone = soaked_round(options, 2, world)
+        alone = round_batch(options, 2, world)
         for _ in range(7):
             alone.run(100)
         assert alone.batch.state[0].tobytes() == together.batch.state[world].tobytes()
-        assert alone.watches[0].tobytes() == together.watches[world].tobytes()
+        assert alone.watches.states[0].tobytes() == together.watches.states[world].tobytes()
 
 
 def test_rounds_and_seeds_make_boards_of_their_own() -> None:
     names = {
-        soaked_round(options_of(seed=seed, worlds=8), number).tables[world].name
+        round_batch(options_of(seed=seed, worlds=8), number).tables[world].name
         for seed in (0, 1)
         for number in (0, 1)
         for world in (0, 7)

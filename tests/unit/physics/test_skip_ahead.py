@@ -1,4 +1,4 @@
-"""The searches that are saved: leaps over many ticks, contacts held in the record, and the grid.
+"""Skip-ahead, contacts cached in the record, and the grid save searches and change no bit.
 
 All three only save time. So the tests compare bits with what is found without them, in games in which both
 happen: long free flights, and contacts all the time.
@@ -41,7 +41,7 @@ def state_of(batch: WorldBatch) -> list[bytes]:
 
 
 @pytest.mark.parametrize("tick_rate", [60, 240, 2000])
-def test_a_leap_over_many_ticks_gives_the_bits_of_one_tick_after_the_other(tick_rate: int) -> None:
+def test_skipping_many_ticks_gives_the_bits_of_one_tick_after_the_other(tick_rate: int) -> None:
     tables = [board_of(number) for number in range(40)]
     leaping, single = (WorldBatch(tables, len(tables), 7, tick_rate) for _ in range(2))
     rng = np.random.default_rng(tick_rate)
@@ -61,7 +61,7 @@ def test_a_leap_over_many_ticks_gives_the_bits_of_one_tick_after_the_other(tick_
     assert not leaping.state["fault"].any()
 
 
-def test_presses_and_shoves_in_the_middle_of_a_leap_come_in_their_own_ticks() -> None:
+def test_presses_and_shoves_in_the_middle_of_a_skip_come_in_their_own_ticks() -> None:
     tables = [board_of(number) for number in range(24)]
     leaping, single = (WorldBatch(tables, len(tables), 3, 120) for _ in range(2))
     rng = np.random.default_rng(9)
@@ -75,8 +75,8 @@ def test_presses_and_shoves_in_the_middle_of_a_leap_come_in_their_own_ticks() ->
         assert state_of(leaping) == state_of(single)
 
 
-def test_a_leap_on_a_board_without_paddles_ends_at_the_contact() -> None:
-    """There is no paddle to come into the reach of, so that nothing but the contact bounds the leap."""
+def test_a_skip_on_a_board_without_paddles_ends_at_the_contact() -> None:
+    """Without a paddle only the contact bounds the skip."""
     world = World(table_of(length=50, gutter=-24))
     world.create_ball((20.0, 0.0), (-1.0, 4.0))
     world.step(ticks=400)
@@ -100,7 +100,7 @@ def is_same_flight(before, after) -> bool:
 
 
 @pytest.mark.parametrize("rub", RUBS[:3], ids=str)
-def test_the_contact_that_a_flight_holds_is_what_a_search_from_its_beginning_finds(rub) -> None:
+def test_the_cached_contact_is_what_a_search_from_the_start_of_the_flight_finds(rub) -> None:
     table = full_table(**rub)
     world = World(table, seed=1, tick_rate=240)
     boards = world._batch.boards
@@ -134,7 +134,7 @@ def test_the_contact_that_a_flight_holds_is_what_a_search_from_its_beginning_fin
 
 
 @pytest.mark.parametrize("rub", RUBS, ids=str)
-def test_a_game_whose_flights_are_searched_anew_in_every_tick_is_the_same_game(rub) -> None:
+def test_a_game_whose_flights_are_searched_again_in_every_tick_is_the_same_game(rub) -> None:
     """A flight whose held contact is forgotten finds it again, to rounding: searches begin at other ages."""
     worlds = [World(full_table(**rub), tick_rate=240) for _ in range(2)]
     for world in worlds:
