@@ -28,7 +28,7 @@ SEEDS = (11, 12)
 
 
 def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
-    """Measure everything; `advance` is called with the name of what is measured next. Baking is timed once."""
+    """Measure everything, baking once; `advance` is called with the name of what is measured next."""
     from silverball.drawing.warm_up import compile_all
 
     advance("loading compiled code")
