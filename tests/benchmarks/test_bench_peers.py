@@ -21,7 +21,7 @@ ERRORS = [1e-15, 1e-14, 1e-14, 1e-13]
 def made_up_row(name: str, frames: float, errors: list[float], depth: float) -> contest.Row:
     batch, world = [8e6, 9e6, 1e7], [4e5, 4e5, 4e5]
     return contest.row(
-        name, "1/60", [frames] * 3, batch, world, contest.Watched(1000, 3, depth), errors, 1e-3
+        name, "1/60", [frames] * 3, batch, world, contest.Penetration(1000, 3, depth), errors, 1e-3
     )
 
 
@@ -142,9 +142,7 @@ def test_what_does_not_fit_together_is_refused_in_words(arguments, word, capsys)
 
 def test_the_plot_is_a_picture(result, tmp_path):
     pytest.importorskip("matplotlib")
-    from silverball.benchmarks.peers import plot
-
-    plot.draw(result, tmp_path / "peers.png")
+    report.draw_plot(result, tmp_path / "peers.png")
     assert (tmp_path / "peers.png").read_bytes().startswith(b"\x89PNG")
 
 

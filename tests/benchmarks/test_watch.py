@@ -1,4 +1,4 @@
-"""Does the watcher see what it is to see, and nothing else?"""
+"""Does the monitor see what it is to see, and nothing else?"""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from silverball.benchmarks.peers import play, tables
-from silverball.benchmarks.peers.engine import Playfield, Stepping
-from silverball.benchmarks.peers.penetration import Watcher, do_cross, watch
+from silverball.benchmarks.peers.penetration import PenetrationMonitor, do_cross, play_monitored
+from silverball.benchmarks.peers.playfield import Playfield, Stepping
 from silverball.benchmarks.peers.silverball_table import SilverballPlayfield
 from silverball.table import load_table
 
@@ -31,10 +31,10 @@ class Puppet(Playfield):
     def finish_frame(self):
         pass
 
-    def put_ball(self, x, z, vx=0.0, vz=0.0):
+    def add_ball(self, x, z, vx=0.0, vz=0.0):
         raise AssertionError("a puppet keeps its ball")
 
-    def take_ball(self, index):
+    def remove_ball(self, index):
         self.taken.append(index)
 
     def balls(self):
@@ -51,9 +51,9 @@ class Puppet(Playfield):
 def seen(*ways, angles=(REST, REST)):
     field = Puppet(ways, angles)
     game = play.Game(field, np.zeros((1, 2), bool), [(0.0, 0.0)])
-    watcher = Watcher(field.table)
-    escapes = watch(game, len(ways) - 1, watcher)
-    return escapes, watcher.depth, field.taken
+    monitor = PenetrationMonitor(field.table)
+    escapes = play_monitored(game, len(ways) - 1, monitor)
+    return escapes, monitor.depth, field.taken
 
 
 def test_a_ball_that_stays_clear_is_not_reported():
@@ -106,7 +106,7 @@ def test_silverball_lets_no_ball_in_and_none_out():
     game = play.Game(
         SilverballPlayfield(table, Stepping(1)), play.random_presses(600, 3), play.free_places(table, 3)
     )
-    watcher = Watcher(table)
-    assert watch(game, 600, watcher) == 0
-    assert watcher.depth <= 1e-9
+    monitor = PenetrationMonitor(table)
+    assert play_monitored(game, 600, monitor) == 0
+    assert monitor.depth <= 1e-9
     assert game.field.ball_count == play.BALLS

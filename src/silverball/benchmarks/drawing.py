@@ -1,7 +1,7 @@
-"""How soon is there a picture, how soon the best one, and how many frames a second are drawn?
+"""Speed of the drawing: time to the first and to the best picture of a board, and frames per second.
 
-Everything is baked into a folder that is thrown away afterwards, so nothing is known at the beginning.
-Compiled code is there: compiling it is a matter of the first start on a machine alone.
+Pictures are cached in a folder that is removed afterwards, so nothing is cached at the start. The code is
+compiled before: that happens only at the first start on a machine.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ from silverball.table import Table, generate_table, load_table
 from silverball.world import World
 
 HEIGHT = 1152  # [pixel] of the picture
-FRAMES = 240  # of a game, drawn again and again
+FRAMES = 240  # of a game, drawn in every round
 FRAME_RATE = 60
 TICK_RATE = 240
 SEEDS = (11, 12)
 
 
 def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
-    """Measure all of it; `advance` is told what comes next. Bakings are timed once."""
+    """Measure everything, baking once; `advance` is called with the name of what is measured next."""
     from silverball.drawing.warm_up import compile_all
 
     advance("loading compiled code")
@@ -73,7 +73,7 @@ def _seconds(work: Callable[[], Any]) -> float:
 
 
 def _first_picture(table: Table, size: tuple[int, int], rounds: int) -> float:
-    """Seconds to a renderer that works in the background, and its first picture."""
+    """Time [s] to create a renderer that works in the background and to draw its first picture."""
     times = []
     for _ in range(rounds):
         with tempfile.TemporaryDirectory() as folder:
@@ -86,7 +86,7 @@ def _first_picture(table: Table, size: tuple[int, int], rounds: int) -> float:
 
 
 def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
-    """Frames of a game with two balls under random paddles, in processor time of one core."""
+    """Frames of a game with two balls and moving paddles, in processor time of one core."""
     play = list(_play(renderer.table))
     target = rgb_surface(renderer.camera.size)
     times = []

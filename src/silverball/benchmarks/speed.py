@@ -16,9 +16,9 @@ from silverball.table import Table
 from silverball.world import WorldBatch
 
 FRAME_RATE = 60
-HOLD = 6  # frames for which a random button stays as it is
-BOARDS = 16  # distinct random boards of a benchmark on a recipe
-FILL = 2  # balls in every world
+HOLD = 6  # frames between two changes of a random button
+BOARDS = 16  # distinct boards of a benchmark on a recipe
+FILL = 2  # balls per world
 
 
 class Figure(NamedTuple):
@@ -30,13 +30,13 @@ class Figure(NamedTuple):
 
 
 class Speed(NamedTuple):
-    """A measured speed, and what it was measured on.
+    """A measured speed, and the conditions of the measurement.
 
     Attributes:
         frames_per_second: Frames of 1/60 s in all worlds per second, median of the rounds.
-        slowest: The same of the slowest round.
-        fastest: The same of the fastest round.
-        balls: Mean number of balls on a board at the start of a round.
+        slowest: Frames per second in the slowest round.
+        fastest: Frames per second in the fastest round.
+        balls: Mean number of balls per board at the start of a round.
     """
 
     frames_per_second: float
@@ -55,7 +55,7 @@ class Speed(NamedTuple):
 
 
 def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -> Speed:
-    """Time calls of `frames` frames each, with two balls in every world at each start and random paddles."""
+    """Time calls of `frames` frames each, with random paddles and two balls per world at each start."""
     boards = boards_of(table)
     batch = WorldBatch([boards[i % len(boards)] for i in range(worlds)], worlds, 0, FRAME_RATE, threads)
     random = np.random.default_rng(0)
@@ -87,12 +87,12 @@ def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -
 
 
 def machine() -> str:
-    """What this is measured on, in a few words."""
+    """Processor architecture, number of cores and system of this machine."""
     return f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
 def boards_of(table: Table) -> list[Table]:
-    """The boards of a benchmark: the table, or several boards of a recipe."""
+    """The boards of a benchmark: the table, or `BOARDS` boards of a recipe."""
     if table.random is None:
         return [table]
     from silverball.table import generate_table
@@ -101,7 +101,7 @@ def boards_of(table: Table) -> list[Table]:
 
 
 def random_actions(random: np.random.Generator, frames: int, worlds: int) -> NDArray[np.bool_]:
-    """Random paddles, no jitter: bool [frames, world, 3]."""
+    """Random actions without jitter: bool [frame, world, 3]."""
     held = random.random((-(-frames // HOLD), worlds, 3)) < 0.5
     held[..., 2] = False
     return np.ascontiguousarray(np.repeat(held, HOLD, axis=0)[:frames])

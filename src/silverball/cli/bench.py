@@ -210,23 +210,23 @@ def peers(
 
     Example: `silverball bench peers --out peers.png --out peers.md`
     """
-    from silverball.benchmarks.peers.engines import PEERS, present_peers
+    from silverball.benchmarks.peers.engines import PEERS, installed_peers
     from silverball.table import load_table
 
     paths = [output_path(text, (".png", ".md")) for text in out]
     loaded = load_table(table)
     if not loaded.paddle:
         raise SilverballError(f"--table {table}: the comparison needs paddles, and this table has none")
-    engines = present_peers()
+    engines = installed_peers()
     for engine in PEERS:
         if engine not in engines:
-            errors.print(engine.missing)
+            errors.print(engine.install_hint)
     with compiling():
-        from silverball.benchmarks.peers import comparison, plot, report
+        from silverball.benchmarks.peers import comparison, report
         from silverball.wholefile import write_whole
 
         if any(path.suffix == ".png" for path in paths):
-            plot.require_matplotlib()
+            report.require_matplotlib()
     plan = comparison.Plan(worlds=worlds, rounds=rounds)
     if quick:
         plan = plan.shortened()
@@ -244,7 +244,7 @@ def peers(
         say(*report.conclusions(result), *report.footing(result))
     for path in paths:
         if path.suffix == ".png":
-            write_whole(path, lambda place: plot.draw(result, place))
+            write_whole(path, lambda place: report.draw_plot(result, place))
         else:
             write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
         say(f"wrote {path}", err=True)
