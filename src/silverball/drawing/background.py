@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from silverball.background_process import Compiler
 from silverball.drawing.camera import Camera
-from silverball.drawing.picture_cache import Store
+from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.themes import Theme
 from silverball.table import Table
 
@@ -31,7 +31,7 @@ class Background:
         table: A finished table.
         camera: The view of it.
         theme: Its look.
-        store: Where pictures are kept.
+        cache: Where pictures are kept.
         is_random: Whether other boards of the same recipe will follow, which share the empty table.
 
     Attributes:
@@ -39,13 +39,15 @@ class Background:
         error: What went wrong, if anything did.
     """
 
-    def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, is_random: bool) -> None:
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, cache: PictureCache, is_random: bool
+    ) -> None:
         self.painter: Composer | None = None
         self.error: Exception | None = None
         self._table = table
         self._camera = camera
         self._theme = theme
-        self._store = store
+        self._cache = cache
         self._is_random = is_random
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._work, name="silverball drawing", daemon=True)
@@ -65,26 +67,26 @@ class Background:
         self._stop.set()
 
     def _work(self) -> None:
-        from silverball.drawing.bake_threads import StoppedError, Workshop, stand_back
+        from silverball.drawing.bake_threads import BakeCancelled, BakeThreads, lower_priority
 
-        stand_back()
+        lower_priority()
         if not self._compile():
             return
         from silverball.drawing.compose import Composer
-        from silverball.drawing.picture_provider import Studio
+        from silverball.drawing.picture_provider import PictureProvider
 
-        workshop = Workshop(stop=self._stop, is_behind=True)
+        bake_threads = BakeThreads(stop=self._stop, in_background=True)
         try:
-            studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
-            painter = Composer(self._table, self._camera, self._theme, studio.still(), studio.paddle)
+            provider = PictureProvider(self._table, self._camera, self._theme, self._cache, bake_threads)
+            painter = Composer(self._table, self._camera, self._theme, provider.table(), provider.paddle)
             if self._stop.is_set():
                 return
             self.painter = painter
-            studio.bake_paddles()
+            provider.bake_paddles()
             if self._is_random:
-                studio.bake_empty()
-        except StoppedError:
-            studio.save_paddles()
+                provider.bake_empty()
+        except BakeCancelled:
+            provider.save_paddles()
         except Exception as error:  # the game goes on with the picture that there is
             self.error = error
 

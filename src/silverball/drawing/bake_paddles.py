@@ -1,4 +1,4 @@
-"""What does a paddle look like at every angle? Small pictures that are laid over the table, board by board.
+"""What does a paddle solid like at every angle? Small pictures that are laid over the table, board by board.
 
 A sprite says for each pixel how much of what is there stays (its shadow takes some away, its body all), what
 is added, and how high the paddle is there: new = old · stays / 255 + added.
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.bake_table import to_bytes, without_obstacles
-from silverball.drawing.bake_threads import Workshop
+from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
 from silverball.drawing.kernels.bake import new_canvas
 from silverball.drawing.kernels.solids import list_cells
@@ -33,14 +33,14 @@ def step_count(paddle: Paddle) -> int:
     return max(math.ceil((paddle.up_angle - paddle.rest_angle) / DEGREES), 1)
 
 
-def step_of(paddle: Paddle, angle: float) -> int:
+def nearest_step(paddle: Paddle, angle: float) -> int:
     """The step nearest to an angle [deg]."""
     share = (angle - paddle.rest_angle) / (paddle.up_angle - paddle.rest_angle)
     steps = step_count(paddle)
     return min(max(round(share * steps), 0), steps)
 
 
-def angle_of(paddle: Paddle, step: int) -> float:
+def step_angle(paddle: Paddle, step: int) -> float:
     """The angle [deg] of a step; the first and the last are the stops themselves."""
     steps = step_count(paddle)
     return paddle.up_angle if step == steps else (
@@ -48,7 +48,7 @@ def angle_of(paddle: Paddle, step: int) -> float:
     )  # fmt: skip
 
 
-def in_turns(steps: int) -> list[int]:
+def coarse_to_fine(steps: int) -> list[int]:
     """The steps in the order in which they are of use: the stops, the middle, the quarters, and so on."""
     order = dict.fromkeys((0, steps))
     stride = steps
@@ -58,7 +58,7 @@ def in_turns(steps: int) -> list[int]:
     return list(order)
 
 
-def is_mirrored(table: Table, camera: Camera) -> bool:
+def has_mirrored_paddles(table: Table, camera: Camera) -> bool:
     """Whether the right paddle is the left one in the mirror, and the picture too."""
     paddles = {paddle.side: paddle for paddle in table.paddle}
     if len(paddles) < 2 or abs(2.0 * camera.frustum.across - camera.size[0]) > 1e-6:
@@ -76,14 +76,14 @@ class PaddleBaker:
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        workshop: Who does it.
+        theme: Its solid.
+        bake_threads: Who does it.
     """
 
-    def __init__(self, table: Table, camera: Camera, theme: Theme, workshop: Workshop) -> None:
+    def __init__(self, table: Table, camera: Camera, theme: Theme, bake_threads: BakeThreads) -> None:
         self._camera = camera
         self._theme = theme
-        self._workshop = workshop
+        self._bake_threads = bake_threads
         self._paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
         self._bare = make_scene(without_obstacles(table), camera, theme)
         self._with = make_scene(without_obstacles(table), camera, theme, (0.0, 0.0))
@@ -97,11 +97,11 @@ class PaddleBaker:
         """The sprite of the paddle of a side at a step of its swing."""
         self._bake_bare(side)
         paddle = self._paddles[side]
-        angle = angle_of(paddle, step)
+        angle = step_angle(paddle, step)
         left, top, right, bottom = self._box(paddle, angle)
         box = (slice(top, bottom), slice(left, right))
         self._canvas.mask[box] = True
-        self._workshop.bake(self._scene(side, angle), self._canvas)
+        self._bake_threads.bake(self._scene(side, angle), self._canvas)
         self._canvas.mask[box] = False
         is_paddle = self._canvas.part[box] == NUMBERS[side]
         return _sprite(
@@ -115,34 +115,34 @@ class PaddleBaker:
             return
         paddle = self._paddles[side]
         for step in range(0, step_count(paddle) + 1):
-            left, top, right, bottom = self._box(paddle, angle_of(paddle, step))
+            left, top, right, bottom = self._box(paddle, step_angle(paddle, step))
             self._bare_canvas.mask[top:bottom, left:right] = True
-        self._workshop.bake(self._bare, self._bare_canvas)
+        self._bake_threads.bake(self._bare, self._bare_canvas)
         self._bare_canvas.mask[:] = False
         self._bare_done.add(side)
 
     def _scene(self, side: str, angle: float) -> Scene:
         scene = self._with
-        looks = scene.looks.copy()
+        solids = scene.solids.copy()
         for number in NUMBERS.values():
             if number != NUMBERS[side]:
-                looks[number]["form"] = 0
-        look = looks[NUMBERS[side]]
-        look["sine"], look["cosine"] = math.sin(math.radians(angle)), math.cos(math.radians(angle))
+                solids[number]["form"] = 0
+        solid = solids[NUMBERS[side]]
+        solid["sine"], solid["cosine"] = math.sin(math.radians(angle)), math.cos(math.radians(angle))
         unit = float(scene.stage[0]["unit"])
         return scene._replace(
-            looks=looks,
-            near=list_cells(scene.stage, looks, scene.shapes, NEAR * unit),
-            lit=list_cells(scene.stage, looks, scene.shapes, HALO * unit),
+            solids=solids,
+            near=list_cells(scene.stage, solids, scene.shapes, NEAR * unit),
+            lit=list_cells(scene.stage, solids, scene.shapes, HALO * unit),
         )
 
     def _box(self, paddle: Paddle, angle: float) -> tuple[int, int, int, int]:
         corners = paddle.corners(angle)
-        reach = SHADOW_REACH * self._camera.build.unit
+        reach = SHADOW_REACH * self._camera.dimensions.unit
         xs, zs = [x for x, _ in corners], [z for _, z in corners]
         return self._camera.box(
             min(xs) - reach, max(xs) + 0.3 * reach, min(zs) - reach, max(zs) + reach, 0.0,
-            1.3 * self._camera.build.paddle_height,
+            1.3 * self._camera.dimensions.paddle_height,
         )  # fmt: skip
 
 

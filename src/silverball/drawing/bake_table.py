@@ -1,4 +1,4 @@
-"""What does the table look like when nothing moves? Its picture, its heights, and what hits add to it.
+"""What does the table solid like when nothing moves? Its picture, its heights, and what hits add to it.
 
 A random board differs from an empty one only around its obstacles. If the empty board is at hand, nothing
 else is baked, and the result is the same to the last bit.
@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.bake_threads import Workshop
+from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
 from silverball.drawing.kernels import bake
 from silverball.drawing.kernels.bake import Canvas, new_canvas
 from silverball.drawing.kernels.stage import HALO, Form, Scene
-from silverball.drawing.pictures import Flash, Still
+from silverball.drawing.pictures import BakedTable, HitFlash
 from silverball.drawing.scene import make_scene
 from silverball.drawing.themes import Theme
 from silverball.physics.records import Part
@@ -26,16 +26,16 @@ SLACK = 0.05  # [u] added to a reach, for what lies between two heights that are
 FLASH_REACH = 1.9  # [u] around a part that its flash is baked for
 
 
-def bake_still(
-    table: Table, camera: Camera, theme: Theme, workshop: Workshop, empty: Still | None = None
-) -> Still:
+def bake_table(
+    table: Table, camera: Camera, theme: Theme, bake_threads: BakeThreads, empty: BakedTable | None = None
+) -> BakedTable:
     """Bake a table without paddles and balls.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        workshop: Who does it.
+        theme: Its solid.
+        bake_threads: Who does it.
         empty: The same table without prisms and cylinders, if it is at hand.
     """
     scene = make_scene(table, camera, theme)
@@ -44,13 +44,13 @@ def bake_still(
     if empty is not None:
         inner = _around_obstacles(scene, camera)
         canvas.mask[:] = _one_wider(inner)
-    workshop.plan(2 * int(canvas.mask.any(axis=1).sum()))
-    workshop.bake(scene, canvas, inner)
+    bake_threads.plan(2 * int(canvas.mask.any(axis=1).sum()))
+    bake_threads.bake(scene, canvas, inner)
     pixels, height = to_bytes(canvas.shown), _rounded(canvas.height)
     if empty is not None and inner is not None:
         pixels = np.where(inner[:, :, None], pixels, empty.pixels)
         height = np.where(inner, height, empty.height)
-    return Still(pixels, height, _flashes(table, scene, camera, canvas, workshop))
+    return BakedTable(pixels, height, _flashes(table, scene, camera, canvas, bake_threads))
 
 
 def without_obstacles(table: Table) -> Table:
@@ -70,7 +70,7 @@ def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
 
 
 def _rounded(height: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Heights as the store keeps them, in half precision, so that a picture from there has the same bits."""
+    """Heights as the cache keeps them, in half precision, so that a picture from there has the same bits."""
     return height.astype(np.float16).astype(np.float32)
 
 
@@ -79,14 +79,14 @@ def _around_obstacles(scene: Scene, camera: Camera) -> NDArray[np.bool_]:
     width, height = camera.size
     mask = np.zeros((height, width), np.bool_)
     reach = HALO * float(scene.stage[0]["unit"])
-    for look, shape in zip(scene.looks, scene.shapes, strict=True):
-        if look["form"] in (Form.PRISM, Form.CYLINDER):
+    for solid, shape in zip(scene.solids, scene.shapes, strict=True):
+        if solid["form"] in (Form.PRISM, Form.CYLINDER):
             left, top, right, bottom = _box(camera, shape, reach)
             across = np.arange(left, right)[None, :] + 0.5
             down = np.arange(top, bottom)[:, None] + 0.5
             # A ray passes what is in reach somewhere between the playfield and the greatest height.
             for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-                x, z = _places(camera, across, down, share * camera.build.top)
+                x, z = _places(camera, across, down, share * camera.dimensions.top)
                 size = shape["reach"] + reach + SLACK
                 mask[top:bottom, left:right] |= (x - shape["x"]) ** 2 + (z - shape["z"]) ** 2 < size**2
     return mask
@@ -98,14 +98,14 @@ def _places(
     """Where the rays through pixels are at a height; the same as `Camera.to_board`, for many."""
     f = camera.frustum
     u, v = (across - f.across) / f.focal, (f.down - down) / f.focal
-    way = (y - f.eye_y) / (v * f.sine - f.cosine)
-    return f.eye_x + way * (f.sine + v * f.cosine), way * u
+    t = (y - f.eye_y) / (v * f.sine - f.cosine)
+    return f.eye_x + t * (f.sine + v * f.cosine), t * u
 
 
 def _box(camera: Camera, shape: np.void, reach: float) -> tuple[int, int, int, int]:
     """The pixels (left, top, right, bottom) of a part and what is within a reach of it."""
     x, z, size = shape["x"], shape["z"], shape["reach"] + reach
-    return camera.box(x - size, x + size, z - size, z + size, 0.0, camera.build.top)
+    return camera.box(x - size, x + size, z - size, z + size, 0.0, camera.dimensions.top)
 
 
 def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -118,8 +118,8 @@ def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _flashes(
-    table: Table, scene: Scene, camera: Camera, canvas: Canvas, workshop: Workshop
-) -> dict[str, Flash]:
+    table: Table, scene: Scene, camera: Camera, canvas: Canvas, bake_threads: BakeThreads
+) -> dict[str, HitFlash]:
     names = [f"triangular_prism[{index}]" for index in range(len(table.triangular_prism))]
     names += [f"cylinder[{index}]" for index in range(len(table.cylinder))]
     first = Part.FIRST_SHAPE + len(table.slant_wall)
@@ -128,8 +128,8 @@ def _flashes(
         reach = FLASH_REACH * float(scene.stage[0]["unit"])
         left, top, right, bottom = _box(camera, scene.shapes[index], reach)
         pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
-        workshop.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
-        flashes[name] = Flash(left, top, _smoothed(pixels))
+        bake_threads.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
+        flashes[name] = HitFlash(left, top, _smoothed(pixels))
     return flashes
 
 

@@ -24,18 +24,18 @@ ROWS = 4  # baked in one call: some 20 ms
 NICENESS = 10  # of threads that bake behind a game
 
 
-class StoppedError(Exception):
+class BakeCancelled(Exception):
     """Nobody wants the picture any more."""
 
 
-class Workshop:
+class BakeThreads:
     """Bakes, on some threads.
 
     Args:
         threads: How many; None: as many as there are processors.
-        stop: When it is set, the work ends with `StoppedError`.
+        stop: When it is set, the work ends with `BakeCancelled`.
         progress: Told the share of the work that is done, 0 to 1.
-        is_behind: Whether a game is played meanwhile.
+        in_background: Whether a game is played meanwhile.
     """
 
     def __init__(
@@ -44,11 +44,11 @@ class Workshop:
         *,
         stop: threading.Event | None = None,
         progress: Callable[[float], None] = lambda share: None,
-        is_behind: bool = False,
+        in_background: bool = False,
     ) -> None:
         self._threads = threads or os.cpu_count() or 1
         self._stop = stop or threading.Event()
-        self._stand_back = stand_back if is_behind else (lambda: None)
+        self._lower_priority = lower_priority if in_background else (lambda: None)
         self.progress = progress
         self._done = self._planned = 0
 
@@ -77,7 +77,7 @@ class Workshop:
         """Call a kernel for the rows first … end − 1, a few at a time, on all threads.
 
         Raises:
-            StoppedError: The picture is not wanted any more.
+            BakeCancelled: The picture is not wanted any more.
         """
 
         def some(row: int) -> None:
@@ -92,11 +92,11 @@ class Workshop:
             for number in numbers:
                 task(number)
         else:
-            with ThreadPoolExecutor(self._threads, "silverball bake", self._stand_back) as pool:
+            with ThreadPoolExecutor(self._threads, "silverball bake", self._lower_priority) as pool:
                 for _ in pool.map(task, numbers):
                     pass
         if self._stop.is_set():
-            raise StoppedError
+            raise BakeCancelled
 
     def _advance(self, rows: int) -> None:
         self._done += rows
@@ -104,7 +104,7 @@ class Workshop:
             self.progress(min(self._done / self._planned, 1.0))
 
 
-def stand_back() -> None:
+def lower_priority() -> None:
     """Let this thread give way to all others. Only Linux can do that for a single thread."""
     if sys.platform == "linux":
         os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)

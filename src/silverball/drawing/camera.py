@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import pygame
 
-from silverball.drawing.dimensions import Build
+from silverball.drawing.dimensions import Dimensions
 from silverball.table import Board
 
 TILT = math.radians(38.0)  # of the view from straight down
@@ -56,7 +56,7 @@ class Camera:
     Attributes:
         size: Width and height of the picture [pixel].
         board: The board.
-        build: Its heights.
+        dimensions: Its heights.
         panel: Where the score panel is [pixel].
         frustum: The camera's numbers.
     """
@@ -64,7 +64,7 @@ class Camera:
     def __init__(self, board: Board, size: tuple[int, int]) -> None:
         self.size = size
         self.board = board
-        self.build = Build.of(board)
+        self.dimensions = Dimensions.of(board)
         content = _Content(board)
         scale = min(size[0] / content.width, size[1] / content.height)
         left = 0.5 * (size[0] - content.width * scale)
@@ -132,17 +132,18 @@ class _Content:
     """What must be visible, in units of (d·r)/(d·f): the board, and the panel above it."""
 
     def __init__(self, board: Board) -> None:
-        build = Build.of(board)
+        dimensions = Dimensions.of(board)
         stand = _stand(board)
-        long, wide = build.half_length + build.rail, build.half_width + build.rail
+        long, wide = dimensions.half_length + dimensions.rail, dimensions.half_width + dimensions.rail
         points = [
             _project(x, y, z, *stand)
-            for x, low in ((-long, -build.skirt), (long, 0.0))
+            for x, low in ((-long, -dimensions.skirt), (long, 0.0))
             for z in (-wide, wide)
-            for y in (low, build.rail_height)
+            for y in (low, dimensions.rail_height)
         ]
         points += [
-            _project(build.half_length, build.top, z, *stand) for z in (-build.half_width, build.half_width)
+            _project(dimensions.half_length, dimensions.top, z, *stand)
+            for z in (-dimensions.half_width, dimensions.half_width)
         ]
         us, vs = [u for u, _ in points], [v for _, v in points]
         room = DEFAULT_ROOM * (max(us) - min(us))

@@ -18,7 +18,7 @@ GREATEST_RAIL = 1.0  # [u]
 TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies on it
 
 
-class Build(NamedTuple):
+class Dimensions(NamedTuple):
     """The heights [u] above the playfield and the widths [u] of what a board is built of.
 
     Attributes:
@@ -56,8 +56,8 @@ class Build(NamedTuple):
     ball: float
 
     @classmethod
-    def of(cls, board: Board) -> Build:
-        """The build of a board."""
+    def of(cls, board: Board) -> Dimensions:
+        """The dimensions of a board."""
         shorter = min(board.length, board.width)
         unit = min(board.ball_radius / USUAL_BALL_RADIUS, 0.25 * shorter)
         rail = min(RAIL_SHARE * shorter, GREATEST_RAIL)

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 FLASH_SECONDS = 0.45
 TRAIL_SECONDS = 0.13
 TRAIL_SPACING = 0.7  # between two spots of a trail, in radii of a ball
-DIVE_SECONDS = 0.2
+SINK_SECONDS = 0.2
 BACK = 0.25  # [s] further ahead than a tick lies only what was seen before time was turned back
-LEAST_DIVE_SPEED = 2.0  # [u/s]
+MIN_SINK_SPEED = 2.0  # [u/s]
 SPARK_SPEED = 6.0  # [u/s] of an impact that strikes sparks
 SPARK_SECONDS = 0.38
-MOST_SPARKS = 12  # of one hit
+MAX_SPARKS = 12  # of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
-MOST_HITS = 24  # whose sparks are remembered
+MAX_HITS = 24  # whose sparks are remembered
 GOLDEN = 0.6180339887498949  # its multiples, without the whole part, are spread evenly over 0 to 1
 
 
@@ -40,7 +40,7 @@ class Spot(NamedTuple):
     strength: float
 
 
-class _Dive(NamedTuple):
+class _SinkingBall(NamedTuple):
     time: float
     x: float
     z: float
@@ -68,26 +68,26 @@ class Effects:
         self.is_full = is_full
         self._radius = radius
         self._hits: dict[str, float] = {}
-        self._sparks: deque[_Hit] = deque(maxlen=MOST_HITS)
-        self._dives: list[_Dive] = []
+        self._sparks: deque[_Hit] = deque(maxlen=MAX_HITS)
+        self._sinking: list[_SinkingBall] = []
         self._paths: dict[int, deque[tuple[float, float, float]]] = {}
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Forget everything: another game begins."""
         self._hits.clear()
         self._sparks.clear()
-        self._dives.clear()
+        self._sinking.clear()
         self._paths.clear()
 
-    def note(self, events: Iterable[Event], tick_rate: int) -> None:
+    def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
         """Remember what happened."""
         for event in events:
             time = event.tick / tick_rate + event.offset
             if event.kind == "hit":
                 self._hits[event.part] = time
             elif event.kind == "gutter":
-                speed = max(event.speed, LEAST_DIVE_SPEED)
-                self._dives.append(_Dive(time, event.position[0], event.position[2], speed))
+                speed = max(event.speed, MIN_SINK_SPEED)
+                self._sinking.append(_SinkingBall(time, event.position[0], event.position[2], speed))
             if event.kind in ("hit", "ball_hit") and event.speed > SPARK_SPEED:
                 nx, _, nz = event.normal
                 x, z = event.position[0] - nx * self._radius, event.position[2] - nz * self._radius
@@ -104,10 +104,10 @@ class Effects:
                 strength = min(left, 1.0) ** 2
                 yield part, strength if self.is_full else 0.4 * strength
 
-    def dives(self, time: float) -> Iterator[BallAt]:
+    def sinking_balls(self, time: float) -> Iterator[BallAt]:
         """Balls on their way under the apron; the world no longer knows them."""
-        self._dives = [dive for dive in self._dives if -BACK < time - dive.time < DIVE_SECONDS]
-        for dive in self._dives:
+        self._sinking = [dive for dive in self._sinking if -BACK < time - dive.time < SINK_SECONDS]
+        for dive in self._sinking:
             yield BallAt(0, dive.x - dive.speed * max(time - dive.time, 0.0), dive.z)
 
     def trails(self, moment: Moment) -> Iterator[list[Spot]]:
@@ -147,7 +147,7 @@ class Effects:
                     yield list(self._sparks_of(hit, time - hit.time))
 
     def _sparks_of(self, hit: _Hit, age: float) -> Iterator[Spot]:
-        for index in range(min(4 + int(hit.speed), MOST_SPARKS)):
+        for index in range(min(4 + int(hit.speed), MAX_SPARKS)):
             chance = (GOLDEN * (index + 1) + 0.317 * hit.number) % 1.0
             other = (7.0 * chance + 0.113 * index) % 1.0
             fresh = 1.0 - age / (SPARK_SECONDS * (0.5 + 0.5 * other))

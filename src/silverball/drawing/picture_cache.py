@@ -31,7 +31,7 @@ PACKAGE = Path(__file__).resolve().parent.parent
 Arrays = dict[str, NDArray[Any]]
 
 
-class Store:
+class PictureCache:
     """A folder of pictures.
 
     Args:

@@ -1,4 +1,4 @@
-"""What is a baked picture: the arrays it consists of, and how they lie in the store?
+"""What is a baked picture: the arrays it consists of, and how they lie in the cache?
 
 Nothing here needs compiled code, so a picture that was seen before is on screen before any is loaded.
 """
@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.picture_cache import Store, key_of
+from silverball.drawing.picture_cache import PictureCache, key_of
 from silverball.drawing.themes import Theme
 from silverball.table import Table
 
 
-class Flash(NamedTuple):
+class HitFlash(NamedTuple):
     """What a hit of a part adds to the picture at its brightest.
 
     Attributes:
@@ -30,7 +30,7 @@ class Flash(NamedTuple):
     pixels: NDArray[np.uint8]
 
 
-class Still(NamedTuple):
+class BakedTable(NamedTuple):
     """A table that stands still.
 
     Attributes:
@@ -41,7 +41,7 @@ class Still(NamedTuple):
 
     pixels: NDArray[np.uint8]
     height: NDArray[np.float32]
-    flashes: dict[str, Flash]
+    flashes: dict[str, HitFlash]
 
 
 class PaddleSprite(NamedTuple):
@@ -76,15 +76,15 @@ Sprites: TypeAlias = dict[tuple[str, int], PaddleSprite]
 """Paddles by side and step of their swing."""
 
 
-def still_key(table: Table, camera: Camera, theme: Theme) -> str:
+def table_key(table: Table, camera: Camera, theme: Theme) -> str:
     """The name of the picture of a table that stands still."""
     parts = table.model_dump(include={"name", "board", "slant_wall", "triangular_prism", "cylinder"})
     return key_of("still", parts, camera.size, theme)
 
 
-def empty_key(table: Table, camera: Camera, theme: Theme) -> str:
+def empty_table_key(table: Table, camera: Camera, theme: Theme) -> str:
     """The name of the picture of the table without its obstacles."""
-    return still_key(table.model_copy(update={"triangular_prism": (), "cylinder": ()}), camera, theme)
+    return table_key(table.model_copy(update={"triangular_prism": (), "cylinder": ()}), camera, theme)
 
 
 def paddle_key(table: Table, camera: Camera, theme: Theme) -> str:
@@ -92,33 +92,33 @@ def paddle_key(table: Table, camera: Camera, theme: Theme) -> str:
     return key_of("paddles", table.model_dump(include={"board", "slant_wall", "paddle"}), camera.size, theme)
 
 
-def load_still(store: Store, key: str) -> Still | None:
-    """A still picture from the store, if it is there and whole."""
-    arrays = store.load(key)
+def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
+    """A still picture from the cache, if it is there and whole."""
+    arrays = cache.load(key)
     if arrays is None or not {"pixels", "height"} <= arrays.keys():
         return None
     flashes = {
-        name.removeprefix("flash "): Flash(
+        name.removeprefix("flash "): HitFlash(
             int(arrays["at " + name[6:]][0]), int(arrays["at " + name[6:]][1]), pixels
         )
         for name, pixels in arrays.items()
         if name.startswith("flash ")
     }
-    return Still(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
+    return BakedTable(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
 
 
-def save_still(store: Store, key: str, still: Still) -> None:
+def save_baked_table(cache: PictureCache, key: str, still: BakedTable) -> None:
     """Keep a still picture."""
     arrays: dict[str, NDArray[Any]] = {"pixels": still.pixels, "height": still.height.astype(np.float16)}
     for name, flash in still.flashes.items():
         arrays["flash " + name] = flash.pixels
         arrays["at " + name] = np.array((flash.left, flash.top))
-    store.save(key, arrays)
+    cache.save(key, arrays)
 
 
-def load_paddles(store: Store, key: str) -> Sprites:
-    """The sprites of paddles from the store, by side and step; none if they are not there."""
-    arrays = store.load(key) or {}
+def load_paddles(cache: PictureCache, key: str) -> Sprites:
+    """The sprites of paddles from the cache, by side and step; none if they are not there."""
+    arrays = cache.load(key) or {}
     sprites: Sprites = {}
     for name, at in arrays.items():
         if name.startswith("at "):
@@ -130,7 +130,7 @@ def load_paddles(store: Store, key: str) -> Sprites:
     return sprites
 
 
-def save_paddles(store: Store, key: str, sprites: Sprites) -> None:
+def save_paddles(cache: PictureCache, key: str, sprites: Sprites) -> None:
     """Keep sprites of paddles."""
     arrays: dict[str, NDArray[Any]] = {}
     for (side, step), sprite in sprites.items():
@@ -138,4 +138,4 @@ def save_paddles(store: Store, key: str, sprites: Sprites) -> None:
         arrays[f"stays {side} {step}"] = sprite.stays
         arrays[f"added {side} {step}"] = sprite.added
         arrays[f"height {side} {step}"] = sprite.height.astype(np.float16)
-    store.save(key, arrays)
+    cache.save(key, arrays)

@@ -14,7 +14,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from silverball.drawing.dimensions import Build
+from silverball.drawing.dimensions import Dimensions
 from silverball.drawing.themes import Color
 from silverball.plain import plain
 
@@ -137,13 +137,13 @@ def _pieces(word: str, size: int, width: int) -> list[str]:
 
 
 @lru_cache(maxsize=8)
-def lettering(name: str, build: Build) -> NDArray[np.float32]:
+def lettering(name: str, dimensions: Dimensions) -> NDArray[np.float32]:
     """Brightness 0 to 1 of the name on the apron, shape [row, column]; the first row is the upper one.
 
     It is kept: fonts are not made for threads, so a program calls this once before it bakes in a thread.
     """
-    depth = build.apron_top + build.half_length
-    width = 2.0 * (build.half_width - build.thickness)
+    depth = dimensions.apron_top + dimensions.half_length
+    width = 2.0 * (dimensions.half_width - dimensions.thickness)
     columns = min(max(round(ROWS * width / max(depth, 1e-3)), 1), 4096)
     plate = np.zeros((ROWS, columns), np.float32)
     if not name.strip() or depth < 0.04 * width:

@@ -185,7 +185,7 @@ CLEAR = Theme(
 THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}
 
 
-def in_turn(colors: tuple[Color, ...], index: int) -> Color:
+def cycled_color(colors: tuple[Color, ...], index: int) -> Color:
     """The colour of the part with that number."""
     return colors[index % len(colors)]
 

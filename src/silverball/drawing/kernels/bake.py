@@ -18,7 +18,7 @@ from silverball.drawing.kernels.shade import part_glow, radiance
 from silverball.drawing.kernels.solids import cell_at
 from silverball.drawing.kernels.stage import ROOM, Form, Scene
 from silverball.drawing.kernels.surfaces import surface_of
-from silverball.drawing.kernels.tones import RGB, film, plus, scaled
+from silverball.drawing.kernels.tones import RGB, add_scaled, scale, tone_map
 from silverball.physics.kernel import inlined, internal, kernel
 
 CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel is looked at more closely
@@ -57,7 +57,7 @@ def new_canvas(size: tuple[int, int]) -> Canvas:
 
 
 @internal
-def _aim(s: Any, across: float, down: float) -> tuple[float, float, float]:
+def _ray_direction(s: Any, across: float, down: float) -> tuple[float, float, float]:
     """The unit vector from the eye through a point of the picture."""
     u, v = (across - s.across) / s.focal, (s.down - down) / s.focal
     dx, dy, dz = s.sine + v * s.cosine, v * s.sine - s.cosine, u
@@ -66,13 +66,13 @@ def _aim(s: Any, across: float, down: float) -> tuple[float, float, float]:
 
 
 @internal
-def _look(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
+def _trace_pixel(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
     """What is seen through a point of the picture: its light, its height, its number."""
     s = scene.stage[0]
-    dx, dy, dz = _aim(s, across, down)
-    way, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)
-    x, y, z = s.eye_x + way * dx, s.eye_y + way * dy, way * dz
-    light = radiance(scene, part, (x, y, z), (dx, dy, dz), way / s.focal)
+    dx, dy, dz = _ray_direction(s, across, down)
+    t, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)
+    x, y, z = s.eye_x + t * dx, s.eye_y + t * dy, t * dz
+    light = radiance(scene, part, (x, y, z), (dx, dy, dz), t / s.focal)
     return light, y, part
 
 
@@ -113,9 +113,11 @@ def bake_rows(scene: Scene, canvas: Canvas, rough: Any, rays: int, first: int, e
             shown = (0.0, 0.0, 0.0)
             for ray in range(rays):
                 across, down = _place_in_pixel(ray, rays)
-                light, height, part = _look(scene, column + across, row + down)
-                light = scaled(light, s.exposure)
-                shown = plus(shown, (film(light[0]), film(light[1]), film(light[2])), 1.0 / rays)
+                light, height, part = _trace_pixel(scene, column + across, row + down)
+                light = scale(light, s.exposure)
+                shown = add_scaled(
+                    shown, (tone_map(light[0]), tone_map(light[1]), tone_map(light[2])), 1.0 / rays
+                )
                 if rays == 1:
                     canvas.height[row, column] = height
                     canvas.part[row, column] = part
@@ -151,23 +153,23 @@ def bake_flash(
             part = canvas.part[row, column]
             if part == ROOM:
                 continue
-            dx, dy, dz = _aim(s, column + 0.5, row + 0.5)
-            way = (canvas.height[row, column] - s.eye_y) / dy
-            x, y, z = s.eye_x + way * dx, canvas.height[row, column], way * dz
+            dx, dy, dz = _ray_direction(s, column + 0.5, row + 0.5)
+            t = (canvas.height[row, column] - s.eye_y) / dy
+            x, y, z = s.eye_x + t * dx, canvas.height[row, column], t * dz
             near = False
             cell = cell_at(s, x, z)
             for place in range(scene.lit[cell], scene.lit[cell + 1]):
                 near = near or scene.lit[place] == index
             if not near:
                 continue
-            f = surface_of(scene, part, x, y, z, way / s.focal)
+            f = surface_of(scene, part, x, y, z, t / s.focal)
             if part == index:
                 glow = f.light
-                if scene.looks[index].form == Form.CYLINDER:
-                    glow = plus(glow, f.paint, 0.25)
+                if scene.solids[index].form == Form.CYLINDER:
+                    glow = add_scaled(glow, f.paint, 0.25)
             else:
                 glow = part_glow(scene, index, part, f, x, y, z)
             for channel in range(3):
                 light = canvas.light[row, column, channel]
-                more = film(light + FLASH * s.exposure * glow[channel]) - film(light)
+                more = tone_map(light + FLASH * s.exposure * glow[channel]) - tone_map(light)
                 patch[i, j, channel] = int(255.0 * min(max(more, 0.0), 1.0))

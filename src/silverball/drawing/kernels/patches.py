@@ -76,7 +76,7 @@ def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[
         for column in range(left, right):
             u, v = (column + 0.5 - across) / size, (row + 0.5 - down) / size
             fade = 1.0 - u * u - v * v
-            # A thing that is higher than the spot stands in front of it: the camera looks down.
+            # A thing that is higher than the spot stands in front of it: the camera solids down.
             if fade > 0.0 and height[row, column] <= y + 0.3:
                 fade *= fade
                 for channel in range(3):
@@ -86,7 +86,7 @@ def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[
 
 
 @inlined
-def way_to(s: Any, column: int, row: int) -> tuple[float, float, float, float]:
+def pixel_ray(s: Any, column: int, row: int) -> tuple[float, float, float, float]:
     """The unit vector from the eye through the middle of a pixel, and how long it was before."""
     u, v = (column + 0.5 - s.across) / s.focal, (s.down - row - 0.5) / s.focal
     dx, dy, dz = s.sine + v * s.cosine, v * s.sine - s.cosine, u

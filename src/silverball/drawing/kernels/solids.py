@@ -28,7 +28,7 @@ RING = 0.075  # [u] radius of the steel ring at the top of a cylinder's body, fo
 
 
 @inlined
-def raised(a: float, y: float, height: float, bevel: float) -> float:
+def extruded_distance(a: float, y: float, height: float, bevel: float) -> float:
     """Distance from a footprint at distance a, raised to a height with a rounded edge."""
     across = a + bevel
     up = y - height + bevel
@@ -38,53 +38,55 @@ def raised(a: float, y: float, height: float, bevel: float) -> float:
 
 
 @internal
-def footprint(look: Any, c: Any, x: float, z: float) -> float:
+def footprint_distance(solid: Any, c: Any, x: float, z: float) -> float:
     """Distance in the plane from a part: what a ball's surface would have to go to touch it."""
-    if look.form == Form.PADDLE:  # in its own frame (see physics/paddle.py)
+    if solid.form == Form.PADDLE:  # in its own frame (see physics/paddle.py)
         rx = x - c.x
-        rz = look.side * (z - c.z)
-        gap, _, _ = triangle_distance(c, rx * look.cosine - rz * look.sine, rx * look.sine + rz * look.cosine)
+        rz = solid.side * (z - c.z)
+        gap, _, _ = triangle_distance(
+            c, rx * solid.cosine - rz * solid.sine, rx * solid.sine + rz * solid.cosine
+        )
         return gap
     gap, _, _ = shape_distance(c, x, z)
     return gap
 
 
 @internal
-def part_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
+def part_distance(solid: Any, c: Any, x: float, y: float, z: float) -> float:
     """Distance of a point of space from a part."""
-    a = footprint(look, c, x, z)
-    d = raised(a, y, look.height, look.bevel)
-    if look.form == Form.CYLINDER:
-        d = min(d, _crown_distance(look, c, a, y))
-    elif look.form == Form.PADDLE:  # the bolt it turns on
-        d = min(d, _bolt_distance(look, c, x, y, z))
+    a = footprint_distance(solid, c, x, z)
+    d = extruded_distance(a, y, solid.height, solid.bevel)
+    if solid.form == Form.CYLINDER:
+        d = min(d, _cap_distance(solid, c, a, y))
+    elif solid.form == Form.PADDLE:  # the bolt it turns on
+        d = min(d, _bolt_distance(solid, c, x, y, z))
     return d
 
 
 @inlined
-def _crown_distance(look: Any, c: Any, a: float, y: float) -> float:
+def _cap_distance(solid: Any, c: Any, a: float, y: float) -> float:
     """A cylinder's cap, a slice of a sphere, and the steel ring that it lies in."""
-    unit = look.height / 0.38
+    unit = solid.height / 0.38
     rho = a + c.radius
     ring_across = rho - (c.radius - RING * unit)
-    ring_up = y - look.height
+    ring_up = y - solid.height
     ring = sqrt(ring_across * ring_across + ring_up * ring_up) - RING * unit
     wide = CAP_SHARE * c.radius
     rise = min(CAP_RISE * wide, 0.45 * unit)
     sphere = (wide * wide + rise * rise) / (2.0 * rise)
-    up = y - (look.height + rise - sphere)
-    cap = max(sqrt(rho * rho + up * up) - sphere, look.height - y)
+    up = y - (solid.height + rise - sphere)
+    cap = max(sqrt(rho * rho + up * up) - sphere, solid.height - y)
     crown: float = min(ring, cap)
     return crown
 
 
 @inlined
-def _bolt_distance(look: Any, c: Any, x: float, y: float, z: float) -> float:
+def _bolt_distance(solid: Any, c: Any, x: float, y: float, z: float) -> float:
     """A flat dome over the pivot of a paddle."""
-    size = min(0.36 * (c.x2 - c.x0), 0.3 * look.height / 0.33)
-    rx = x - c.x - 0.42 * size * look.sine
-    rz = z - c.z - 0.42 * size * look.cosine * look.side
-    up = 2.0 * (y - look.height)
+    size = min(0.36 * (c.x2 - c.x0), 0.3 * solid.height / 0.33)
+    rx = x - c.x - 0.42 * size * solid.sine
+    rz = z - c.z - 0.42 * size * solid.cosine * solid.side
+    up = 2.0 * (y - solid.height)
     bolt: float = 0.5 * (sqrt(rx * rx + rz * rz + up * up) - size)
     return bolt
 
@@ -106,7 +108,7 @@ def rail_footprint(s: Any, x: float, z: float) -> float:
 @inlined
 def rail_distance(s: Any, x: float, y: float, z: float) -> float:
     """Distance from the frame around the board."""
-    return raised(rail_footprint(s, x, z), y, s.rail_height, 0.18 * s.rail)
+    return extruded_distance(rail_footprint(s, x, z), y, s.rail_height, 0.18 * s.rail)
 
 
 @inlined
@@ -119,20 +121,20 @@ def apron_distance(s: Any, x: float, y: float, z: float) -> float:
 
 
 def list_cells(
-    stage: NDArray[Any], looks: NDArray[Any], shapes: NDArray[Any], distance: float
+    stage: NDArray[Any], solids: NDArray[Any], shapes: NDArray[Any], distance: float
 ) -> NDArray[np.int32]:
     """The lists of all cells, of the parts within a distance [u] of any point of the cell."""
     cells = int(stage[0]["rows"] * stage[0]["columns"])
     lists = np.zeros(cells + 1 + 8 * cells, np.int32)
-    need = fill_cells(stage, looks, shapes, distance, lists)
+    need = fill_cells(stage, solids, shapes, distance, lists)
     if need > len(lists):
         lists = np.zeros(need, np.int32)
-        fill_cells(stage, looks, shapes, distance, lists)
+        fill_cells(stage, solids, shapes, distance, lists)
     return lists[:need]
 
 
 @kernel
-def fill_cells(stage: Any, looks: Any, shapes: Any, distance: float, lists: Any) -> Any:
+def fill_cells(stage: Any, solids: Any, shapes: Any, distance: float, lists: Any) -> Any:
     """Write the lists as far as there is room; returns how many numbers they take."""
     s = stage[0]
     cells = s.rows * s.columns
@@ -143,8 +145,11 @@ def fill_cells(stage: Any, looks: Any, shapes: Any, distance: float, lists: Any)
         x = s.low_x + (cell // s.columns + 0.5) * side
         z = s.low_z + (cell % s.columns + 0.5) * side
         lists[cell] = end
-        for index in range(len(looks)):
-            if looks[index].form != Form.ABSENT and footprint(looks[index], shapes[index], x, z) < reach:
+        for index in range(len(solids)):
+            if (
+                solids[index].form != Form.ABSENT
+                and footprint_distance(solids[index], shapes[index], x, z) < reach
+            ):
                 if end < len(lists):
                     lists[end] = index
                 end += 1

@@ -22,7 +22,7 @@ FLOOR, RAIL, APRON, ROOM = -1, -2, -3, -4
 """Numbers of what a ray can meet apart from the table's parts, which are numbered from 0."""
 
 CELL = 0.5  # [u] side of a cell at least
-MOST_CELLS = 128  # along the longer side
+MAX_CELLS = 128  # along the longer side
 NEAR = 1.0  # [u] a cell lists all parts within this distance of any of its points, for marching
 HALO = 2.4  # [u] no part lights up anything farther away than this, for shading
 LIGHT = (
@@ -82,7 +82,7 @@ class Frame(IntEnum):
     WOOD = 1
 
 
-LOOK = np.dtype(
+SOLID = np.dtype(
     [
         ("form", "i8"),
         ("height", "f8"), ("bevel", "f8"),  # [u] of the top, and of its rounded edge
@@ -116,7 +116,7 @@ class Scene(NamedTuple):
 
     Attributes:
         stage: One STAGE record.
-        looks: LOOK records, shape [part].
+        solids: SOLID records, shape [part].
         shapes: COLLIDER records, shape [part].
         inks: Linear colours, float64 [Ink, 3].
         near: Which parts to march in each cell: where its list begins, then the lists, int32.
@@ -125,7 +125,7 @@ class Scene(NamedTuple):
     """
 
     stage: NDArray[Any]
-    looks: NDArray[Any]
+    solids: NDArray[Any]
     shapes: NDArray[Any]
     inks: NDArray[np.float64]
     near: NDArray[np.int32]
