@@ -1,9 +1,9 @@
-"""How does a picture get better while a game is played? A thread bakes, another process compiles.
+"""Baking in the background while a game is played: a thread bakes, and another process compiles.
 
-    compiled code there? (else: a process of low priority makes it)
-    →  still table  →  paddles  →  the empty table
+    compile, if the machine code is not cached  →  the table  →  its paddles  →  the empty table
 
-Compiling holds Python's lock, so it never happens in the game's own process. If it fails, the sketch stays.
+Compiling holds Python's lock, so it runs in a process of its own, at low priority. If it fails, the sketch
+remains.
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
 LAST_KERNEL = "draw_ball"  # the last one that a frame calls: once it is compiled, all are
-COMPILE_SECONDS = 1800.0  # after which compiling is given up; 35 s of a processor, if it gets one
+COMPILE_SECONDS = 1800.0  # after which compiling is given up; it takes 12 to 35 s of processor time
 
 
 class Background:
-    """Makes a painter in the background.
+    """Bakes a table in the background.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        cache: Where pictures are kept.
-        is_random: Whether other boards of the same recipe will follow, which share the empty table.
+        theme: Its colours.
+        cache: Where baked pictures are kept.
+        is_random: Whether other boards of the same recipe may follow, which share the empty table.
 
     Attributes:
-        painter: Draws the table at its best; None until it is ready.
-        error: What went wrong, if anything did.
+        painter: Draws the table in full quality; None until it is baked.
+        error: The error that ended the baking, if any.
     """
 
     def __init__(
@@ -55,15 +55,15 @@ class Background:
 
     @property
     def is_done(self) -> bool:
-        """Whether everything is baked, or given up."""
+        """Whether the work has ended, finished or not."""
         return not self._thread.is_alive()
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until everything is baked."""
+        """Wait until everything is baked, or for some seconds."""
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Stop; what is not finished is dropped. Compiling goes on, for the next picture needs it too."""
+        """Cancel what is not finished. Compiling goes on, because the next picture needs it too."""
         self._stop.set()
 
     def _work(self) -> None:
@@ -87,7 +87,7 @@ class Background:
                 provider.bake_empty()
         except BakeCancelled:
             provider.save_paddles()
-        except Exception as error:  # the game goes on with the picture that there is
+        except Exception as error:  # the game goes on with the picture it has
             self.error = error
 
     def _compile(self) -> bool:

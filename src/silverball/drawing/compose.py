@@ -1,9 +1,9 @@
-"""How does a moment of play become a picture? The still table, and on it everything that moves.
+"""Composing of a frame: the baked table, and on it everything that moves.
 
-    lights of hits → paddles → shadows of balls → trails → balls → sparks
+    flashes of hits → paddles → shadows of balls → trails → balls → sparks
 
 Each layer sees what lies below it, heights included, so a ball is hidden by a raised paddle and its shadow
-climbs onto an obstacle. Only the rectangles that the last frame changed are put back before the next one.
+climbs onto an obstacle. Between two frames only the dirty rectangles of the first are restored.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from silverball.drawing.sketch import Pen, sketch_paddle
 from silverball.drawing.themes import Color, Theme
 from silverball.table import Paddle, Table
 
-MAX_SPOTS = 64  # of one trail or one hit
+MAX_SPOTS = 64  # of one trail, or of the sparks of one hit
 TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
 
 
 class Composer:
-    """Puts moments of one table together.
+    """Draws moments of one table in full quality.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its solid.
-        still: The table when nothing moves.
-        paddle: Gives the sprite of a side's paddle at an angle [deg]; None while it is not baked.
+        theme: Its colours.
+        still: The baked table without moving parts.
+        paddle: Returns the sprite of a side's paddle at an angle [deg], or None while it is not baked.
     """
 
     def __init__(
@@ -61,8 +61,8 @@ class Composer:
         self._frame = np.frombuffer(self._bytes, np.uint8).reshape(height, width, 3)
         self._rows = self._frame.reshape(height, 3 * width)
         self._height = still.height.copy()
-        self._changed: list[Box] = []  # where colours differ from the still table's,
-        self._raised: list[Box] = []  # and where heights do: paddles alone change them
+        self._changed: list[Box] = []  # dirty rectangles of colours,
+        self._raised: list[Box] = []  # and of heights, which only paddles change
         self._spots = np.zeros((MAX_SPOTS, 7))
         self._before = np.zeros((1, 1, 3), np.uint8)
         self.surface = pygame.image.frombuffer(self._bytes, camera.size, "RGB")
@@ -115,7 +115,7 @@ class Composer:
             sketch_paddle(Pen(self.surface, self._camera), paddle, angle, self._theme)
             return
         lay_paddle(self._frame, self._height, *sprite)
-        rows, columns = sprite.stays.shape
+        rows, columns = sprite.remaining.shape
         box = (sprite.left, sprite.top, sprite.left + columns, sprite.top + rows)
         self._changed.append(box)
         self._raised.append(box)
@@ -148,6 +148,6 @@ class Composer:
 
 
 def _within(box: Box) -> tuple[slice, slice]:
-    """The index of a rectangle; what hangs over the frame's left and upper edge is left out."""
+    """Return the slices of a box, without what lies beyond the frame's left and upper edge."""
     left, top, right, bottom = box
     return slice(max(top, 0), max(bottom, 0)), slice(max(left, 0), max(right, 0))

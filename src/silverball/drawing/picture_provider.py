@@ -1,7 +1,6 @@
-"""Who sees to it that a picture is there? The cache is asked first, else it is baked and stored.
+"""Baked pictures of one table at one size, loaded from the cache or baked and saved.
 
-This is the first module of the drawing that needs compiled code, so it is imported only when something is
-baked or composed.
+This module needs compiled code, so it is imported only when something is baked or composed.
 """
 
 from __future__ import annotations
@@ -38,14 +37,14 @@ if TYPE_CHECKING:
 
 
 class PictureProvider:
-    """Makes the pictures of one table at one size.
+    """Provides the baked pictures of one table at one size.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
+        theme: Its colours.
         cache: Where pictures are kept.
-        bake_threads: Who bakes.
+        bake_threads: The threads that bake.
     """
 
     def __init__(
@@ -64,7 +63,7 @@ class PictureProvider:
         self._baker: PaddleBaker | None = None
 
     def table(self) -> BakedTable:
-        """The table when nothing moves."""
+        """Return the table without moving parts; bake it if it is not cached."""
         key = table_key(self._table, self._camera, self._theme)
         still = load_baked_table(self._cache, key)
         if still is None:
@@ -74,7 +73,7 @@ class PictureProvider:
         return still
 
     def bake_empty(self) -> None:
-        """Bake the empty table for the boards to come, if that is still to be done."""
+        """Bake the empty table, for later boards of the same recipe, if it is not cached."""
         key = empty_table_key(self._table, self._camera, self._theme)
         if load_baked_table(self._cache, key) is None:
             bare = without_obstacles(self._table)
@@ -83,18 +82,18 @@ class PictureProvider:
             )
 
     def paddle(self, side: str, angle: float) -> PaddleSprite | None:
-        """The sprite of a paddle at an angle [deg] if it has been baked."""
+        """Return the sprite of a paddle at an angle [deg]; None if it is not baked yet."""
         return self._sprites.get((side, nearest_step(self._paddles[side], angle)))
 
     def baked_paddle(self, side: str, angle: float) -> PaddleSprite:
-        """The sprite of a paddle at an angle [deg]; it is baked if need be."""
+        """Return the sprite of a paddle at an angle [deg]; bake it if necessary."""
         step = nearest_step(self._paddles[side], angle)
         if (side, step) not in self._sprites:
             self._bake_paddle(side, step)
         return self._sprites[side, step]
 
     def bake_paddles(self, progress: Callable[[float], None] = lambda share: None) -> None:
-        """Bake all that is missing of the paddles, the stops first, and cache them."""
+        """Bake the missing sprites of the paddles, the stops first, and save them."""
         wanted = [
             (side, step)
             for side, paddle in self._paddles.items()
@@ -108,7 +107,7 @@ class PictureProvider:
         self.save_paddles()
 
     def save_paddles(self) -> None:
-        """PictureCache what has been baked of the paddles."""
+        """Save the sprites baked so far."""
         if len(self._sprites) > self._stored:
             save_paddles(self._cache, self._key, self._sprites)
             self._stored = len(self._sprites)

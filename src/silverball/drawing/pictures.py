@@ -1,6 +1,6 @@
-"""What is a baked picture: the arrays it consists of, and how they lie in the cache?
+"""Baked pictures: the arrays they consist of, and how these are stored in the cache.
 
-Nothing here needs compiled code, so a picture that was seen before is on screen before any is loaded.
+Nothing here needs compiled code, so a cached picture is on screen before any code is loaded.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from silverball.table import Table
 
 
 class HitFlash(NamedTuple):
-    """What a hit of a part adds to the picture at its brightest.
+    """The light that a hit of a part adds to the picture, at its brightest.
 
     Attributes:
         left: First column.
@@ -31,12 +31,12 @@ class HitFlash(NamedTuple):
 
 
 class BakedTable(NamedTuple):
-    """A table that stands still.
+    """A table without moving parts.
 
     Attributes:
         pixels: RGB, uint8 [row, column, 3].
         height: Of the visible surface above the playfield [u], float32 [row, column].
-        flashes: For prisms and cylinders, by their path in the table.
+        flashes: Of prisms and cylinders, by their path in the table.
     """
 
     pixels: NDArray[np.uint8]
@@ -50,50 +50,50 @@ class PaddleSprite(NamedTuple):
     Attributes:
         left: First column.
         top: First row.
-        stays: How much of what is below stays, uint8 [row, column].
+        remaining: Share of the background that remains, 0 to 255, uint8 [row, column].
         added: RGB to add, uint8 [row, column, 3].
         height: Of the paddle above the playfield [u], float32; −1 where there is none.
     """
 
     left: int
     top: int
-    stays: NDArray[np.uint8]
+    remaining: NDArray[np.uint8]
     added: NDArray[np.uint8]
     height: NDArray[np.float32]
 
     def mirrored(self, width: int) -> PaddleSprite:
-        """The same on the other side of a picture of a width [pixel]."""
+        """Return the mirror image on the other side of a picture of a width [pixel]."""
         return PaddleSprite(
-            width - self.left - self.stays.shape[1],
+            width - self.left - self.remaining.shape[1],
             self.top,
-            np.ascontiguousarray(self.stays[:, ::-1]),
+            np.ascontiguousarray(self.remaining[:, ::-1]),
             np.ascontiguousarray(self.added[:, ::-1]),
             np.ascontiguousarray(self.height[:, ::-1]),
         )
 
 
 Sprites: TypeAlias = dict[tuple[str, int], PaddleSprite]
-"""Paddles by side and step of their swing."""
+"""Sprites by side and step of the swing."""
 
 
 def table_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """The name of the picture of a table that stands still."""
+    """Return the key of a table without moving parts."""
     parts = table.model_dump(include={"name", "board", "slant_wall", "triangular_prism", "cylinder"})
     return key_of("still", parts, camera.size, theme)
 
 
 def empty_table_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """The name of the picture of the table without its obstacles."""
+    """Return the key of the table without prisms and cylinders."""
     return table_key(table.model_copy(update={"triangular_prism": (), "cylinder": ()}), camera, theme)
 
 
 def paddle_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """The name of the pictures of a table's paddles; obstacles play no part in them."""
+    """Return the key of a table's paddles, which do not depend on prisms and cylinders."""
     return key_of("paddles", table.model_dump(include={"board", "slant_wall", "paddle"}), camera.size, theme)
 
 
 def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
-    """A still picture from the cache, if it is there and whole."""
+    """Load a baked table; None if it is not cached."""
     arrays = cache.load(key)
     if arrays is None or not {"pixels", "height"} <= arrays.keys():
         return None
@@ -108,7 +108,7 @@ def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
 
 
 def save_baked_table(cache: PictureCache, key: str, still: BakedTable) -> None:
-    """Keep a still picture."""
+    """Save a baked table."""
     arrays: dict[str, NDArray[Any]] = {"pixels": still.pixels, "height": still.height.astype(np.float16)}
     for name, flash in still.flashes.items():
         arrays["flash " + name] = flash.pixels
@@ -117,25 +117,25 @@ def save_baked_table(cache: PictureCache, key: str, still: BakedTable) -> None:
 
 
 def load_paddles(cache: PictureCache, key: str) -> Sprites:
-    """The sprites of paddles from the cache, by side and step; none if they are not there."""
+    """Load the sprites of paddles; an empty dict if they are not cached."""
     arrays = cache.load(key) or {}
     sprites: Sprites = {}
     for name, at in arrays.items():
         if name.startswith("at "):
             _, side, step = name.split()
             sprites[side, int(step)] = PaddleSprite(
-                int(at[0]), int(at[1]), arrays[f"stays {side} {step}"], arrays[f"added {side} {step}"],
+                int(at[0]), int(at[1]), arrays[f"remaining {side} {step}"], arrays[f"added {side} {step}"],
                 arrays[f"height {side} {step}"].astype(np.float32),
             )  # fmt: skip
     return sprites
 
 
 def save_paddles(cache: PictureCache, key: str, sprites: Sprites) -> None:
-    """Keep sprites of paddles."""
+    """Save the sprites of paddles."""
     arrays: dict[str, NDArray[Any]] = {}
     for (side, step), sprite in sprites.items():
         arrays[f"at {side} {step}"] = np.array((sprite.left, sprite.top))
-        arrays[f"stays {side} {step}"] = sprite.stays
+        arrays[f"remaining {side} {step}"] = sprite.remaining
         arrays[f"added {side} {step}"] = sprite.added
         arrays[f"height {side} {step}"] = sprite.height.astype(np.float16)
     cache.save(key, arrays)

@@ -108,7 +108,7 @@ class Renderer:
             from silverball.drawing.background import Background
             from silverball.drawing.text import lettering
 
-            lettering(table.name, self.camera.dimensions)  # here, for fonts are not made for threads
+            lettering(table.name, self.camera.dimensions)  # cached here, because fonts are not thread-safe
             key = table_key(table, self.camera, self.theme)
             known = load_baked_table(self._cache, key)
             self._painter = SketchPainter(
@@ -120,26 +120,31 @@ class Renderer:
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn at its best."""
+        """Whether the table is drawn in full quality; a sketch is not."""
         self._adopt_background()
         return not isinstance(self._painter, SketchPainter)
 
     def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Tell what happened since the last picture, so that it can be seen in the next ones."""
+        """Add events whose flashes and sparks the next pictures show.
+
+        Args:
+            events: What happened since the last picture, such as `World.events`.
+            tick_rate: Ticks per second of the world.
+        """
         self.effects.add_events(events, tick_rate)
 
     def draw(self, moment: Moment, target: pygame.Surface, dots: Dots | None = None) -> None:
         """Draw a moment onto a surface of the renderer's size.
 
         Args:
-            moment: What there is to see.
+            moment: The state of play.
             target: Any surface; one of 24 bits whose bytes are RGB is fastest.
-            dots: What the score panel shows, a `Dots`; the moment's score if not given.
+            dots: What the score panel shows; by default the moment's score.
         """
         target.blit(self._compose(moment, dots), (0, 0))
 
     def surface(self, moment: Moment, dots: Dots | None = None) -> pygame.Surface:
-        """A moment as a new surface of 24 bits, whose bytes are RGB."""
+        """Draw a moment onto a new surface of 24 bits, whose bytes are RGB."""
         target = rgb_surface(self.camera.size)
         self.draw(moment, target, dots)
         return target
@@ -147,24 +152,24 @@ class Renderer:
     def render(self, world: World) -> NDArray[np.uint8]:
         """Draw a world as it is now: RGB, uint8 `[height, width, 3]`.
 
-        Call `note` with the world's events first if the picture is to show their flashes and sparks. Balls
-        leave trails from one call to the next.
+        Flashes and sparks are shown of events that were passed to `add_events`; balls leave trails from one
+        call to the next.
         """
         return self.array(Moment.of(world)).copy()
 
     def array(self, moment: Moment, dots: Dots | None = None) -> NDArray[np.uint8]:
-        """A moment as RGB, uint8, shape [row, column, 3]."""
+        """Draw a moment: RGB, uint8 `[height, width, 3]`, read-only."""
         width, height = self.camera.size
         pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until all that is baked in the background is there, the paddles at every angle too."""
+        """Wait until the background has baked everything, paddles included, or for some seconds."""
         if self._background is not None:
             self._background.wait(seconds)
 
     def close(self) -> None:
-        """End the work in the background; keep what was baked."""
+        """Stop the work in the background, and save what was baked."""
         if self._background is not None:
             self._background.close()
         if self._provider is not None:
@@ -177,7 +182,7 @@ class Renderer:
         return surface
 
     def _adopt_background(self) -> None:
-        """Use what the background has made ready."""
+        """Use the better picture once the background has baked it."""
         if self._background is not None and self._background.painter is not None:
             self._painter = self._background.painter
 

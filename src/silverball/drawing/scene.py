@@ -1,8 +1,8 @@
-"""What does the marcher see of a table? Its parts as arrays: the physics' own shapes, and how they solid.
+"""A table as arrays for ray marching: the physics' own shapes, and what is built on each.
 
-A scene holds the very records that balls collide with (`COLLIDER` of physics/records.py), in the same order
-and with the same numbers, beside each one its `SOLID`: what it is built as, how tall, which colour. Colours
-are linear light here, not the screen's values.
+A scene holds the records that balls collide with (`COLLIDER` of physics/records.py), in the same order and
+with the same numbers, and for each one its `SOLID`: form, height and colour. Colours are linear light here,
+not the screen's values.
 """
 
 from __future__ import annotations
@@ -17,26 +17,38 @@ from numpy.typing import NDArray
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import Dimensions, corner_behind
 from silverball.drawing.kernels.solids import list_cells
-from silverball.drawing.kernels.stage import CELL, HALO, LIGHT, MAX_CELLS, NEAR, SOLID, STAGE, Form, Scene
+from silverball.drawing.kernels.stage import (
+    CELL,
+    HALO,
+    LIGHT,
+    MAX_CELLS,
+    NEAR,
+    SOLID,
+    STAGE,
+    Form,
+    Scene,
+    ShapeRecord,
+    SolidRecord,
+)
 from silverball.drawing.text import lettering
 from silverball.drawing.themes import Color, Theme, cycled_color
 from silverball.physics.records import COLLIDER, Kind, Part, records
 from silverball.table import Table
-from silverball.world.compile import compile_tables
+from silverball.world.compile import compile_parts
 
 
 def make_scene(
     table: Table, camera: Camera, theme: Theme, angles: tuple[float | None, float | None] = (None, None)
 ) -> Scene:
-    """The scene of a table without paddles, or with those whose angle [deg] is given."""
+    """Return the scene of a table, with the paddles whose angle [deg] is given."""
     dimensions = camera.dimensions
-    boards = compile_tables([table])
+    parts = compile_parts(table)
     corners = [c for wall in table.slant_wall if (c := corner_behind(table.board, wall)) is not None]
-    shapes = records(len(boards.collider) + len(corners), COLLIDER)
-    shapes[: len(boards.collider)] = boards.collider
+    shapes = records(len(parts) + len(corners), COLLIDER)
+    shapes[: len(parts)] = parts
     solids = records(len(shapes), SOLID)
     _set_solids(solids, shapes, table, dimensions, theme)
-    _set_corners(solids, shapes, corners, len(boards.collider), dimensions, theme)
+    _set_corners(solids, shapes, corners, len(parts), dimensions, theme)
     for number, angle in zip((Part.LEFT_PADDLE, Part.RIGHT_PADDLE), angles, strict=True):
         _set_paddle(solids[number], shapes[number], angle, dimensions, theme)
     stage = _stage(camera, theme)
@@ -91,7 +103,9 @@ def _set_corners(
         _set_color(solids[number], theme.apron)
 
 
-def _set_paddle(solid: Any, shape: Any, angle: float | None, dimensions: Dimensions, theme: Theme) -> None:
+def _set_paddle(
+    solid: SolidRecord, shape: ShapeRecord, angle: float | None, dimensions: Dimensions, theme: Theme
+) -> None:
     if angle is None or shape["kind"] != Kind.PADDLE:
         return
     solid["form"], solid["side"] = Form.PADDLE, shape["side"]
@@ -100,8 +114,8 @@ def _set_paddle(solid: Any, shape: Any, angle: float | None, dimensions: Dimensi
     _set_color(solid, theme.paddle)
 
 
-def _set_triangle(shape: Any, corners: Sequence[tuple[float, float]]) -> None:
-    """A triangle as the physics keeps it, for a corner that no ball can reach."""
+def _set_triangle(shape: ShapeRecord, corners: Sequence[tuple[float, float]]) -> None:
+    """Set the fields of a triangle, as the physics does, for a corner that no ball can reach."""
     shape["kind"] = Kind.TRIANGULAR_PRISM
     for number in range(3):
         (x, z), (to_x, to_z) = corners[number], corners[(number + 1) % 3]
@@ -110,7 +124,7 @@ def _set_triangle(shape: Any, corners: Sequence[tuple[float, float]]) -> None:
         shape[f"along_x{number}"], shape[f"along_z{number}"] = (to_x - x) / length, (to_z - z) / length
 
 
-def _set_color(solid: Any, color: Color) -> None:
+def _set_color(solid: SolidRecord, color: Color) -> None:
     solid["red"], solid["green"], solid["blue"] = linear(color)
 
 
@@ -148,6 +162,6 @@ def _inks(theme: Theme) -> NDArray[np.float64]:
 
 
 def linear(color: Color) -> tuple[float, float, float]:
-    """Linear light of a colour of the screen; its gamma is taken as 2.2."""
+    """Convert a colour of the screen to linear light, with a gamma of 2.2."""
     red, green, blue = ((value / 255.0) ** 2.2 for value in color)
     return red, green, blue

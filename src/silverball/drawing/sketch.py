@@ -1,7 +1,6 @@
-"""What is shown before anything is baked? The same table in flat colours, within a tenth of a second.
+"""A sketch of a table in flat colours, drawn within a tenth of a second and shown until the table is baked.
 
-Everything lies where the baked picture will have it: the same camera, the same heights. Only pygame and NumPy
-are needed, no compiled code.
+It uses the same camera and heights as the baked picture, and needs pygame and NumPy only, no compiled code.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from silverball.drawing.themes import Color, Theme, cycled_color
 from silverball.table import Paddle, SlantWall, Table
 
 Point = tuple[float, float]
-ENLARGED = 2  # the picture is drawn so much larger and shrunk, which smooths its edges,
+ENLARGED = 2  # the picture is drawn larger by this factor and shrunk, to smooth its edges,
 MAX_PIXELS = 2_000_000  # unless it is larger than this
 CIRCLE = 28  # corners of a circle
 RAYS, EMBLEM_AT, EMBLEM_SIZE, RING_AT = 22, -0.05, 0.105, 0.27  # as in kernels/art.py and kernels/shade.py
@@ -51,9 +50,9 @@ class Pen:
     """Draws raised shapes onto a surface.
 
     Args:
-        surface: Where to.
-        camera: Through which they are seen.
-        enlarged: How much larger the surface is than the camera's picture.
+        surface: The target.
+        camera: The view of the board.
+        enlarged: Size of the surface by that of the camera's picture.
     """
 
     def __init__(self, surface: pygame.Surface, camera: Camera, enlarged: int = 1) -> None:
@@ -62,7 +61,7 @@ class Pen:
         self.enlarged = enlarged
 
     def face(self, points: Iterable[tuple[float, float, float]], color: Color) -> None:
-        """A flat face with corners (x, z, y)."""
+        """Draw a flat face with corners (x, z, y) [u]."""
         places = []
         for x, z, y in points:
             across, down = self.camera.to_pixel(x, z, y)
@@ -70,7 +69,7 @@ class Pen:
         pygame.draw.polygon(self.surface, color, places)
 
     def block(self, corners: Sequence[Point], height: float, top: Color, low: float = 0.0) -> None:
-        """A footprint, counter-clockwise, raised to a height; sides that are turned away are left out."""
+        """Draw a counter-clockwise footprint extruded to a height, without its hidden sides."""
         for (x0, z0), (x1, z1) in zip(corners, (*corners[1:], corners[0]), strict=True):
             outward = z0 - z1  # x of the outward normal of a counter-clockwise outline
             if outward < 0.0:
@@ -81,12 +80,12 @@ class Pen:
 
 
 def sketch_paddle(pen: Pen, paddle: Paddle, angle: float, theme: Theme) -> None:
-    """A paddle at an angle [deg]."""
+    """Draw a paddle at an angle [deg]."""
     pen.block(paddle.corners(angle), pen.camera.dimensions.paddle_height, theme.paddle)
 
 
 def sketch_ball(pen: Pen, x: float, z: float) -> None:
-    """A ball with its shadow."""
+    """Draw a ball with its shadow."""
     radius = pen.camera.dimensions.ball
     pen.face(circle(x - 0.5 * radius, z, radius, 0.0), (8, 8, 14))
     across, down = pen.camera.to_pixel(x, z, radius)
@@ -98,19 +97,19 @@ def sketch_ball(pen: Pen, x: float, z: float) -> None:
 
 
 def dim(color: Color, share: float) -> Color:
-    """A darker (or, above 1, lighter) colour."""
+    """Return a darker (or, above 1, lighter) colour."""
     red, green, blue = (min(round(share * value), 255) for value in color)
     return red, green, blue
 
 
 def circle(x: float, z: float, radius: float, y: float) -> list[tuple[float, float, float]]:
-    """The corners (x, z, y) of a circle, counter-clockwise."""
+    """Return the corners (x, z, y) of a circle, counter-clockwise."""
     turns = [2.0 * math.pi * number / CIRCLE for number in range(CIRCLE)]
     return [(x + radius * math.sin(turn), z + radius * math.cos(turn), y) for turn in turns]
 
 
 def _floor(pen: Pen, table: Table, theme: Theme) -> None:
-    """Ground and rays, worked out for every second pixel of the picture."""
+    """Draw the floor with its rays, computed for every second pixel."""
     camera, dimensions = pen.camera, pen.camera.dimensions
     width, height = max(camera.size[0] // 2, 1), max(camera.size[1] // 2, 1)
     f = camera.frustum
@@ -135,7 +134,7 @@ def _floor(pen: Pen, table: Table, theme: Theme) -> None:
 
 
 def _emblem(pen: Pen, table: Table, theme: Theme) -> None:
-    """The star where the rays meet, in its ring."""
+    """Draw the star where the rays meet, in its ring."""
     dimensions = pen.camera.dimensions
     size, x = (
         EMBLEM_SIZE * min(2.0 * dimensions.half_width, dimensions.half_length),
@@ -151,7 +150,7 @@ def _emblem(pen: Pen, table: Table, theme: Theme) -> None:
 
 
 def _rails(pen: Pen, theme: Theme) -> None:
-    """The frame, from the far end to the near one."""
+    """Draw the frame, from the far end to the near one."""
     dimensions = pen.camera.dimensions
     long, wide, high = (
         dimensions.half_length + dimensions.rail,
@@ -188,7 +187,7 @@ def _apron(pen: Pen, theme: Theme) -> None:
 
 
 def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callable[[], None]]]:
-    """How far up each part is, and how it is drawn."""
+    """Yield for each part its x [u] and a function that draws it."""
     dimensions = pen.camera.dimensions
     for wall in table.slant_wall:
         corner = corner_behind(table.board, wall)
@@ -219,7 +218,7 @@ def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Th
 
 
 def _bar(wall: SlantWall) -> list[Point]:
-    """The outline of a slant wall with its round ends, counter-clockwise."""
+    """Return the outline of a slant wall with its round ends, counter-clockwise."""
     (x0, z0), (x1, z1) = wall.start, wall.end
     direction = math.atan2(x1 - x0, z1 - z0)
     thick = max(wall.thickness, 0.02)
@@ -232,13 +231,13 @@ def _bar(wall: SlantWall) -> list[Point]:
 
 
 class SketchPainter:
-    """Draws moments without compiled code.
+    """Draws moments in sketch quality, without compiled code.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        pixels: The still table if it is at hand, RGB [row, column, 3]; else it is sketched.
+        theme: Its colours.
+        pixels: The baked table if it is cached, RGB [row, column, 3]; else a sketch is drawn.
     """
 
     def __init__(
@@ -256,7 +255,7 @@ class SketchPainter:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
         self._surface.blit(self._baked, (0, 0))
         for _ in effects.trails(moment):
-            pass  # so that they are there when the better picture comes
+            pass  # recorded for the better picture that follows
         balls = [*moment.balls, *effects.sinking_balls(moment.time)]
         angles = dict(zip(("left", "right"), moment.angles, strict=True))
         for ball in balls:
@@ -272,14 +271,14 @@ def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
 
 
 def ball_icon(side: int) -> pygame.Surface:
-    """A ball in a square of a side [pixel], with nothing around it."""
+    """Return the program's icon, a polished ball on a transparent square of a side [pixel]."""
     middle, radius = 0.5 * side, 0.46 * side
     offset = (np.arange(side) + 0.5 - middle) / radius
     right, down = offset[:, None], offset[None, :]  # surfarray: columns first
     square = right**2 + down**2
     out = np.sqrt(np.clip(1.0 - square, 0.0, 1.0))
     up = -down
-    # What the mirrored view meets: sky above, a dark horizon, a bright floor; and the lamp.
+    # The ball mirrors the sky above, a dark horizon, a bright floor, and the lamp.
     look = 2.0 * out * up
     gray = np.where(
         look > 0.05, 0.55 + 0.45 * np.clip(look, 0.0, 1.0), 0.18 + 0.32 * np.clip(-look, 0.0, 1.0)

@@ -1,15 +1,15 @@
-"""What is painted onto the playfield? For a place of it: the paint, and the light that shines through it.
+"""The procedural art of the playfield: its paint at a point, and the light that shines through it.
 
-Everything is worked out from (x, z) and the size of a pixel there, so that edges are smooth at any size.
-Paint knows the board and the theme, never the obstacles: random boards share one playfield.
+Everything is computed from (x, z) and the size of a pixel there, so edges are smooth at any resolution. The
+art depends on the board and the theme but not on the obstacles: all boards of a recipe share one playfield.
 """
 
 from __future__ import annotations
 
 from math import atan2, cos, exp, pi, sin, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from silverball.drawing.kernels.stage import Art, Ink
+from silverball.drawing.kernels.stage import Art, Ink, Inks, StageRecord
 from silverball.drawing.kernels.tones import (
     RGB,
     add_scaled,
@@ -39,8 +39,8 @@ class Planet(NamedTuple):
 
 
 @internal
-def playfield_paint(s: Any, inks: Any, x: float, z: float, pixel: float) -> tuple[RGB, RGB]:
-    """The paint of the playfield at (x, z), and the light that comes through it."""
+def playfield_paint(s: StageRecord, inks: Inks, x: float, z: float, pixel: float) -> tuple[RGB, RGB]:
+    """Return the paint of the playfield at (x, z), and the light that shines through it."""
     size = EMBLEM_SIZE * min(2.0 * s.half_width, s.half_length)
     from_x, from_z = x - EMBLEM_AT * 2.0 * s.half_length, z
     rho = sqrt(from_x * from_x + from_z * from_z)
@@ -57,8 +57,8 @@ def playfield_paint(s: Any, inks: Any, x: float, z: float, pixel: float) -> tupl
 
 
 @inlined
-def _ground(s: Any, inks: Any, x: float, z: float, rho: float, angle: float, pixel: float) -> RGB:
-    """The floor's own colour with its rays."""
+def _ground(s: StageRecord, inks: Inks, x: float, z: float, rho: float, angle: float, pixel: float) -> RGB:
+    """The colour of the floor with its rays."""
     along = x / s.half_length
     if along < 0.0:
         paint = mix(ink(inks, Ink.FLOOR_MIDDLE), ink(inks, Ink.FLOOR_LOW), min(-along, 1.0))
@@ -82,7 +82,7 @@ def _ground(s: Any, inks: Any, x: float, z: float, rho: float, angle: float, pix
 
 
 @internal
-def _starry_sky(s: Any, inks: Any, x: float, z: float, pixel: float, paint: RGB) -> tuple[RGB, RGB]:
+def _starry_sky(s: StageRecord, inks: Inks, x: float, z: float, pixel: float, paint: RGB) -> tuple[RGB, RGB]:
     """Clouds of light, two planets and the stars."""
     w = s.half_width
     cloud = value_noise(2.6 * x / w, 2.6 * z / w) + 0.5 * value_noise(5.9 * x / w, 5.9 * z / w + 7.0)
@@ -111,9 +111,9 @@ def _starry_sky(s: Any, inks: Any, x: float, z: float, pixel: float, paint: RGB)
 
 @internal
 def _planet(
-    inks: Any, planet: Planet, x: float, z: float, pixel: float, paint: RGB, light: RGB
+    inks: Inks, planet: Planet, x: float, z: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
-    """A painted ball with bands, lit from above, and perhaps a ring around it."""
+    """A sphere with bands, lit from above, and perhaps a ring around it."""
     size = planet.radius
     u, v = (x - planet.x) / size, (z - planet.z) / size
     off = sqrt(u * u + v * v)
@@ -142,7 +142,7 @@ def _planet(
 
 @inlined
 def _pinstripes(
-    s: Any, inks: Any, x: float, z: float, pixel: float, paint: RGB, light: RGB
+    s: StageRecord, inks: Inks, x: float, z: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
     """Two fine lines that follow the rails, with round corners."""
     inset, turn = 0.075 * s.half_width, 0.16 * s.half_width
@@ -165,9 +165,9 @@ def _pinstripes(
 
 @internal
 def _emblem(
-    s: Any, inks: Any, rho: float, angle: float, size: float, pixel: float, paint: RGB, light: RGB
+    s: StageRecord, inks: Inks, rho: float, angle: float, size: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
-    """A star with facets in two rings, and around it a ring of inserts."""
+    """A faceted star in two rings, and a ring of inserts around it."""
     shine = 0.0 if s.art == Art.PLAIN else (1.0 if s.art == Art.COSMOS else 0.25)
     one, two = ink(inks, Ink.ORNAMENT), ink(inks, Ink.ORNAMENT_2)
     disc = coverage(rho - 1.30 * size, pixel)
@@ -181,7 +181,7 @@ def _emblem(
     paint = mix(paint, two, 0.9 * line)
     light = add_scaled(light, two, shine * (0.5 * line + 0.10 * exp(-abs(rho - 1.14 * size) / (0.10 * size))))
     paint, light = _star(inks, rho, angle, size, pixel, shine, paint, light)
-    # Inserts: twelve round lenses, every third one larger; folded into one by the angle.
+    # Inserts: twelve round lenses, every third one larger; all computed as one by folding the angle.
     step = 2.0 * pi / 12.0
     number = int((angle + pi) / step)
     turned = angle + pi - (number + 0.5) * step
@@ -194,9 +194,9 @@ def _emblem(
 
 @internal
 def _star(
-    inks: Any, rho: float, angle: float, size: float, pixel: float, shine: float, paint: RGB, light: RGB
+    inks: Inks, rho: float, angle: float, size: float, pixel: float, shine: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
-    """A star of five points; each arm has a light and a dark half, as if it were folded."""
+    """A five-pointed star whose arms have a light and a dark half, like folded paper."""
     heart = ink(inks, Ink.HEART)
     step = 2.0 * pi / 5.0
     place = (angle + 2.0 * pi + 0.5 * step) / step
@@ -237,9 +237,9 @@ def _lens(
 
 @internal
 def _arrows(
-    s: Any, inks: Any, from_x: float, z: float, size: float, pixel: float, paint: RGB, light: RGB
+    s: StageRecord, inks: Inks, from_x: float, z: float, size: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
-    """Rows of arrow inserts that point up the table: three between the paddles and the emblem, two above."""
+    """Rows of arrow inserts that point up the table: three between paddles and emblem, two above."""
     shine = 0.0 if s.art == Art.PLAIN else (1.0 if s.art == Art.COSMOS else 0.25)
     for row in range(3):
         if row == 0:

@@ -1,33 +1,34 @@
-"""How is a ball drawn? A sphere of chrome that mirrors the frame as it is, and its shadow below.
+"""The ball, a chrome sphere that mirrors the frame around it, and its shadow.
 
 The ray through a pixel meets the sphere of centre c and radius r where it is nearest to c within r:
 
     b = d·(c − e),   q² = |c − e|² − b²,   the ball is met at b − √(r² − q²)   (e the eye, d the direction)
 
-What the mirrored ray meets on the playfield is taken from the frame, so a ball shows the table, the flashes
-and the other ball; what goes up meets a bright room.
+A mirrored ray that goes down is looked up in the frame, so a ball shows the table, the flashes and the other
+ball; one that goes up meets a bright room.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.drawing.kernels.patches import pixel_ray
-from silverball.drawing.kernels.stage import Box, Ink, Vector
+from silverball.drawing.kernels.stage import Box, Heights, Ink, Inks, Pixels, Records, StageRecord, Vector
 from silverball.drawing.kernels.tones import RGB, add_scaled, clamp01, ink, mix, multiply, scale, smoothstep
 from silverball.physics.kernel import inlined, internal, kernel
 
-SHADOW = 0.72  # how much of the light a ball takes away at most
+SHADOW = 0.72  # share of the light that a ball blocks at most
 CONTACT = 0.85  # the same where it lies on the playfield
-CONTACT_REACH = 2.2  # radii of the ball, to which that is seen
+CONTACT_REACH = 2.2  # how far that is visible, in radii of the ball
 
 
 @kernel
-def cast_shadow(frame: Any, height: Any, stage: Any, ball: tuple[float, float, float], box: Box) -> None:
-    """Darken what a ball keeps the light from: its shadow climbs onto whatever is in a pixel.
+def cast_shadow(
+    frame: Pixels, height: Heights, stage: Records, ball: tuple[float, float, float], box: Box
+) -> None:
+    """Darken what a ball (x, z, radius) [u] shades; its shadow climbs onto raised parts.
 
-    The lamp's ray from a place passes the ball's centre at the distance q after the t t; the edge of the
+    The ray from a point to the lamp passes the ball's centre at distance q after a path t; the edge of the
     shadow is the softer, the farther the ball. Under the ball the light from everywhere is gone too:
     a sphere covers (n·u)·r²/d² of the sky, d its distance and u its direction.
     Source: I. Quilez, "sphere ambient occlusion" and "sphere soft shadow", 2006 and 2014.
@@ -58,7 +59,13 @@ def cast_shadow(frame: Any, height: Any, stage: Any, ball: tuple[float, float, f
 
 @kernel
 def draw_ball(
-    frame: Any, height: Any, before: Any, stage: Any, inks: Any, ball: tuple[float, float, float], box: Box
+    frame: Pixels,
+    height: Heights,
+    before: Pixels,
+    stage: Records,
+    inks: Inks,
+    ball: tuple[float, float, float],
+    box: Box,
 ) -> None:
     """Draw a ball (x, z, radius) [u]; `before` is a buffer for a copy of the box that it covers."""
     s = stage[0]
@@ -82,7 +89,7 @@ def draw_ball(
                 continue
             t = b - sqrt(max(r * r - q2, 0.0))
             if (height[row, column] - s.eye_y) / dy < t - 0.02 * r:
-                continue  # something stands in front of it
+                continue  # hidden by something in front of it
             nx, ny, nz = dx * t - ex, dy * t - ey, dz * t - ez
             inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz)
             nx, ny, nz = nx * inverse, ny * inverse, nz * inverse
@@ -96,7 +103,7 @@ def draw_ball(
 
 @internal
 def _reflection(
-    frame: Any, before: Any, s: Any, inks: Any, ball: tuple[float, float, float],
+    frame: Pixels, before: Pixels, s: StageRecord, inks: Inks, ball: tuple[float, float, float],
     direction: Vector, normal: Vector, box: Box,
 ) -> RGB:  # fmt: skip
     """The light that a ball mirrors at a normal, seen along a direction (two unit vectors)."""
@@ -123,13 +130,13 @@ def _reflection(
     glint = nx * s.light_x + ny * s.light_y  # the lamp itself
     spot = smoothstep(0.90, 0.99, rx * s.light_x + ry * s.light_y)
     light = add_scaled(light, ink(inks, Ink.SKY), 1.6 * spot + 0.10 * max(glint, 0.0))
-    # At the limb a dark line, so that the ball stands off from bright things too.
+    # A dark line at the limb separates the ball from bright surroundings.
     return scale(light, 1.0 - 0.55 * smoothstep(0.30, 0.02, toward))
 
 
 @inlined
-def _room_light(inks: Any, rx: float, ry: float, rz: float) -> RGB:
-    """The room above the table: bright overhead, two long lamps, a darker horizon."""
+def _room_light(inks: Inks, rx: float, ry: float, rz: float) -> RGB:
+    """Light of the room above the table: bright overhead, two long lamps, a darker horizon."""
     high, low = ink(inks, Ink.SKY), ink(inks, Ink.SKY_LOW)
     light = mix(scale(low, 0.30), scale(high, 0.84), smoothstep(0.0, 0.66, ry))
     along = rx / (ry + 0.15)
@@ -138,11 +145,13 @@ def _room_light(inks: Any, rx: float, ry: float, rz: float) -> RGB:
 
 
 @internal
-def _frame_light(frame: Any, before: Any, s: Any, x: float, z: float, spread: int, box: Box) -> RGB:
-    """The linear light of the playfield around (x, z) in the picture from before the ball was drawn.
+def _frame_light(
+    frame: Pixels, before: Pixels, s: StageRecord, x: float, z: float, spread: int, box: Box
+) -> RGB:
+    """Return the linear light around (x, z) in the frame from before the ball was drawn.
 
-    The mean of four pixels, `spread` away from the middle: a ball shrinks what it mirrors, and single pixels
-    would flicker.
+    It is the mean of four pixels, `spread` away from the centre: a ball shrinks what it mirrors, and single
+    pixels would flicker.
     """
     left, top, right, bottom = box
     depth = (x - s.eye_x) * s.sine + s.eye_y * s.cosine

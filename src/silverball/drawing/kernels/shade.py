@@ -8,25 +8,35 @@ The glow is a sum over the parts, so the flash of one part can be added to a fin
 from __future__ import annotations
 
 from math import exp, sqrt
-from typing import Any
 
 from silverball.drawing.kernels.march import ambient_visibility, lamp_visibility, trace
 from silverball.drawing.kernels.solids import cell_at, footprint_distance, rail_footprint
-from silverball.drawing.kernels.stage import FLOOR, HALO, RAIL, ROOM, Form, Ink, Scene, Vector
+from silverball.drawing.kernels.stage import (
+    FLOOR,
+    HALO,
+    RAIL,
+    ROOM,
+    Form,
+    Ink,
+    Inks,
+    Scene,
+    StageRecord,
+    Vector,
+)
 from silverball.drawing.kernels.surfaces import Surface, color_of, surface_of
 from silverball.drawing.kernels.tones import RGB, add_scaled, clamp01, ink, mix, multiply, scale, smoothstep
 from silverball.physics.kernel import inlined, internal
 
 RING_AT = 0.27  # [u] from a cylinder to the ring of light around it
 RING_CORE = 0.032  # [u] half the width of its bright line
-MIRROR_REACH = 2.2  # [u] how far the lacquer sees
-MAX_GRAZING = 0.25  # share that a surface mirrors at a flat angle, beyond its gloss
-FRONT = 0.20  # light from the player's side, without shadow, by the lamp's strength
+MIRROR_REACH = 2.2  # [u] within which parts are mirrored in the lacquer
+MAX_GRAZING = 0.25  # reflectance at grazing angles, beyond a surface's gloss
+FRONT = 0.20  # unshadowed light from the player's side, relative to the lamp
 
 
 @internal
 def radiance(scene: Scene, part: int, point: Vector, direction: Vector, pixel: float) -> RGB:
-    """The light that comes from a point of a part, seen along a direction (a unit vector)."""
+    """Return the light of a point of a part, seen along a direction (a unit vector)."""
     s = scene.stage[0]
     x, y, z = point
     dx, dy, dz = direction
@@ -44,9 +54,9 @@ def radiance(scene: Scene, part: int, point: Vector, direction: Vector, pixel: f
     light = _diffuse(s, f, lamp, open_)
     light = _add_glow(scene, part, f, x, y, z, light, open_)
     light = (light[0] + f.light[0], light[1] + f.light[1], light[2] + f.light[2])
-    # What it mirrors, more at a flat angle. Source: C. Schlick, "An inexpensive BRDF model", 1994.
+    # It mirrors more at grazing angles. Source: C. Schlick, "An inexpensive BRDF model", 1994.
     grazing = clamp01(1.0 - toward)
-    # Not all the t: at the far edges of things one pixel would flicker between sky and paint.
+    # Limited, because far edges, one pixel wide, would flicker between sky and paint.
     share = f.gloss + min(1.0 - f.gloss, MAX_GRAZING) * grazing**5
     rx, ry, rz = dx + 2.0 * toward * f.nx, dy + 2.0 * toward * f.ny, dz + 2.0 * toward * f.nz
     if part == FLOOR:
@@ -58,8 +68,8 @@ def radiance(scene: Scene, part: int, point: Vector, direction: Vector, pixel: f
 
 
 @inlined
-def _diffuse(s: Any, f: Surface, lamp: float, open_: float) -> RGB:
-    """What the paint throws back of the lamp and of the light from everywhere."""
+def _diffuse(s: StageRecord, f: Surface, lamp: float, open_: float) -> RGB:
+    """Diffuse reflection of the lamp and of the ambient light."""
     front = FRONT * max(0.55 * f.ny - 0.83 * f.nx, 0.0)
     around = s.fill * open_ * (0.62 + 0.38 * f.ny)
     strength = (s.key * (lamp + front * open_) + around) * (1.0 - 0.8 * f.metal)
@@ -70,7 +80,7 @@ def _diffuse(s: Any, f: Surface, lamp: float, open_: float) -> RGB:
 def _add_glow(
     scene: Scene, part: int, f: Surface, x: float, y: float, z: float, light: RGB, open_: float
 ) -> RGB:
-    """Add what the parts around, and the tubes along the rails, throw onto a place."""
+    """Add the glow of the parts around and of the tubes along the rails."""
     s = scene.stage[0]
     cell = cell_at(s, x, z)
     for place in range(scene.lit[cell], scene.lit[cell + 1]):
@@ -88,7 +98,7 @@ def _add_glow(
 
 @internal
 def part_glow(scene: Scene, index: int, part: int, f: Surface, x: float, y: float, z: float) -> RGB:
-    """What one part throws onto a place of something else: its halo, and a cylinder's ring of light."""
+    """Return the light that one part throws onto another: its halo, and a cylinder's ring of light."""
     s = scene.stage[0]
     solid, c = scene.solids[index], scene.shapes[index]
     a = footprint_distance(solid, c, x, z) / s.unit
@@ -104,7 +114,7 @@ def part_glow(scene: Scene, index: int, part: int, f: Surface, x: float, y: floa
         tone = ink(scene.inks, Ink.STRIP_2)
         strength = s.halo * fade * (0.55 * exp(-near / 0.09) + 0.20 * exp(-near / 0.4)) * exp(-y / 0.3)
     if part != FLOOR:
-        # Light comes from the part's side, so a face that is turned away gets less.
+        # Light comes from the part's side, so a face turned away from it gets less.
         gx = footprint_distance(solid, c, x + 0.01, z) / s.unit - a
         gz = footprint_distance(solid, c, x, z + 0.01) / s.unit - a
         length = max(sqrt(gx * gx + gz * gz), 1e-9)
@@ -124,7 +134,7 @@ def part_glow(scene: Scene, index: int, part: int, f: Surface, x: float, y: floa
 def _lacquer_reflection(
     scene: Scene, x: float, y: float, z: float, dx: float, dy: float, dz: float, pixel: float
 ) -> RGB:
-    """What is seen in the lacquer: the nearest thing on the t, in plain light, or the dark of the room."""
+    """Return the reflection in the lacquer: the first part on the ray, simply lit, or the dark room."""
     s = scene.stage[0]
     reach = MIRROR_REACH * s.unit
     t, part = trace(scene, x, y, z, dx, dy, dz, reach)
@@ -142,8 +152,8 @@ def _lacquer_reflection(
 
 
 @internal
-def sky_light(inks: Any, dx: float, dy: float, dz: float) -> RGB:
-    """What polished things mirror: a bright ceiling with two long lamps, a dark horizon, the floor below."""
+def sky_light(inks: Inks, dx: float, dy: float, dz: float) -> RGB:
+    """What polished parts mirror: a bright ceiling with two long lamps, a dark horizon, the floor below."""
     high, low = ink(inks, Ink.SKY), ink(inks, Ink.SKY_LOW)
     if dy <= 0.0:
         return scale(mix(ink(inks, Ink.FLOOR_MIDDLE), low, 0.25), 0.8 * clamp01(1.0 + dy))
@@ -158,7 +168,7 @@ def sky_light(inks: Any, dx: float, dy: float, dz: float) -> RGB:
 
 @inlined
 def _room_floor(scene: Scene, x: float, z: float) -> RGB:
-    """The floor of the room far below, lit a little by the table."""
+    """The floor of the room, lit faintly by the table."""
     s = scene.stage[0]
     out_x = max(abs(x) - s.half_length - s.rail, 0.0)
     out_z = max(abs(z) - s.half_width - s.rail, 0.0)

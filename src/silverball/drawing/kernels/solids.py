@@ -1,12 +1,12 @@
-"""How far is a point of space from a part? The footprint of the physics, raised to a height.
+"""Distances to parts: the footprints of the physics extruded to a height, and the grid of nearby parts.
 
 A footprint gives the distance a in the plane, the height the distance b = y − height above it. A body with an
 edge rounded by r is
 
     d = |max(a + r, b + r, 0)| + min(max(a + r, b + r), 0) − r        (|…| of the two clipped components)
 
-which is never more than the true distance, so a ray that advances by it passes through nothing. Bodies have
-no underside: they go down through the playfield.
+which never exceeds the true distance, so a ray that advances by it passes through nothing. Bodies have no
+underside: they continue below the playfield.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.kernels.stage import Form
+from silverball.drawing.kernels.stage import Cells, Form, Records, ShapeRecord, SolidRecord, StageRecord
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.shapes import distance as shape_distance
 from silverball.physics.shapes import triangle_distance
@@ -29,7 +29,7 @@ RING = 0.075  # [u] radius of the steel ring at the top of a cylinder's body, fo
 
 @inlined
 def extruded_distance(a: float, y: float, height: float, bevel: float) -> float:
-    """Distance from a footprint at distance a, raised to a height with a rounded edge."""
+    """Return the distance from a body of a height whose footprint is at distance a."""
     across = a + bevel
     up = y - height + bevel
     if across > 0.0 and up > 0.0:
@@ -38,8 +38,8 @@ def extruded_distance(a: float, y: float, height: float, bevel: float) -> float:
 
 
 @internal
-def footprint_distance(solid: Any, c: Any, x: float, z: float) -> float:
-    """Distance in the plane from a part: what a ball's surface would have to go to touch it."""
+def footprint_distance(solid: SolidRecord, c: ShapeRecord, x: float, z: float) -> float:
+    """Return the distance from a part's footprint in the plane, as the physics computes it."""
     if solid.form == Form.PADDLE:  # in its own frame (see physics/paddle.py)
         rx = x - c.x
         rz = solid.side * (z - c.z)
@@ -52,8 +52,8 @@ def footprint_distance(solid: Any, c: Any, x: float, z: float) -> float:
 
 
 @internal
-def part_distance(solid: Any, c: Any, x: float, y: float, z: float) -> float:
-    """Distance of a point of space from a part."""
+def part_distance(solid: SolidRecord, c: ShapeRecord, x: float, y: float, z: float) -> float:
+    """Return the distance of a point from a part."""
     a = footprint_distance(solid, c, x, z)
     d = extruded_distance(a, y, solid.height, solid.bevel)
     if solid.form == Form.CYLINDER:
@@ -64,8 +64,8 @@ def part_distance(solid: Any, c: Any, x: float, y: float, z: float) -> float:
 
 
 @inlined
-def _cap_distance(solid: Any, c: Any, a: float, y: float) -> float:
-    """A cylinder's cap, a slice of a sphere, and the steel ring that it lies in."""
+def _cap_distance(solid: SolidRecord, c: ShapeRecord, a: float, y: float) -> float:
+    """Distance from a cylinder's cap, a slice of a sphere, and the steel ring around it."""
     unit = solid.height / 0.38
     rho = a + c.radius
     ring_across = rho - (c.radius - RING * unit)
@@ -81,8 +81,8 @@ def _cap_distance(solid: Any, c: Any, a: float, y: float) -> float:
 
 
 @inlined
-def _bolt_distance(solid: Any, c: Any, x: float, y: float, z: float) -> float:
-    """A flat dome over the pivot of a paddle."""
+def _bolt_distance(solid: SolidRecord, c: ShapeRecord, x: float, y: float, z: float) -> float:
+    """Distance from the flat dome over the pivot of a paddle."""
     size = min(0.36 * (c.x2 - c.x0), 0.3 * solid.height / 0.33)
     rx = x - c.x - 0.42 * size * solid.sine
     rz = z - c.z - 0.42 * size * solid.cosine * solid.side
@@ -92,7 +92,7 @@ def _bolt_distance(solid: Any, c: Any, x: float, y: float, z: float) -> float:
 
 
 @inlined
-def rail_footprint(s: Any, x: float, z: float) -> float:
+def rail_footprint(s: StageRecord, x: float, z: float) -> float:
     """Distance in the plane from the frame around the board: negative inside its wood."""
     inner_x = max(x - (s.half_length - s.thickness), -s.half_length - x)
     inner_z = abs(z) - (s.half_width - s.thickness)
@@ -106,13 +106,13 @@ def rail_footprint(s: Any, x: float, z: float) -> float:
 
 
 @inlined
-def rail_distance(s: Any, x: float, y: float, z: float) -> float:
+def rail_distance(s: StageRecord, x: float, y: float, z: float) -> float:
     """Distance from the frame around the board."""
     return extruded_distance(rail_footprint(s, x, z), y, s.rail_height, 0.18 * s.rail)
 
 
 @inlined
-def apron_distance(s: Any, x: float, y: float, z: float) -> float:
+def apron_distance(s: StageRecord, x: float, y: float, z: float) -> float:
     """Distance from the plate below the gutter, between the rails; its edge is bevelled."""
     a = max(x - s.apron_top, -s.half_length - x, abs(z) - s.half_width)
     b = y - s.apron_height
@@ -123,7 +123,10 @@ def apron_distance(s: Any, x: float, y: float, z: float) -> float:
 def list_cells(
     stage: NDArray[Any], solids: NDArray[Any], shapes: NDArray[Any], distance: float
 ) -> NDArray[np.int32]:
-    """The lists of all cells, of the parts within a distance [u] of any point of the cell."""
+    """Return the grid of the parts within a distance [u] of any point of each cell.
+
+    One int32 array: for each cell, and once more for the end, where its list begins; then the lists.
+    """
     cells = int(stage[0]["rows"] * stage[0]["columns"])
     lists = np.zeros(cells + 1 + 8 * cells, np.int32)
     need = fill_cells(stage, solids, shapes, distance, lists)
@@ -134,8 +137,8 @@ def list_cells(
 
 
 @kernel
-def fill_cells(stage: Any, solids: Any, shapes: Any, distance: float, lists: Any) -> Any:
-    """Write the lists as far as there is room; returns how many numbers they take."""
+def fill_cells(stage: Records, solids: Records, shapes: Records, distance: float, lists: Cells) -> Any:
+    """Write the lists as far as they fit; return the length that they need."""
     s = stage[0]
     cells = s.rows * s.columns
     side = 1.0 / s.cell_scale
@@ -158,8 +161,8 @@ def fill_cells(stage: Any, solids: Any, shapes: Any, distance: float, lists: Any
 
 
 @inlined
-def cell_at(s: Any, x: float, z: float) -> Any:
-    """The number of the cell that holds (x, z); of the nearest one beyond the board."""
+def cell_at(s: StageRecord, x: float, z: float) -> Any:
+    """Return the number of the cell that contains (x, z), or of the nearest cell."""
     row = int((x - s.low_x) * s.cell_scale)
     column = int((z - s.low_z) * s.cell_scale)
     return min(max(row, 0), s.rows - 1) * s.columns + min(max(column, 0), s.columns - 1)

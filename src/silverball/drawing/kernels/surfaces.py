@@ -1,9 +1,9 @@
-"""What is the surface like at a place: which t does it face, what is its paint, does it shine by itself?"""
+"""Surfaces: normal, paint, emitted light and gloss at a point of a part."""
 
 from __future__ import annotations
 
 from math import atan2, cos, exp, pi, sin, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from silverball.drawing.kernels.art import playfield_paint
 from silverball.drawing.kernels.solids import (
@@ -14,7 +14,17 @@ from silverball.drawing.kernels.solids import (
     rail_distance,
     rail_footprint,
 )
-from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, Form, Frame, Ink, Scene
+from silverball.drawing.kernels.stage import (
+    APRON,
+    FLOOR,
+    RAIL,
+    Form,
+    Frame,
+    Ink,
+    Scene,
+    ShapeRecord,
+    SolidRecord,
+)
 from silverball.drawing.kernels.tones import (
     RGB,
     add_scaled,
@@ -28,22 +38,22 @@ from silverball.drawing.kernels.tones import (
 )
 from silverball.physics.kernel import inlined, internal
 
-STEP = 0.004  # [u] between the places whose distances give a normal
+STEP = 0.004  # [u] between the points whose distances give a normal
 SPOKES = 8  # of a cap's star
 BOLT_SPACING = 2.4  # [u] between the bolts of the rails
 
 
 class Surface(NamedTuple):
-    """A place of a surface.
+    """The properties of a surface at a point.
 
     Attributes:
-        nx: The normal, a unit vector.
+        nx: The unit normal, its part up the table.
         ny: Its part out of the board.
         nz: Its part to the right.
-        paint: How much of each colour it throws back.
-        light: What shines out of it by itself.
-        gloss: How much it mirrors when seen from straight above it.
-        metal: 1 where it mirrors in its own colour and has no paint, else 0.
+        paint: Diffuse reflectance of each colour.
+        light: Emitted light.
+        gloss: Reflectance when seen from straight above it.
+        metal: 1 for metal, which mirrors in its own colour and has no paint; 0 for everything else.
     """
 
     nx: float
@@ -69,7 +79,7 @@ class Hit(NamedTuple):
 
 @internal
 def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: float) -> Surface:
-    """The surface of what has been met at (x, y, z), seen with pixels of a size [u]."""
+    """Return the surface of a part at (x, y, z), where a pixel has a size [u]."""
     s = scene.stage[0]
     if part == FLOOR:
         paint, light = playfield_paint(s, scene.inks, x, z, pixel)
@@ -94,7 +104,7 @@ def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: flo
 
 
 @inlined
-def color_of(solid: Any) -> RGB:
+def color_of(solid: SolidRecord) -> RGB:
     """Return the own colour of a part."""
     return solid.red, solid.green, solid.blue
 
@@ -110,7 +120,7 @@ def _distance(scene: Scene, part: int, x: float, y: float, z: float) -> float:
 
 @internal
 def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
-    """The direction in which the distance grows fastest, from four places around."""
+    """Return the gradient of the distance as a unit vector, from four points around."""
     nx, ny, nz = 0.0, 0.0, 0.0
     h = STEP * scene.stage[0].unit
     for corner in range(4):  # of a tetrahedron: (+,−,−), (−,−,+), (−,+,−), (+,+,+)
@@ -127,13 +137,13 @@ def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
 
 @internal
 def _rail(scene: Scene, hit: Hit) -> Surface:
-    """The frame: metal with a bright trim, or wood with brass; bolts on top, a tube of light at its foot."""
+    """The rail: metal with a bright trim, or wood with brass; bolts on top, a tube of light at its foot."""
     x, y, z, nx, ny, nz, pixel = hit
     s = scene.stage[0]
     in_top = x - s.half_length > abs(z) - s.half_width or -x - s.half_length > abs(z) - s.half_width
     along = z if in_top else x
     width = s.rail + s.thickness
-    deep = rail_footprint(s, x, z) + 0.5 * width  # 0 on the surfaces' middle line, grows to either side
+    deep = rail_footprint(s, x, z) + 0.5 * width  # 0 on the middle line, grows to both sides
     tone = ink(scene.inks, Ink.RAIL)
     light = (0.0, 0.0, 0.0)
     steel = ink(scene.inks, Ink.STEEL)
@@ -198,7 +208,7 @@ def _apron(scene: Scene, hit: Hit) -> Surface:
 
 
 @internal
-def _cylinder(scene: Scene, solid: Any, c: Any, hit: Hit) -> Surface:
+def _cylinder(scene: Scene, solid: SolidRecord, c: ShapeRecord, hit: Hit) -> Surface:
     """A bumper: a lit ribbed body, a steel ring, a domed cap with a star."""
     y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
     tone = color_of(solid)
@@ -232,7 +242,7 @@ def _cylinder(scene: Scene, solid: Any, c: Any, hit: Hit) -> Surface:
 
 
 @internal
-def _prism(solid: Any, hit: Hit, inside: float) -> Surface:
+def _prism(solid: SolidRecord, hit: Hit, inside: float) -> Surface:
     """Lit acrylic: light gathers at the edges, and a second, fainter line runs inside the top."""
     y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
     tone = color_of(solid)
@@ -253,7 +263,7 @@ def _prism(solid: Any, hit: Hit, inside: float) -> Surface:
 
 
 @internal
-def _paddle(scene: Scene, solid: Any, hit: Hit, inside: float) -> Surface:
+def _paddle(scene: Scene, solid: SolidRecord, hit: Hit, inside: float) -> Surface:
     """A bright plate with a rubber around it and a bolt over its pivot."""
     nx, ny, nz = hit.nx, hit.ny, hit.nz
     tone = color_of(solid)
@@ -268,7 +278,7 @@ def _paddle(scene: Scene, solid: Any, hit: Hit, inside: float) -> Surface:
 
 
 @internal
-def _wall(scene: Scene, solid: Any, hit: Hit) -> Surface:
+def _wall(scene: Scene, solid: SolidRecord, hit: Hit) -> Surface:
     """A slant wall: a steel bar, or a wooden one; a tube of light along its foot."""
     y, nx, ny, nz = hit.y, hit.nx, hit.ny, hit.nz
     tone = color_of(solid)
