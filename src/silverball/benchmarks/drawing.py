@@ -15,7 +15,7 @@ from typing import Any
 
 from silverball.benchmarks.speed import Figure
 from silverball.drawing import Moment, Renderer, best_size
-from silverball.drawing.picture_cache import Store
+from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.sketch import rgb_surface
 from silverball.table import Table, generate_table, load_table
 from silverball.world import World
@@ -37,33 +37,33 @@ def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None
     first, second = (generate_table(seed, recipe) for seed in SEEDS)
     size = best_size(first.board, HEIGHT)
     with tempfile.TemporaryDirectory() as folder:
-        store = Store(Path(folder))
+        cache = PictureCache(Path(folder))
         advance("a sketch")
         figures = [Figure("first picture of an unknown board", _first_picture(first, size, rounds), "s")]
         advance("baking a board")
         figures.append(
-            Figure("best picture of an unknown board", _seconds(lambda: _bake(first, size, store)), "s")
+            Figure("best picture of an unknown board", _seconds(lambda: _bake(first, size, cache)), "s")
         )
         advance("baking an empty board and paddles")
-        renderer = _bake(first, size, store)
-        assert renderer._studio is not None
-        studio = renderer._studio
-        figures.append(Figure("all angles of the paddles, once", _seconds(studio.bake_paddles), "s"))
-        figures.append(Figure("the empty board, once", _seconds(studio.bake_empty), "s"))
+        renderer = _bake(first, size, cache)
+        assert renderer._provider is not None
+        provider = renderer._provider
+        figures.append(Figure("all angles of the paddles, once", _seconds(provider.bake_paddles), "s"))
+        figures.append(Figure("the empty board, once", _seconds(provider.bake_empty), "s"))
         advance("baking another board")
         figures.append(
-            Figure("best picture of another board", _seconds(lambda: _bake(second, size, store)), "s")
+            Figure("best picture of another board", _seconds(lambda: _bake(second, size, cache)), "s")
         )
         advance("a board that was seen before")
-        known = statistics.median(_seconds(lambda: _bake(second, size, store)) for _ in range(rounds))
+        known = statistics.median(_seconds(lambda: _bake(second, size, cache)) for _ in range(rounds))
         figures.append(Figure("picture of a board seen before", known, "s"))
         advance("drawing frames")
-        figures += _frames(_bake(first, size, store), rounds)
+        figures += _frames(_bake(first, size, cache), rounds)
     return figures
 
 
-def _bake(table: Table, size: tuple[int, int], store: Store) -> Renderer:
-    return Renderer(table, size, board_seed=SEEDS[0], store=store)
+def _bake(table: Table, size: tuple[int, int], cache: PictureCache) -> Renderer:
+    return Renderer(table, size, board_seed=SEEDS[0], cache=cache)
 
 
 def _seconds(work: Callable[[], Any]) -> float:
@@ -78,7 +78,7 @@ def _first_picture(table: Table, size: tuple[int, int], rounds: int) -> float:
     for _ in range(rounds):
         with tempfile.TemporaryDirectory() as folder:
             before = time.perf_counter()
-            renderer = Renderer(table, size, board_seed=0, background=True, store=Store(Path(folder)))
+            renderer = Renderer(table, size, board_seed=0, background=True, cache=PictureCache(Path(folder)))
             renderer.surface(Moment.before(table))
             times.append(time.perf_counter() - before)
             renderer.close()
@@ -91,10 +91,10 @@ def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
     target = rgb_surface(renderer.camera.size)
     times = []
     for _ in range(max(rounds, 3)):
-        renderer.effects.forget()
+        renderer.effects.clear()
         before = time.process_time()
         for moment, events in play:
-            renderer.note(events, TICK_RATE)
+            renderer.add_events(events, TICK_RATE)
             renderer.draw(moment, target)
         times.append((time.process_time() - before) / len(play))
     import pygame

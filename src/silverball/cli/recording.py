@@ -103,7 +103,7 @@ def filmed(
         stage.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
         events, news = stage.take_world_events(), stage.take_game_events()
         display.tell(news)
-        renderer.note(events, world.tick_rate)
+        renderer.add_events(events, world.tick_rate)
         if sound is not None:
             sound.note(world, events, stage.game.held, news)
         dots, moment = display.frame(stage.game.view, number / rate), Moment.of(world)

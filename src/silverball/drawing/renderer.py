@@ -21,15 +21,15 @@ from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.dotmatrix.score_panel import ScorePanel
 from silverball.drawing.effects import Effects
 from silverball.drawing.moment import Moment
-from silverball.drawing.picture_cache import Store
-from silverball.drawing.pictures import load_still, still_key
-from silverball.drawing.sketch import Sketcher, rgb_surface
+from silverball.drawing.picture_cache import PictureCache
+from silverball.drawing.pictures import load_baked_table, table_key
+from silverball.drawing.sketch import SketchPainter, rgb_surface
 from silverball.drawing.themes import THEMES, Theme
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.background import Background
-    from silverball.drawing.picture_provider import Studio
+    from silverball.drawing.picture_provider import PictureProvider
     from silverball.world import Event, World
 
 DEFAULT_HEIGHT = 480  # [pixel]
@@ -58,7 +58,7 @@ class Renderer:
         board_seed: Shown beside the score if the board was made from it.
         background: Return at once and draw a sketch until the table is baked. Call `close` in the end.
         progress: Called with the share of the baking that is done, 0 to 1; not in the background.
-        store: Where baked pictures are kept; by default the user's cache folder.
+        cache: Where baked pictures are kept; by default the user's cache folder.
 
     Attributes:
         apron: The plate below the gutter [pixel], which hides the balls below it.
@@ -74,7 +74,7 @@ class Renderer:
         >>> frames = []
         >>> for _ in range(3):
         ...     world.step(left=True, ticks=4)
-        ...     renderer.note(world.events, world.tick_rate)  # flashes and sparks of the hits
+        ...     renderer.add_events(world.events, world.tick_rate)  # flashes and sparks of the hits
         ...     frames.append(renderer.render(world))
         >>> frames[0].shape, frames[0].dtype
         ((160, 100, 3), dtype('uint8'))
@@ -91,7 +91,7 @@ class Renderer:
         board_seed: int | None = None,
         background: bool = False,
         progress: Callable[[float], None] = lambda share: None,
-        store: Store | None = None,
+        cache: PictureCache | None = None,
     ) -> None:
         self.table = table
         self.theme = _theme(theme)
@@ -100,44 +100,51 @@ class Renderer:
         self.score_panel = self.camera.panel
         self.apron = _apron_area(self.camera)
         self._panel = ScorePanel(self.score_panel, self.theme, table, board_seed)
-        self._store = store or Store()
-        self._studio: Studio | None = None
+        self._cache = cache or PictureCache()
+        self._provider: PictureProvider | None = None
         self._background: Background | None = None
         self._painter: Painter
         if background:
             from silverball.drawing.background import Background
             from silverball.drawing.text import lettering
 
-            lettering(table.name, self.camera.build)  # here, for fonts are not made for threads
-            key = still_key(table, self.camera, self.theme)
-            known = load_still(self._store, key)
-            self._painter = Sketcher(table, self.camera, self.theme, None if known is None else known.pixels)
-            self._background = Background(table, self.camera, self.theme, self._store, board_seed is not None)
+            lettering(table.name, self.camera.dimensions)  # cached here, because fonts are not thread-safe
+            key = table_key(table, self.camera, self.theme)
+            known = load_baked_table(self._cache, key)
+            self._painter = SketchPainter(
+                table, self.camera, self.theme, None if known is None else known.pixels
+            )
+            self._background = Background(table, self.camera, self.theme, self._cache, board_seed is not None)
         else:
             self._painter = self._baked(progress)
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn at its best."""
-        self._take_over()
-        return not isinstance(self._painter, Sketcher)
+        """Whether the table is drawn in full quality; a sketch is not."""
+        self._adopt_background()
+        return not isinstance(self._painter, SketchPainter)
 
-    def note(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Tell what happened since the last picture, so that it can be seen in the next ones."""
-        self.effects.note(events, tick_rate)
+    def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
+        """Add events whose flashes and sparks the next pictures show.
+
+        Args:
+            events: What happened since the last picture, such as `World.events`.
+            tick_rate: Ticks per second of the world.
+        """
+        self.effects.add_events(events, tick_rate)
 
     def draw(self, moment: Moment, target: pygame.Surface, dots: Dots | None = None) -> None:
         """Draw a moment onto a surface of the renderer's size.
 
         Args:
-            moment: What there is to see.
+            moment: The state of play.
             target: Any surface; one of 24 bits whose bytes are RGB is fastest.
-            dots: What the score panel shows, a `Dots`; the moment's score if not given.
+            dots: What the score panel shows; by default the moment's score.
         """
         target.blit(self._compose(moment, dots), (0, 0))
 
     def surface(self, moment: Moment, dots: Dots | None = None) -> pygame.Surface:
-        """A moment as a new surface of 24 bits, whose bytes are RGB."""
+        """Draw a moment onto a new surface of 24 bits, whose bytes are RGB."""
         target = rgb_surface(self.camera.size)
         self.draw(moment, target, dots)
         return target
@@ -145,48 +152,50 @@ class Renderer:
     def render(self, world: World) -> NDArray[np.uint8]:
         """Draw a world as it is now: RGB, uint8 `[height, width, 3]`.
 
-        Call `note` with the world's events first if the picture is to show their flashes and sparks. Balls
-        leave trails from one call to the next.
+        Flashes and sparks are shown of events that were passed to `add_events`; balls leave trails from one
+        call to the next.
         """
         return self.array(Moment.of(world)).copy()
 
     def array(self, moment: Moment, dots: Dots | None = None) -> NDArray[np.uint8]:
-        """A moment as RGB, uint8, shape [row, column, 3]."""
+        """Draw a moment: RGB, uint8 `[height, width, 3]`, read-only."""
         width, height = self.camera.size
         pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until all that is baked in the background is there, the paddles at every angle too."""
+        """Wait until the background has baked everything, paddles included, or for some seconds."""
         if self._background is not None:
             self._background.wait(seconds)
 
     def close(self) -> None:
-        """End the work in the background; keep what was baked."""
+        """Stop the work in the background, and save what was baked."""
         if self._background is not None:
             self._background.close()
-        if self._studio is not None:
-            self._studio.save_paddles()
+        if self._provider is not None:
+            self._provider.save_paddles()
 
     def _compose(self, moment: Moment, dots: Dots | None) -> pygame.Surface:
-        self._take_over()
+        self._adopt_background()
         surface = self._painter.compose(moment, self.effects)
         self._panel.draw(surface, moment, dots)
         return surface
 
-    def _take_over(self) -> None:
-        """Use what the background has made ready."""
+    def _adopt_background(self) -> None:
+        """Use the better picture once the background has baked it."""
         if self._background is not None and self._background.painter is not None:
             self._painter = self._background.painter
 
     def _baked(self, progress: Callable[[float], None]) -> Painter:
-        from silverball.drawing.bake_threads import Workshop
+        from silverball.drawing.bake_threads import BakeThreads
         from silverball.drawing.compose import Composer
-        from silverball.drawing.picture_provider import Studio
+        from silverball.drawing.picture_provider import PictureProvider
 
-        studio = Studio(self.table, self.camera, self.theme, self._store, Workshop(progress=progress))
-        self._studio = studio
-        return Composer(self.table, self.camera, self.theme, studio.still(), studio.baked_paddle)
+        provider = PictureProvider(
+            self.table, self.camera, self.theme, self._cache, BakeThreads(progress=progress)
+        )
+        self._provider = provider
+        return Composer(self.table, self.camera, self.theme, provider.table(), provider.baked_paddle)
 
 
 _lock = threading.Lock()  # a renderer draws one picture at a time
@@ -228,9 +237,9 @@ def _size(table: Table, size: tuple[int, int] | None, height: int | None) -> tup
 
 
 def _apron_area(camera: Camera) -> pygame.Rect:
-    build = camera.build
-    side = build.half_width - build.thickness
-    left, top = camera.to_pixel(build.apron_top, -side, build.apron_height)
-    right = camera.to_pixel(build.apron_top, side, build.apron_height)[0]
-    bottom = camera.to_pixel(-build.half_length - build.rail, side, build.rail_height)[1]
+    dimensions = camera.dimensions
+    side = dimensions.half_width - dimensions.thickness
+    left, top = camera.to_pixel(dimensions.apron_top, -side, dimensions.apron_height)
+    right = camera.to_pixel(dimensions.apron_top, side, dimensions.apron_height)[0]
+    bottom = camera.to_pixel(-dimensions.half_length - dimensions.rail, side, dimensions.rail_height)[1]
     return pygame.Rect(round(left), round(top), round(right - left), max(round(bottom - top), 1))

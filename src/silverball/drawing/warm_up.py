@@ -17,16 +17,16 @@ NICENESS = 5
 def compile_all() -> None:
     """Compile every kernel of the drawing, or load it from the cache."""
     from silverball.drawing.moment import BallAt, Moment
-    from silverball.drawing.picture_cache import Store
+    from silverball.drawing.picture_cache import PictureCache
     from silverball.drawing.renderer import Renderer
     from silverball.table import load_table
     from silverball.world import Event
 
     table = load_table("classic")
     with tempfile.TemporaryDirectory() as folder:
-        renderer = Renderer(table, (20, 32), store=Store(Path(folder)))
+        renderer = Renderer(table, (20, 32), cache=PictureCache(Path(folder)))
         hit = Event("hit", "cylinder[0]", 1, 0, 0.0, (5.0, 1.0, 0.0), (1.0, 0.0, 0.0), 12.0)
-        renderer.note([hit], 240)
+        renderer.add_events([hit], 240)
         renderer.array(Moment.before(table)._replace(time=0.01, balls=(BallAt(1, 0.0, 0.0),)))
         renderer.array(Moment.before(table)._replace(time=0.02, balls=(BallAt(1, 1.0, 0.0),)))
 

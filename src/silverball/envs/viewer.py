@@ -115,7 +115,7 @@ class Viewer:
             before = None
         if before != now:
             height, names = batch.tables[board].board.height, batch.boards.names[board]
-            effects.note(read_events(batch.logs[index], names, height), batch.tick_rate)
+            effects.add_events(read_events(batch.logs[index], names, height), batch.tick_rate)
             self._noted[index] = now
         return effects
 

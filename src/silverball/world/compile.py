@@ -150,6 +150,16 @@ def _search_time(board: Any) -> float:
     return min(math.sqrt(board["skin"] / max(board["max_accel"], TINY)), MAX_SEARCH_TIME)
 
 
+def compile_parts(table: Table) -> NDArray[Any]:
+    """Return the COLLIDER records of one table, in the order of `part_numbers`."""
+    return _colliders(table)[0]
+
+
+def part_numbers(table: Table) -> dict[str, int]:
+    """Return the number of each part of a table by its path, such as "cylinder[0]"."""
+    return {name: number for number, name in enumerate(_colliders(table)[1])}
+
+
 def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
     """The COLLIDER records of one table, and the names of its parts."""
     count = Part.FIRST_SHAPE + len(table.slant_wall) + len(table.triangular_prism) + len(table.cylinder)

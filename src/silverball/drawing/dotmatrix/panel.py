@@ -24,7 +24,7 @@ HOT = 0.42  # how far the middle of the brightest dot goes from its colour to wh
 GAMMA = 0.8  # dim dots are lifted, for they are small and have dark around them
 
 LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
-LEAST_SPACING = 4.0  # [pixel] below it dots are drawn larger and shrunk
+MIN_SPACING = 4.0  # [pixel] below it dots are drawn larger and shrunk
 WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels where that leaves so much of the size
 BEZEL_SHARE = 0.03  # of the height, on each side, at least
 
@@ -51,16 +51,16 @@ class DotPanel:
         rim = round(BEZEL_SHARE * height) if frame is not None else 0
         room_wide, room_high = max(width - 2 * rim, 1), max(height - 2 * rim, 1)
         spacing = min(room_wide / WIDTH, room_high / HEIGHT)
-        if int(spacing) >= max(LEAST_SPACING, WHOLE_SPACING * spacing):
+        if int(spacing) >= max(MIN_SPACING, WHOLE_SPACING * spacing):
             spacing = float(int(spacing))
         shrink = 1
-        while spacing * shrink < LEAST_SPACING:
+        while spacing * shrink < MIN_SPACING:
             shrink += 1
         size = max(round(WIDTH * spacing), 1), max(round(HEIGHT * spacing), 1)
         self._face = _face((width, height), size, rim, background, frame)
         self._place = ((width - size[0]) // 2, (height - size[1]) // 2)
         self._shape = _Shape(size[0] * shrink, size[1] * shrink)
-        self._table = _colors(color, background, small=spacing < LEAST_SPACING)
+        self._table = _colors(color, background, small=spacing < MIN_SPACING)
         self._size = size
         self._shown: Levels | None = None
 
