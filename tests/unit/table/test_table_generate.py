@@ -179,7 +179,7 @@ def test_a_finished_table_is_no_recipe():
 
 @pytest.mark.parametrize("seed", [-1, 1.5, "7", True])
 def test_a_seed_is_a_whole_number_from_0(seed):
-    with pytest.raises(TableError, match="must be a whole number from 0"):
+    with pytest.raises(TableError, match="must be an integer ≥ 0"):
         generate_table(seed)
 
 
