@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.players import PlayerKind
 from silverball.players.rollout import play
-from silverball.table import check, generate_table, load_table
+from silverball.table import generate_table, load_table
 from silverball.world import WorldBatch
 
 PLACES = 20  # at which a ball is dropped on each board
@@ -48,7 +47,3 @@ def test_this_check_can_fail_where_a_cup_holds_the_ball():
         update={"slant_wall": tuple(wall.model_copy(update={"start": a, "end": b}) for a, b in sides)}
     )
     assert balls_left([cup]) > 0
-
-
-def test_the_table_and_the_physics_speak_of_the_same_hop():
-    assert (check.HOP, check.HOP_SHARE) == (HOP, HOP_SHARE)

@@ -221,7 +221,7 @@ def test_a_recipe_that_makes_boards_of_few_seeds_only_is_refused_before_anybody_
     assert not good[-1]
     assert good == sorted(good, reverse=True), "the more obstacles, the less room"
     message = check_table(crowded[-1])[0].message
-    assert "could not be kept" in message
+    assert "could not be met" in message
     assert "enlarge random.area" in message
 
 

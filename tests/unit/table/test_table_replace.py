@@ -99,7 +99,7 @@ def test_what_cannot_be_is_refused_in_the_words_of_the_file(why: str) -> None:
 
 def test_a_recipe_that_makes_no_board_is_refused() -> None:
     (problem,) = refusal(RECIPE, random={"gap": 5.0, "cylinders": 32})
-    assert problem.startswith("random.gap: could not be kept at 5 u")
+    assert problem.startswith("random.gap: could not be met at 5 u")
 
 
 def test_the_same_change_in_a_file_is_refused_with_the_same_words() -> None:
