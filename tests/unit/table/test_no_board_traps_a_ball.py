@@ -1,4 +1,4 @@
-"""Does every ball leave by itself? Balls dropped on boards with idle paddles, until all are in the gutter."""
+"""Every ball drains by itself: balls dropped on boards with idle paddles, until all are in the gutter."""
 
 from __future__ import annotations
 

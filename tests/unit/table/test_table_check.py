@@ -1,4 +1,4 @@
-"""Does `check_table` find what makes a table unplayable, and nothing else?"""
+"""`check_table` finds what makes a table unplayable, and nothing else."""
 
 import math
 import time

@@ -1,4 +1,4 @@
-"""Do tables survive the way to a file and back, and are bad files refused in one clear sentence?"""
+"""Tables are equal after saving and loading, and bad files are refused in one clear sentence."""
 
 import math
 import os

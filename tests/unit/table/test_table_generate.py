@@ -1,4 +1,4 @@
-"""Does a seed make one board everywhere, and does every board keep the rules?"""
+"""A seed makes the same board everywhere, and every board meets the rules."""
 
 import math
 import subprocess
