@@ -4,8 +4,8 @@
 
 Each is a valid file with changed bytes, lines, numbers, keys or types, or with a hostile recipe or mesh. File
 n of a seed is always the same. A table or a `TableError` is right. Wrong, and listed, are any other
-exception, a control character in a message, more than 5 s, more than 200 MB beyond the process itself, a world
-that stops with a fault, and a recipe that loads but makes no board.
+exception, a control character in a message, more than 5 s, more than 200 MB beyond the process itself, a
+world that stops with a fault, and a recipe that loads but makes no board.
 """
 
 from __future__ import annotations

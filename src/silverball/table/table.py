@@ -110,7 +110,7 @@ class Table(Model):
 
         Args:
             **changes: New values by the names of the fields. A dict changes the fields that it names in the
-                model that is there, such as ``board={"gravity": 12}``, at any depth. A model, a list of parts
+                model that is there, at any depth: ``board={"gravity": 12}``. A model, a list of parts
                 or any other value takes the place of the old one. Parts may be models or dicts.
 
         Returns:
@@ -203,6 +203,8 @@ def _plain_data(value: Any) -> Any:
     """Models, also in lists, as the data of a file."""
     if isinstance(value, BaseModel):
         return value.model_dump(exclude_defaults=True)
+    if isinstance(value, Mapping):
+        return {key: _plain_data(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain_data(item) for item in value]
     return value

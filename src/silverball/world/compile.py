@@ -111,6 +111,30 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
     )
 
 
+def compile_parts(table: Table) -> NDArray[Any]:
+    """Return the COLLIDER records of a finished table in the order of `part_names`, without its grid.
+
+    Raises:
+        TableError: A part has no extent, or two paddles are on one side.
+    """
+    _refuse_degenerate(table)
+    rows = records(Part.FIRST_SHAPE + len(table.standing_parts), COLLIDER)
+    rows["speed_factor"] = 1.0
+    _set_borders(rows, table.board)
+    paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
+    for number, side in PADDLES:
+        _set_paddle(rows[number], paddles.get(side))
+    for row, part in zip(rows[Part.FIRST_SHAPE :], table.standing_parts, strict=True):
+        if isinstance(part, SlantWall):
+            _set_slant_wall(row, part, table.board)
+        elif isinstance(part, TriangularPrism):
+            _set_prism(row, part)
+        else:
+            _set_cylinder(row, part)
+        _set_surface(row, part)
+    return rows
+
+
 def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
     kinds = ("slant_wall", "triangular_prism", "cylinder")
@@ -205,30 +229,6 @@ def _search_time(board: Any) -> float:
     return min(math.sqrt(board["skin"] / max(board["steepest"], TINY)), LONGEST_SEARCH)
 
 
-def compile_parts(table: Table) -> NDArray[Any]:
-    """Return the COLLIDER records of a finished table in the order of `part_names`, without its grid.
-
-    Raises:
-        TableError: A part has no extent, or two paddles are on one side.
-    """
-    _refuse_nonsense(table)
-    rows = records(Part.FIRST_SHAPE + len(table.standing_parts), COLLIDER)
-    rows["speed_factor"] = 1.0
-    _set_borders(rows, table.board)
-    paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
-    for number, side in PADDLES:
-        _set_paddle(rows[number], paddles.get(side))
-    for row, part in zip(rows[Part.FIRST_SHAPE :], table.standing_parts, strict=True):
-        if isinstance(part, SlantWall):
-            _set_slant_wall(row, part, table.board)
-        elif isinstance(part, TriangularPrism):
-            _set_prism(row, part)
-        else:
-            _set_cylinder(row, part)
-        _set_surface(row, part)
-    return rows
-
-
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
     row["kind"] = Kind.SLANT_WALL
     _set_side(row, 0, wall.start, wall.end)
@@ -252,12 +252,12 @@ def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
     row["reach"] = row["radius"]
 
 
-def _refuse_nonsense(table: Table) -> None:
+def _refuse_degenerate(table: Table) -> None:
     """Refuse parts without an extent and paddles on one side, which only a table made in Python can have."""
     problems = []
     sides = [paddle.side for paddle in table.paddle]
     if len(set(sides)) < len(sides):
-        problems.append(Problem("paddle", f"there can be one paddle a side, got {', '.join(sides)}"))
+        problems.append(Problem("paddle", f"there can be one paddle per side, got {', '.join(sides)}"))
     for index, wall in enumerate(table.slant_wall):
         if wall.start == wall.end:
             problems.append(Problem(f"slant_wall[{index}]", "must have two different ends"))

@@ -46,7 +46,9 @@ def test_a_model_takes_the_place_of_the_old_one() -> None:
 def test_a_section_can_be_taken_away_and_added() -> None:
     bare = RECIPE.replace(random=None)
     assert bare.random is None
-    assert bare.replace(random={"cylinders": 1}).random == sb.parts.RandomRecipe(cylinders=1)
+    surface = sb.parts.PrismSurface(points=7)
+    recipe = bare.replace(random={"cylinders": 1, "prism": surface}).random
+    assert recipe == sb.parts.RandomRecipe(cylinders=1, prism=surface)
 
 
 @pytest.mark.parametrize("name", sb.table_names())

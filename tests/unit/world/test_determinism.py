@@ -1,6 +1,7 @@
 """The same games give the same bits, however they are run.
 
-A ladder of ways to run them, from the most similar to the most different. On every rung there are several boards, two balls, random paddles and jitter (see `scenes.py`).
+A ladder of ways to run them, from the most similar to the most different. On every rung there are several
+boards, two balls, random paddles and jitter (see `scenes.py`).
 """
 
 from __future__ import annotations
