@@ -14,7 +14,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from boards import CONTACTS, edited, full_table, launched, mirrored, moment, place, speed_of
-from silverball.hop import HOP, HOP_SHARE
+from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.table import SlantWall, Table, generate_table
 from silverball.world import World
 from spinning import Spin, energy, spinning

@@ -23,11 +23,10 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from silverball.hop import HOP, HOP_SHARE
 from silverball.physics.friction import rub_balls, rub_surface
 from silverball.physics.kernel import inlined, internal
 from silverball.physics.records import Contact
-from silverball.physics.tolerances import CAP_MARGIN, LEAST_HOP
+from silverball.physics.tolerances import CAP_MARGIN, HOP, HOP_SHARE, LEAST_HOP
 
 
 @inlined

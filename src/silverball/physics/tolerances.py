@@ -15,10 +15,18 @@ POLISH_TIME = 1e-7
 flight by less than 1e-11 u. Longer: a flat graze would be thrown past the surface it touches. Shorter: slow
 hits lose digits."""
 
+HOP = 5e-4
+"""[u] Height of the hop that a touch leaves at least, so that a resting ball does not bounce ever faster.
+Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: nobody sees it.
+Smaller: more events for a ball at rest. Larger: a ball at rest is seen to tremble. Source: chosen."""
+
 LEAST_HOP = 1e-9
 """[u/s] And at least this speed: where nothing pulls, a ball that has lost its speed towards a wall must not
 be left with a rounding of it, or it would meet the wall without end. Roundings reach 1e-14 u/s. Smaller: it
 would. Larger: energy grows by half its square a touch."""
+
+HOP_SHARE = 0.9
+"""A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
 
 LEAST_ADVANCE_GAP = 2e-10
 """[u] A search that can find no step forward advances at least by the time in which the greatest

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.hop import HOP, HOP_SHARE
+from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.table.geometry import (
     BORDER_NAMES,
     Floats,

@@ -23,8 +23,8 @@ from boards import (
     speed_of,
     table_of,
 )
-from silverball.hop import HOP
 from silverball.physics.audit import deepest
+from silverball.physics.tolerances import HOP
 from silverball.table import Cylinder, Paddle, SlantWall, Table, TriangularPrism
 from silverball.world import World
 

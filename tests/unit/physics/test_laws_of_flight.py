@@ -8,7 +8,7 @@ import math
 import pytest
 
 from boards import LEFT, PADDLES, RIGHT, first_contact, launched, moment, place, speed_of, table_of
-from silverball.hop import HOP
+from silverball.physics.tolerances import HOP
 from silverball.table import Board, Cylinder, Paddle, SlantWall, TriangularPrism
 from silverball.world import World
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from boards import RANDOM
 from silverball.errors import TableError
-from silverball.hop import HOP
+from silverball.physics.tolerances import HOP
 from silverball.table import (
     Board,
     Cylinder,
