@@ -191,7 +191,7 @@ def test_standard_input_and_nothing_are_refused(refused, reader, name):
 
 def test_a_pipe_says_what_to_do(refused):
     os.mkfifo("from-another-program.toml")
-    assert "save what comes from it" in refused("check", "from-another-program.toml")
+    assert "save its output to a file" in refused("check", "from-another-program.toml")
     assert "save it to a file" in refused("check", "-")
 
 

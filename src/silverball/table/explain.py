@@ -1,9 +1,8 @@
-"""How does a mistake in a table file become advice that a person can follow?
+"""Error messages of table files: from pydantic's errors to problems with a path and a remedy.
 
-pydantic finds the mistakes; this module turns each into a `Problem` with its path as it stands in the
-file (``triangular_prism[2].vertices``) and a sentence that says what was expected and what was given.
-An unknown key gets the key that was probably meant: a misspelled one, the trade's word for ours, or
-one that belongs in another section.
+Each mistake becomes a `Problem` with its path in the file (``triangular_prism[2].vertices``) and a sentence
+that says what was expected and what was given. An unknown key gets a suggestion: the key that is spelled
+alike, our name for another word of pinball, or the section to which it belongs.
 """
 
 from __future__ import annotations
@@ -19,9 +18,9 @@ from silverball.errors import Problem
 from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
 from silverball.table.quantity import shown
 
-LISTED = 100  # mistakes that are spelt out; chosen: more than anybody mends at once
+LISTED = 100  # mistakes that are listed; chosen: more than a person fixes at once
 
-# Other people's words, and ours. The first of several that the section knows is suggested.
+# Other words for the keys of a table file; the first key that the section has is suggested.
 SYNONYMS: dict[str, tuple[str, ...]] = {
     "angle": ("rotation", "rest_angle", "slope"),
     "ball": ("board",),
@@ -73,7 +72,7 @@ _BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}\Z")
 
 
 def path_of(location: tuple[str | int, ...]) -> str:
-    """The place in the file as people write it: ``triangular_prism[2].vertices``."""
+    """Return the path of a place in the file: ``triangular_prism[2].vertices``."""
     path = ""
     for step in location:
         if isinstance(step, int):
@@ -99,7 +98,7 @@ def explain(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
 
 
 def _message(detail: dict[str, Any], root: type[BaseModel]) -> str:
-    """One sentence for one of pydantic's error details."""
+    """Return a sentence for one of pydantic's error details."""
     location, given, context = detail["loc"], shown(detail["input"]), detail.get("ctx", {})
     match detail["type"]:
         case "silverball":
@@ -135,7 +134,7 @@ def _description(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
 
 
 def _model_at(location: tuple[str | int, ...], root: type[BaseModel]) -> type[BaseModel]:
-    """The model whose keys stand at a place in the file."""
+    """The model of a section of the file."""
     model = root
     for step in location:
         if isinstance(step, str) and step in PART_KINDS and model is root:
@@ -155,7 +154,7 @@ def _section(model: type[BaseModel], key: str) -> type[BaseModel]:
 
 
 def _unknown_key(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
-    """What was probably meant by a key that is not known here."""
+    """Return a suggestion for a key that the section does not have."""
     key = str(location[-1])
     known = list(_model_at(location[:-1], root).model_fields)
     word = key.lower().replace("-", "_")
@@ -175,5 +174,5 @@ def _unknown_key(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
             return f"unknown key: `{word}` belongs in [{section}]"
     for section, part in PART_KINDS.items():
         if word in part.model_fields and location[0] not in (section, "random"):
-            return f"unknown key: `{word}` belongs in a part, such as [[{section}]]"
+            return f"unknown key: `{word}` belongs in a part, for example [[{section}]]"
     return f"unknown key: known here are {', '.join(known)}"

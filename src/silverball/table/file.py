@@ -1,11 +1,11 @@
-"""How does a table get from a file into the program, and back?
+"""Table files: loading, saving and hashing tables.
 
-`load_table` takes the name of a built-in table or the path of a TOML file and either returns a table
-that has passed every check, or raises one `TableError` with all the problems at once. `save_table`
-writes only what differs from the defaults, so that files stay short and changes show in a diff; a
-saved table loads as an equal one. A file is data: it is parsed, bounded in size and never executed.
+`load_table` takes the name of a built-in table or the path of a TOML file. It returns a table that has passed
+every check, or raises one `TableError` with all problems. `save_table` writes only what differs from the
+defaults, so files stay short; a saved table loads as an equal one. A file is data: it is parsed, bounded in
+size and never executed.
 
-Something is a path when it is a `Path`, ends in ``.toml`` or contains a separator; else it is a name.
+A string is a path if it ends in ``.toml`` or contains a separator; else it is the name of a built-in table.
 """
 
 from __future__ import annotations
@@ -33,7 +33,13 @@ SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a t
 
 
 def table_names() -> tuple[str, ...]:
-    """The names of the built-in tables, in alphabetical order."""
+    """Return the names of the built-in tables, in alphabetical order.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.table_names()
+        ('classic', 'original', 'random', 'rolling')
+    """
     folder = resources.files("silverball.table") / "tables"
     return tuple(sorted(entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")))
 
@@ -50,6 +56,16 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
     Raises:
         UnknownTable: No built-in table has this name.
         TableError: The file cannot be read or has problems; all of them are in `problems`.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.load_table("classic").board.gravity
+        10.0
+        >>> sb.load_table("clasic")
+        Traceback (most recent call last):
+        ...
+        silverball.errors.UnknownTable: clasic: 1 problem
+          there is no built-in table of this name: did you mean "classic"? ...
     """
     text = os.fspath(name_or_path) or NOTHING
     if isinstance(name_or_path, str) and not _looks_like_path(text):
@@ -60,12 +76,12 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
 
 
 def parse_table(text: str, source: str = "table", *, folder: Path | None = None) -> Table:
-    """Make a table of TOML text, with every check that a file gets.
+    """Make a table from TOML text, with every check that a file gets.
 
     Args:
         text: The text of a table file.
         source: What to call it in messages: a path or a name.
-        folder: Where the meshes that it names are looked for; the current folder if not given.
+        folder: Where its meshes are looked for; the current folder by default.
 
     Raises:
         TableError: The text has problems; all of them are in `problems`.
@@ -74,14 +90,21 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
 
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:
-    """Write a table to a file; what was there stays as it was if anything goes wrong.
+    """Write a table to a file, or leave what was there unchanged if anything goes wrong.
 
     Args:
         table: The table to write.
-        path: Where to; it ends in ``.toml``, as a path for `load_table` does.
+        path: The path of the file, ending in ``.toml``.
 
     Raises:
         OutputError: The file cannot be written; the message says why.
+
+    Example:
+        >>> import silverball as sb
+        >>> heavy = sb.load_table("classic").replace(name="Heavy", board={"gravity": 12})
+        >>> sb.save_table(heavy, "heavy.toml")
+        >>> sb.load_table("heavy.toml") == heavy
+        True
     """
     target = Path(os.path.realpath(path))
     if target.suffix != ".toml":
@@ -96,7 +119,7 @@ def save_table(table: Table, path: str | os.PathLike[str]) -> None:
 
 
 def dump_table(table: Table) -> str:
-    """The text of a table file: one key a line, one block a part, only what differs from the defaults."""
+    """Return the text of a table file: one key per line, one block per part, without defaults."""
     blocks = ["\n".join([f"format = {table.format}", f"name = {_literal(table.name)}"])]
     if table.board != Board():
         blocks.append(_block("[board]", table.board))
@@ -110,11 +133,14 @@ def dump_table(table: Table) -> str:
 
 
 def table_digest(table: Table) -> str:
-    """A stable hex string (SHA-256) of everything the table says, defaults included.
+    """Return a SHA-256 of all values of a table, defaults included, as a hex string.
 
-    Equal tables have equal digests, on any machine and in any process; a mesh counts by its footprint.
+    Equal tables have equal digests, on any machine and in any process. A mesh counts by its footprint.
+
+    Raises:
+        TableError: A mesh cannot be read.
     """
-    unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as before there was this section
+    unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as it was before there was this section
     text = json.dumps(
         table.resolved().model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":")
     )
@@ -123,7 +149,7 @@ def table_digest(table: Table) -> str:
 
 @functools.cache
 def _built_in(name: str) -> Table:
-    """A built-in table, read and checked once: tables never change."""
+    """Read and check a built-in table, once: tables are immutable."""
     entry = resources.files("silverball.table") / "tables" / f"{name}.toml"
     return parse_table(entry.read_text(encoding="utf-8"), name)
 
@@ -142,7 +168,7 @@ def _no_such_name(name: str) -> str:
 
 
 def _read(path: str) -> str:
-    """The text of a table file, or a `TableError` that says in one sentence why there is none."""
+    """Return the text of a table file, or raise a `TableError` that says why there is none."""
     try:
         return read_text(path, SIZE_LIMIT, "a table file")
     except Unreadable as error:
@@ -166,19 +192,19 @@ def _parse_toml(text: str, source: str) -> dict[str, Any]:
 
 
 def _block(head: str, model: BaseModel) -> str:
-    """One section: its head, then the keys whose values differ from the defaults; places come first."""
+    """One section: its header, then the keys whose values differ from the defaults, positions first."""
     values = model.model_dump(exclude_defaults=True)
-    own = type(model).__annotations__  # what a part adds to its surface says where it is
+    own = type(model).__annotations__  # a part adds its position to the fields of its surface
     keys = sorted(values, key=lambda key: (key != "name", key not in own))
     return "\n".join([head, *(f"{key} = {_literal(values[key])}" for key in keys)])
 
 
 def _literal(value: Any) -> str:
-    """A value as TOML on one line (tomli_w would give every number of a list its own)."""
+    """A value as TOML on one line; tomli_w would put every number of a list on its own line."""
     if isinstance(value, tuple | list):
         return "[" + ", ".join(_literal(item) for item in value) + "]"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {_literal(item)}" for key, item in value.items()) + " }"
     text = tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
-    # A file that is printed must not steer the terminal; tomli_w writes only what TOML demands as escapes.
+    # A printed file must not control the terminal; tomli_w escapes only what TOML demands.
     return "".join(letter if plain(letter) == letter else f"\\U{ord(letter):08x}" for letter in text)

@@ -64,7 +64,7 @@ class Table(Model):
     format: Annotated[Literal[1], BeforeValidator(_known_format)] = FORMAT
     """The version of the file format."""
     name: Name = "Untitled"
-    """What people call it."""
+    """The title of the table."""
     board: Board = Board()
     """The board and its borders."""
     slant_wall: Annotated[tuple[SlantWall, ...], Field(max_length=PARTS_LIMIT)] = ()
@@ -76,7 +76,7 @@ class Table(Model):
     cylinder: Annotated[tuple[Cylinder, ...], Field(max_length=PARTS_LIMIT)] = ()
     """The cylinders."""
     random: RandomRecipe | None = None
-    """What to place afresh for every seed, if anything."""
+    """The obstacles to place at random for each seed, if any."""
     arcade: Arcade = Arcade()
     """The rules of an arcade game."""
 
@@ -110,7 +110,7 @@ class Table(Model):
 
         Args:
             **changes: New values by the names of the fields. A dict changes the fields that it names in the
-                model that is there, such as ``board={"gravity": 12}``, at any depth. A model, a list of parts
+                model that is there, at any depth: ``board={"gravity": 12}``. A model, a list of parts
                 or any other value takes the place of the old one. Parts may be models or dicts.
 
         Returns:
@@ -167,7 +167,7 @@ def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = No
         layout: Layout | None = Layout.of(table)
     except ValidationError as error:
         problems += explain(error, Table)
-        layout = _what_is_left(data, error)
+        layout = _valid_layout(data, error)
     if layout is not None:
         layout, footprint_problems = _with_footprints(layout, folder or Path())
         problems += footprint_problems
@@ -203,13 +203,15 @@ def _plain_data(value: Any) -> Any:
     """Models, also in lists, as the data of a file."""
     if isinstance(value, BaseModel):
         return value.model_dump(exclude_defaults=True)
+    if isinstance(value, Mapping):
+        return {key: _plain_data(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain_data(item) for item in value]
     return value
 
 
-def _what_is_left(data: Mapping[str, Any], error: ValidationError) -> Layout | None:
-    """The parts without mistakes, under their own paths, so that they can be checked all the same.
+def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | None:
+    """The layout of the valid parts, under their own paths, so that they are checked too.
 
     None if the board itself cannot be measured.
     """
@@ -217,8 +219,8 @@ def _what_is_left(data: Mapping[str, Any], error: ValidationError) -> Layout | N
     if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
         return None
     bad_keys = {place[1] for place in broken if place[0] == "board"}
-    # Each key that is left is good, but perhaps not beside the default of one that is not (`rolling` needs
-    # `friction`): the board is put together without being validated again.
+    # Each remaining key is valid, but perhaps not together with the default of an invalid one (`rolling`
+    # needs `friction`), so the board is built without validation.
     board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
     left: dict[str, list[tuple[str, Any]]] = {}
     for kind, model in PART_KINDS.items():
@@ -237,7 +239,7 @@ def _what_is_left(data: Mapping[str, Any], error: ValidationError) -> Layout | N
 
 
 def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
-    """The layout with every mesh replaced by its footprint; parts whose mesh is no good are left out."""
+    """The layout with every mesh replaced by its footprint, without the parts whose mesh is unusable."""
     problems: list[Problem] = []
     known: dict[tuple[type, str], _MeshPart | TableError] = {}  # a file that many parts name is read once
 
@@ -245,9 +247,7 @@ def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem
         assert part.mesh is not None
         key = (type(part), part.mesh)
         if key not in known and len(known) >= MESHES_LIMIT:
-            message = (
-                f"is one mesh too many: a table reads at most {MESHES_LIMIT}: give its footprint instead"
-            )
+            message = f"is one mesh too many: a table has at most {MESHES_LIMIT}: give its footprint instead"
             return TableError(part.mesh, [Problem("mesh", message)])
         if key not in known:
             try:

@@ -11,36 +11,42 @@ from numpy.typing import ArrayLike, NDArray
 LARGEST_SEED = 2**63 - 1
 
 Index = int | slice | Sequence[int] | ArrayLike | None
-"""Which worlds: None (all), one number, a slice, numbers, or a mask bool [world]."""
+"""Which worlds: None (all), one number, a slice, a list of numbers, or a mask bool [world]."""
 
 
 def checked_int(name: str, value: Any, least: int, greatest: int) -> int:
-    """The value as an int, if it is a whole number in the range; else a ValueError that says so."""
+    """Return an argument as an int.
+
+    Raises:
+        ValueError: It is not an integer, or out of range.
+    """
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
-        raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
+        raise ValueError(f"{name} must be an integer from {least} to {greatest}, got {value!r}")
     return int(value)
 
 
 def checked_seeds(seed: int | Sequence[int], count: int) -> list[int]:
-    """The seeds of some worlds: seed, seed + 1, … for a number, or one seed each."""
+    """Return the seeds of some worlds: seed, seed + 1, … for an integer, or the given ones.
+
+    Raises:
+        ValueError: A seed is invalid, or there is not one for each world.
+    """
     if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
         first = checked_int("seed", seed, 0, LARGEST_SEED - count + 1)
         return [first + index for index in range(count)]
     if isinstance(seed, (bool, float, str)) or seed is None:
-        raise ValueError(
-            f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}"
-        )
+        raise ValueError(f"seed must be an integer from 0 to 2⁶³ − 1, or one for each world, got {seed!r}")
     seeds = [checked_int("seed", value, 0, LARGEST_SEED) for value in seed]
     if len(seeds) != count:
-        raise ValueError(f"seed must be one number or {count} of them, one for each world, got {len(seeds)}")
+        raise ValueError(f"seed must be one integer or {count} of them, one for each world, got {len(seeds)}")
     return seeds
 
 
 def resolve_index(index: Index, count: int) -> slice | NDArray[np.int64]:
-    """The rows that an index means among `count`, checked: a slice, or numbers from 0 to count − 1.
+    """Return the rows that an index chooses among `count`: a slice, or numbers from 0 to count − 1.
 
     Raises:
-        ValueError: It is no index, or out of range; slices end at the last row, as everywhere in Python.
+        ValueError: The index has a wrong type or shape, or is out of range; a slice never is.
     """
     if index is None:
         return slice(0, count)
@@ -60,7 +66,7 @@ def resolve_index(index: Index, count: int) -> slice | NDArray[np.int64]:
         return np.empty(0, np.int64)
     if rows.dtype.kind not in "iu" or rows.ndim > 1:
         raise ValueError(
-            f"index must be None, a whole number, a slice, a list of whole numbers or a mask, got {index!r}"
+            f"index must be None, an integer, a slice, a list of integers or a mask, got {index!r}"
         )
     if rows.ndim == 0:
         return slice(row := checked_row(int(rows), count), row + 1)
@@ -71,7 +77,11 @@ def resolve_index(index: Index, count: int) -> slice | NDArray[np.int64]:
 
 
 def checked_row(row: int, count: int) -> int:
-    """A row of `count`, counted from the end if negative."""
+    """Return the row that a number chooses among `count`; negative numbers count from the end.
+
+    Raises:
+        ValueError: It is out of range.
+    """
     if not -count <= row < count:
         raise ValueError(f"index {row} is out of range: there are {count} worlds")
     return row % count

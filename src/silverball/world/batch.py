@@ -1,8 +1,8 @@
-"""Many worlds moved by one call: `WorldBatch`, on all cores.
+"""Many worlds that move together, on all cores: `WorldBatch`.
 
-A batch holds one flat record per world; world i of a batch with seed s is, bit for bit, the single world
-with seed s + i at the same tick rate. Slices of worlds go to threads (the kernels hold no lock), which cannot
-change a bit, since no world reads another.
+A batch holds one flat record per world. World i of a batch with seed s is, bit for bit, the single world with
+seed s + i at the same tick rate. Slices of worlds run on threads (the kernels release the interpreter lock);
+the number of threads never changes a result, because no world reads another.
 """
 
 from __future__ import annotations
@@ -17,31 +17,45 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import LOG, WORLD, BatchGeometry, Fault, Lanes, Outcome, Part, records
+from silverball.physics.records import LOG, BatchGeometry, Fault, Lanes, Outcome, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
-from silverball.world import saved_world as states
+from silverball.world import saved_world
 from silverball.world.arguments import Index, checked_int, checked_row, checked_seeds
-from silverball.world.compile import Boards, compile_tables
+from silverball.world.compile import Boards, blank_worlds, compile_tables
 from silverball.world.events import Event, read_events
-from silverball.world.snapshot import Snapshot, put_back, taken
+from silverball.world.snapshot import Snapshot, gather, scatter
 from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
-LEAST_SLICE = 512  # world-ticks below which a slice costs more to hand out than to run
-PIECE_WORK = 2**16  # world-ticks a thread: Python hears of Ctrl-C between two pieces, which take some 50 ms
+SMALLEST_SLICE = 512  # world-ticks; a smaller slice costs more to hand out than to run
+CHUNK = 2**16  # world-ticks per thread and call, some 50 ms; Python notices Ctrl-C between two calls
 
 
 class WorldBatch:
     """Thousands of worlds, each with its own state and, if wanted, its own table.
 
     Attributes:
-        state: WORLD records, shape [world]: everything that changes. Copies of rows continue exactly.
-        boards: The compiled tables.
-        board_of: The board of each world, shape [world].
-        tables: The finished table of each board.
-        tallies: Hits of every part since the batch was made, shape [world, part]. Statistics, not state.
-        logs: LOG records, shape [world]: what happened in the last step.
+        count: The number of worlds.
+        tick_rate: Ticks per second.
+        threads: The number of threads that `step` may use.
+        state: WORLD records, shape [world]: everything that changes. A copy of a row continues exactly.
+        tables: The finished tables; worlds on the same table share one.
+        board_of: The number of each world's table in `tables`, int64 [world].
+        tallies: Hits of every part since the batch was made, int64 [world, part]; statistics, not state.
+            `part_numbers` says which column is whose.
+        boards: The compiled tables, for kernels (see `silverball.world.compile`).
+        logs: LOG records, shape [world], for kernels; `events` reads them.
+
+    Example:
+        >>> import numpy as np, silverball as sb
+        >>> batch = sb.WorldBatch("classic", count=1000)
+        >>> created = batch.create_balls()
+        >>> actions = np.zeros((1000, 3), bool)
+        >>> actions[:500, 0] = True  # the left button, in the first 500 worlds
+        >>> batch.step(actions, ticks=240)
+        >>> set(batch.state["tick"].tolist()), batch.state["score"].shape
+        ({240}, (1000,))
     """
 
     def __init__(
@@ -57,31 +71,45 @@ class WorldBatch:
         Args:
             table: One table for all worlds, or one each. From a recipe (a table with a `[random]` section)
                 every world gets a board of its own, made with its own seed.
-            count: How many worlds.
+            count: The number of worlds, 1 to 4,194,304.
             seed: World i gets seed + i; or one seed each. 0 to 2⁶³ − 1.
-            tick_rate: Ticks per second, 10 to 100,000. 240 plays finely; 60 is enough for agents.
-            threads: How many threads `step` may use; None: one for each core. It never changes a result.
+            tick_rate: Ticks per second, 10 to 100,000. 60 is enough for agents, and four times as fast.
+            threads: The number of threads that `step` may use; None: one for each core.
 
         Raises:
-            ValueError: A count, seed, tick rate or number of tables that cannot be.
-            TableError: A file has problems, or parts that make no sense. A table made in Python is otherwise
-                taken as it is: `check_table` tells what is wrong with it.
+            ValueError: A count, seed, tick rate, or the number of tables or seeds is invalid.
+            TableError: A file has problems, or a part has no extent. A table made in Python is otherwise
+                not checked; `check_table` lists what is wrong with it.
         """
-        self.count = checked_int("count", count, 1, 2**22)
-        self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
-        self.threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
-        seeds = checked_seeds(seed, self.count)
-        self.tables, self.board_of = _finished(table, seeds, self.count)
-        self.boards: Boards = compile_tables(self.tables)
-        self.state: NDArray[Any] = records(self.count, WORLD)
-        self.state["seed"] = seeds
+        count = checked_int("count", count, 1, 2**22)
+        tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
+        threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
+        seeds = checked_seeds(seed, count)
+        tables, board_of = _finished(table, seeds, count)
+        boards = compile_tables(tables)
+        state = blank_worlds(boards, board_of)
+        state["seed"] = seeds
+        self._hold(tables, boards, state, board_of, tick_rate, threads)
+
+    def _hold(
+        self,
+        tables: tuple[Table, ...],
+        boards: Boards,
+        state: NDArray[Any],
+        board_of: NDArray[np.int64],
+        tick_rate: int,
+        threads: int,
+    ) -> None:
+        """Set every attribute: worlds with these records, WORLD [world], on these boards [world]."""
+        self.count = len(state)
+        self.tick_rate = tick_rate
+        self.threads = threads
+        self.tables = tables
+        self.boards = boards
+        self.board_of = board_of
+        self.state = state
         self.logs: NDArray[Any] = records(self.count, LOG)
-        self.tallies = np.zeros((self.count, max(len(names) for names in self.boards.names)), np.int64)
-        first = self.boards.board["collider_first"][self.board_of]
-        for side, part in enumerate((Part.LEFT_PADDLE, Part.RIGHT_PADDLE)):
-            rest = self.boards.collider["angle_rest"][first + part]
-            self.state["paddle"]["angle"][:, side] = rest
-            self.state["paddle"]["angle_commanded"][:, side] = rest
+        self.tallies = np.zeros((self.count, max(len(names) for names in boards.names)), np.int64)
 
     def __repr__(self) -> str:
         return f"<WorldBatch of {self.count} at {self.tick_rate} ticks/s on {len(self.tables)} board(s)>"
@@ -101,18 +129,18 @@ class WorldBatch:
         return BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
 
     def step(self, actions: ArrayLike, ticks: int = 1) -> None:
-        """Move every world on.
+        """Advance every world by a number of ticks.
 
-        Ctrl-C ends a long call within a fraction of a second. All worlds then stand at the end of the same
-        tick, as after a shorter call (no batch is stopped within a tick, however many worlds it has).
+        Ctrl-C ends a long call within a fraction of a second; all worlds then stand at the end of the same
+        tick, as after a shorter call.
 
         Args:
-            actions: bool [world, 3]: left, right, jitter, held for all ticks with one shove on the first;
-                or [ticks, world, 3], one row for every tick. For example `np.zeros((count, 3), bool)`.
-            ticks: How many ticks.
+            actions: bool [world, 3]: left, right, jitter. The buttons are held for all ticks, the jitter
+                comes on the first. Or bool [ticks, world, 3], one row for every tick.
+            ticks: The number of ticks, 0 or more.
 
         Raises:
-            ValueError: The shape of the actions does not fit, or ticks is not a whole number of at least 0.
+            ValueError: The shape of the actions is wrong, or ticks is not an integer ≥ 0.
         """
         ticks = checked_int("ticks", ticks, 0, 2**40)
         held = np.ascontiguousarray(actions, np.bool_)
@@ -126,9 +154,15 @@ class WorldBatch:
         self.step_unchecked(held, ticks)
 
     def step_unchecked(self, held: NDArray[np.bool_], ticks: int) -> None:
-        """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
-        if ticks > 1 and ticks > (piece := PIECE_WORK * self.threads // self.count or 1):
-            self._run_pieces(held, ticks, piece)
+        """Do what `step` does without its checks.
+
+        Args:
+            held: The actions, a C-contiguous bool array [1 or ticks, world, 3].
+            ticks: The number of ticks; a negative one continues the call before: events are kept, and a
+                single row shoves no ball again.
+        """
+        if ticks > 1 and ticks > (chunk := CHUNK * self.threads // self.count or 1):
+            self._step_in_chunks(held, ticks, chunk)
             return
         lanes = Lanes(self.state, self.board_of, self.logs, self.tallies)
         geometries = BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
@@ -137,20 +171,25 @@ class WorldBatch:
             self.count * abs(ticks),
         )
 
-    def _run_pieces(self, held: NDArray[np.bool_], ticks: int, piece: int) -> None:
-        for begun in range(0, ticks, piece):
-            end = min(begun + piece, ticks)
-            rows = held if len(held) == 1 else held[begun:end]
+    def _step_in_chunks(self, held: NDArray[np.bool_], ticks: int, chunk: int) -> None:
+        for start in range(0, ticks, chunk):
+            end = min(start + chunk, ticks)
+            rows = held if len(held) == 1 else held[start:end]
             if len(rows) < len(held) and len(rows) == 1:
-                rows = rows.repeat(2, axis=0)  # a single row would be one that is held, without its jitter
-            self.step_unchecked(rows, end - begun if begun == 0 else begun - end)
+                rows = rows.repeat(2, axis=0)  # a single row would be held, and its jitter ignored
+            self.step_unchecked(rows, end - start if start == 0 else start - end)
 
     def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
-        """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays.
+        """Call task(first, end) for slices of the worlds, on threads if there is enough work.
 
-        An exception from outside, such as Ctrl-C, is raised when all slices are done.
+        An exception from outside, for example Ctrl-C, is raised when all slices are done.
+
+        Args:
+            task: A function that releases the interpreter lock, called with the first world and one past
+                the last.
+            work: The cost of all worlds [world-ticks].
         """
-        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // LEAST_SLICE)
+        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // SMALLEST_SLICE)
         if self.threads == 1 or slices < 2:
             task(0, self.count)
             return
@@ -158,13 +197,22 @@ class WorldBatch:
         run_on_threads(task, list(pairwise(edges)), self.threads)
 
     def create_balls(self, mask: ArrayLike | None = None) -> NDArray[np.bool_]:
-        """Create a ball in every world of the mask that has room for one.
+        """Create a ball at rest, at a random free place, in every chosen world that can take one.
 
         Args:
-            mask: bool [world]; None: all.
+            mask: Which worlds, bool [world]; None: all.
 
         Returns:
-            Where a ball was created, bool [world]. Never raises for want of room.
+            Where a ball was created, bool [world]. A world that has `max_balls`, no free place or a fault
+            stays as it is.
+
+        Raises:
+            ValueError: The mask has another shape.
+
+        Example:
+            >>> import silverball as sb
+            >>> sb.WorldBatch("classic", count=3).create_balls([True, False, True]).tolist()
+            [True, False, True]
         """
         wanted = np.ones(self.count, np.bool_) if mask is None else np.ascontiguousarray(mask, np.bool_)
         if wanted.shape != (self.count,):
@@ -185,7 +233,7 @@ class WorldBatch:
         return created
 
     def events(self, index: int) -> tuple[Event, ...]:
-        """What happened in one world, as `World.events` gives it.
+        """Return what happened in one world, as `World.events` does.
 
         Args:
             index: The number of the world, 0 to count − 1; negative numbers count from the end.
@@ -209,38 +257,45 @@ class WorldBatch:
         """Copy the state of some worlds, random generators included, for `restore`.
 
         Args:
-            index: Which worlds: None (all), a number, a slice, numbers, or a mask bool [world].
+            index: Which worlds: None (all), a number, a slice, a list of numbers, or a mask bool [world].
 
         Raises:
-            ValueError: The index is none, or out of range.
+            ValueError: The index is invalid or out of range.
         """
-        return taken(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
+        return gather(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
 
     def restore(self, snapshot: Snapshot, index: Index = None) -> None:
         """Go back to saved states, bit for bit; each world then stands on the table it was saved on.
 
-        The record i of the snapshot goes into the i-th world of the index, a single record into all of them:
-        ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches have the same random
-        generator, so the same actions lead to the same future; ``batch.state["seed"] = ...`` parts them. Logs
-        of these worlds are emptied, tallies stay. On any error nothing has changed. A record that somebody
-        has made impossible stops its world with a named fault in the next step.
+        Record i of the snapshot goes into the i-th chosen world, a single record into all of them:
+        ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches share the seed, so
+        the same actions lead to the same future until ``batch.state["seed"]`` is changed. The events of these
+        worlds are dropped, tallies stay. On any error nothing has changed. An impossible record stops its
+        world with a named fault in the next step.
 
         Args:
             snapshot: What `save` of this or another batch returned.
-            index: Which worlds: None (all), a number, a slice, numbers, or a mask bool [world].
+            index: Which worlds: None (all), a number, a slice, a list of numbers, or a mask bool [world].
 
         Raises:
             StateError: The snapshot has another tick rate, or a table that this batch does not have.
-            ValueError: The index is none, out of range, names a world twice, or has another length.
+            ValueError: The index is invalid, out of range, names a world twice, or has another length.
+
+        Example:
+            >>> import silverball as sb
+            >>> batch = sb.WorldBatch("classic", count=3)
+            >>> batch.restore(batch.save(0))
+            >>> len(set(batch.digests()))
+            1
         """
         digests, board_of = self.boards.digests, self.board_of
-        rows = put_back(snapshot, self.state, digests, board_of, self.tick_rate, index)
+        rows = scatter(snapshot, self.state, digests, board_of, self.tick_rate, index)
         for name in ("count", "lost", "carried", "done"):
             self.logs[name][rows] = 0
 
     def digests(self) -> list[str]:
-        """The digest of each world, as `World.digest` gives it; about half a microsecond each."""
-        return states.digests(self.state)
+        """Return the digest of each world, as `World.digest` does; about half a microsecond each."""
+        return saved_world.digests(self.state)
 
     def render(self, index: int = 0, height: int = 480, theme: str = "neon") -> NDArray[np.uint8]:
         """Draw one of the worlds as it is now, as `World.render` does.
@@ -273,7 +328,7 @@ def _create_balls(
     wanted: Any,
     outcomes: Any,
 ) -> None:
-    """Create a ball in each wanted world; write an Outcome for each."""
+    """Create a ball in each wanted world, and write an `Outcome` for each."""
     for index in range(len(worlds)):
         if wanted[index] and worlds[index].fault == Fault.NONE:
             board = boards[board_of[index]]
@@ -283,7 +338,7 @@ def _create_balls(
 def _finished(
     table: Table | str | os.PathLike[str] | Sequence[Table], seeds: list[int], count: int
 ) -> tuple[tuple[Table, ...], NDArray[np.int64]]:
-    """The distinct finished tables of a batch, and which world plays on which."""
+    """The distinct finished tables of a batch, and the number of each world's table, int64 [world]."""
     if isinstance(table, str | os.PathLike):
         table = load_table(table)
     if isinstance(table, Table):

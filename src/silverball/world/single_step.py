@@ -1,9 +1,9 @@
-"""How is a single world moved with one short call?
+"""The single-world fast path: one short call moves a world, in about a microsecond.
 
-Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
-addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
-there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
-types of the arguments again (`bind_types`), since they are always the same.
+Numba unpacks every argument at each call: seven arrays cost some 0.6 µs, more than the tick itself. So the
+addresses of a batch's arrays are stored once, in one small array, and the kernel makes views of the arrays
+from it. The owner of the addresses must keep the arrays alive. The types of the arguments never change, so
+Numba's dispatch on them is skipped as well (`bind_types`).
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ ADDRESSES = np.dtype(
 
 
 class SingleStepper:
-    """The one world of a batch, with all that moves it: these very arrays, none that take their place."""
+    """Steps the one world of a batch, in place, in the arrays that it was made with."""
 
     def __init__(
         self, boards: Boards, state: NDArray[Any], board_of: NDArray[np.int64], logs: NDArray[Any],
         tallies: NDArray[np.int64], tick: float,
     ) -> None:  # fmt: skip
-        """Write the addresses down; `tick` is the length of a tick [s]."""
+        """Store the addresses of the arrays; `tick` is the length of a tick [s]."""
         self._action = np.zeros((1, 1, 3), np.bool_)
         named: dict[str, NDArray[Any]] = {
             "world": state,
@@ -74,11 +74,19 @@ class SingleStepper:
         self._step: Callable[[Any, int, int], int] = self._first_step
 
     def __reduce__(self) -> Any:
-        """Refuse to be copied: the addresses are those of the original's arrays."""
+        """Refuse to be copied: a copy would hold the addresses of the original's arrays."""
         raise TypeError("SingleStepper holds addresses and cannot be copied; copy the World that owns it")
 
     def step(self, buttons: int, ticks: int) -> int:
-        """Move the world on with these buttons held, for ticks as `run_worlds` takes them; its fault."""
+        """Advance the world.
+
+        Args:
+            buttons: Bits LEFT, RIGHT and JITTER.
+            ticks: The number of ticks, as `run_worlds` takes it.
+
+        Returns:
+            The fault of the world, 0 for none.
+        """
         if SETTINGS.DISABLE_JIT:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
             state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
@@ -90,7 +98,7 @@ class SingleStepper:
         return self._step(self._addresses, buttons, ticks)
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
-        """Make the step; it is compiled now, and no earlier."""
+        """Compile the step at the first call, and do it."""
         self._step = step = bind_types(step_alone, addresses, buttons, ticks)
         fault: int = step(addresses, buttons, ticks)
         return fault
@@ -98,7 +106,7 @@ class SingleStepper:
 
 @intrinsic  # type: ignore[untyped-decorator]
 def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any) -> Any:
-    """The array of this shape and element type at an address; `numba.carray` needs reference counting."""
+    """A view of an address as an array of a shape and a type; `numba.carray` needs reference counting."""
     array_type = types.Array(dtype.dtype, len(shape), "C")
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -116,7 +124,7 @@ def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any
 
 
 def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """The same without the compiler."""
+    """Do the same without the compiler."""
     size = math.prod(shape) * dtype.itemsize
     memory: Any = (ctypes.c_char * size).from_address(int(address))
     array: NDArray[Any] = np.frombuffer(memory, dtype).reshape(shape)
@@ -128,7 +136,7 @@ array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_arr
 
 @kernel
 def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
-    """Move the world on that lies at these addresses (see `ADDRESSES`), as `run_worlds` does; its fault."""
+    """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
     at = addresses[0]
     worlds = array_at(at.world, (1,), WORLD)
     action = array_at(at.action, (1, 1, 3), BOOL)

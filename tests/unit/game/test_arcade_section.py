@@ -57,7 +57,7 @@ def test_every_board_of_a_recipe_has_the_recipes_rules():
         ("bals = 3", "arcade.bals", "`balls`"),
         ("balls = 0", "arcade.balls", "must be 1 to 99 balls, got 0"),
         ("ball_save = -1", "arcade.ball_save", "must be 0 to 60 s, got -1"),
-        ("warnings = 1.5", "arcade.warnings", "whole number"),
+        ("warnings = 1.5", "arcade.warnings", "must be an integer"),
         ("points = 3", "arcade.points", "belongs in a part"),
         ("gravity = 3", "arcade.gravity", "belongs in [board]"),
         ("un_stick = 0", "arcade.un_stick", "0.5 to 60 s"),

@@ -422,7 +422,7 @@ def test_files_that_are_not_replays_are_refused(tmp_path: Path):
     for name, message in {
         "latin.replay": "not UTF-8 text .byte 34",
         "huge.replay": "100,000,000 bytes long",
-        "pipe.replay": "no ordinary file",
+        "pipe.replay": "not a regular file",
         "missing.replay": "no such file",
         ".": "a folder",
         "a\0b": "cannot be read",

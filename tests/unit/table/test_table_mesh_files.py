@@ -1,4 +1,4 @@
-"""Are mesh files read as trimesh reads them, and else refused in a sentence and in little memory?"""
+"""Mesh files are read as trimesh reads them, or refused in a sentence and with little memory."""
 
 from __future__ import annotations
 

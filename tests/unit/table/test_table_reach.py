@@ -1,4 +1,4 @@
-"""Are balls created only where they touch nothing and can leave again?"""
+"""Balls are created only where they touch nothing and can reach the gutter."""
 
 import time
 

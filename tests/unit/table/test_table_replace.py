@@ -46,7 +46,9 @@ def test_a_model_takes_the_place_of_the_old_one() -> None:
 def test_a_section_can_be_taken_away_and_added() -> None:
     bare = RECIPE.replace(random=None)
     assert bare.random is None
-    assert bare.replace(random={"cylinders": 1}).random == sb.parts.RandomRecipe(cylinders=1)
+    surface = sb.parts.PrismSurface(points=7)
+    recipe = bare.replace(random={"cylinders": 1, "prism": surface}).random
+    assert recipe == sb.parts.RandomRecipe(cylinders=1, prism=surface)
 
 
 @pytest.mark.parametrize("name", sb.table_names())
@@ -99,7 +101,7 @@ def test_what_cannot_be_is_refused_in_the_words_of_the_file(why: str) -> None:
 
 def test_a_recipe_that_makes_no_board_is_refused() -> None:
     (problem,) = refusal(RECIPE, random={"gap": 5.0, "cylinders": 32})
-    assert problem.startswith("random.gap: could not be kept at 5 u")
+    assert problem.startswith("random.gap: could not be met at 5 u")
 
 
 def test_the_same_change_in_a_file_is_refused_with_the_same_words() -> None:

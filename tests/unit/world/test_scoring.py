@@ -1,4 +1,4 @@
-"""Does a hit of every kind of part score what the table says?"""
+"""A hit of every kind of part scores the points in the table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do snapshots of a batch hold what was saved, go where they are told, and refuse what does not fit?"""
+"""Snapshots of a batch hold what was saved, go into the chosen worlds, and refuse what does not fit."""
 
 from __future__ import annotations
 
