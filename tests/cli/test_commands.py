@@ -9,15 +9,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
-import typer.main
 
 import silverball as sb
-from silverball.cli.app import app
+from silverball.cli.app import main_command
 
-MAIN = typer.main.get_command(app)
 COMMANDS = [
     [name, *more]
-    for name, command in MAIN.commands.items()
+    for name, command in main_command().commands.items()
     for more in ([[one] for one in command.commands] if name == "bench" else [[]])
 ]
 
