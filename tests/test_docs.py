@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pytest
-import typer.main
 
-from silverball.cli.app import app
+from silverball.cli.app import main_command
 from silverball.table import parse_table
 
 ROOT = Path(__file__).parent.parent
@@ -18,7 +17,7 @@ DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 
 
 def test_readme_names_every_command():
-    commands = typer.main.get_command(app).commands
+    commands = main_command().commands
     assert [name for name in commands if f"silverball {name}" not in README] == []
 
 

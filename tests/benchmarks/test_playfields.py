@@ -1,4 +1,4 @@
-"""Do the peers' tables obey the same laws as ours, as well as their engines can?"""
+"""The peers' tables obey the same laws as ours, as well as their engines can."""
 
 from __future__ import annotations
 

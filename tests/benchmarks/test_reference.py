@@ -1,4 +1,4 @@
-"""Is the reference right? Against laws worked out by hand, and it against Silverball."""
+"""The reference agrees with laws worked out by hand, and Silverball agrees with the reference."""
 
 from __future__ import annotations
 

@@ -9,15 +9,14 @@ import tomllib
 from pathlib import Path
 
 import pytest
-import typer.main
 
 import silverball as sb
-from silverball.cli.app import app
+from silverball.cli.app import main_command
+from silverball.cli.demo import free_name
 
-MAIN = typer.main.get_command(app)
 COMMANDS = [
     [name, *more]
-    for name, command in MAIN.commands.items()
+    for name, command in main_command().commands.items()
     for more in ([[one] for one in command.commands] if name == "bench" else [[]])
 ]
 
@@ -201,6 +200,15 @@ def test_a_wrong_argument_ends_in_one_sentence_that_repeats_it(silverball):
 
 def test_an_unknown_command_is_refused_with_the_nearest_name(silverball):
     assert_friendly_refusal(silverball("simulat"), "simulate")
+
+
+def test_a_demo_without_a_name_takes_the_first_that_is_free(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    taken = []
+    for _ in range(3):
+        taken.append(free_name("demo.gif"))
+        taken[-1].touch()
+    assert [path.name for path in taken] == ["demo.gif", "demo-2.gif", "demo-3.gif"]
 
 
 def test_less_than_one_tick_is_refused(silverball):

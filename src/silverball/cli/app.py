@@ -5,10 +5,12 @@ The modules of the commands import what they need when they run, so that `silver
 
 from __future__ import annotations
 
+import functools
 import sys
 from typing import Any
 
 import typer
+import typer.main
 
 from silverball.cli.ball_time import ball_time
 from silverball.cli.bench import bench
@@ -67,6 +69,12 @@ def silverball(
         play_or_demo()
 
 
+@functools.cache
+def main_command() -> Any:
+    """The command of all commands; Typer would build it again for every call."""
+    return typer.main.get_command(app)
+
+
 def run(arguments: list[str]) -> int:
     """Run the command line and return the exit code.
 
@@ -75,7 +83,7 @@ def run(arguments: list[str]) -> int:
     130: stopped by Ctrl-C.
     """
     try:
-        code = app(args=arguments, prog_name="silverball", standalone_mode=False)
+        code = main_command().main(arguments, prog_name="silverball", standalone_mode=False)
         sys.stdout.flush()
     except SilverballError as error:
         return complain(str(error))

@@ -17,8 +17,8 @@ CLASSIC = load_table("classic")
 REST = math.radians(-10.0)
 
 
-class Puppet(Playfield):
-    """A playfield whose one ball, and whose left paddle, jump where they are told in each frame."""
+class ScriptedPlayfield(Playfield):
+    """A playfield whose ball and left paddle jump to given places in each frame."""
 
     def __init__(self, ways, angles=(REST, REST)):
         super().__init__(tables.plain(CLASSIC), Stepping(1))
@@ -32,7 +32,7 @@ class Puppet(Playfield):
         pass
 
     def add_ball(self, x, z, vx=0.0, vz=0.0):
-        raise AssertionError("a puppet keeps its ball")
+        raise AssertionError("the ball is never replaced")
 
     def remove_ball(self, index):
         self.taken.append(index)
@@ -48,8 +48,8 @@ class Puppet(Playfield):
         return 2  # so that the game puts no other
 
 
-def seen(*ways, angles=(REST, REST)):
-    field = Puppet(ways, angles)
+def measured(*ways, angles=(REST, REST)):
+    field = ScriptedPlayfield(ways, angles)
     game = play.Game(field, np.zeros((1, 2), bool), [(0.0, 0.0)])
     monitor = PenetrationMonitor(field.table)
     escapes = play_monitored(game, len(ways) - 1, monitor)
@@ -57,22 +57,22 @@ def seen(*ways, angles=(REST, REST)):
 
 
 def test_a_ball_that_stays_clear_is_not_reported():
-    assert seen((0.0, 0.0), (-0.2, 0.1)) == (0, 0.0, [])
+    assert measured((0.0, 0.0), (-0.2, 0.1)) == (0, 0.0, [])
 
 
 def test_a_ball_across_a_border_has_escaped_and_is_taken_off():
-    assert seen((0.0, 4.5), (0.0, 5.2)) == (1, 0.25, [0])
+    assert measured((0.0, 4.5), (0.0, 5.2)) == (1, 0.25, [0])
 
 
 def test_a_ball_0_1_deep_in_a_border_is_deep_but_has_not_escaped():
     # It touches the right border at 5 − 0.1 − 0.25.
-    escapes, depth, _ = seen((0.0, 4.0), (0.0, 4.75))
+    escapes, depth, _ = measured((0.0, 4.0), (0.0, 4.75))
     assert escapes == 0
     assert depth == pytest.approx(0.1, abs=1e-12)
 
 
 def test_a_ball_whose_centre_is_in_a_cylinder_has_escaped():
-    assert seen((5.0, 0.0), (6.4, 0.3)) == (1, 0.25, [0])
+    assert measured((5.0, 0.0), (6.4, 0.3)) == (1, 0.25, [0])
 
 
 def test_a_ball_that_jumps_through_a_slant_wall_has_escaped():
@@ -80,19 +80,19 @@ def test_a_ball_that_jumps_through_a_slant_wall_has_escaped():
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
     nx, nz = CLASSIC.slant_wall[0].inward_normal(CLASSIC.board)
     above, below = ((middle[0] + s * nx, middle[1] + s * nz) for s in (0.4, -0.4))
-    assert seen(above, below) == (1, 0.0, [0])
+    assert measured(above, below) == (1, 0.0, [0])
 
 
 def test_a_ball_that_jumps_through_a_resting_paddle_has_escaped():
-    assert seen((-6.8, -1.5), (-8.0, -1.5)) == (1, 0.0, [0])
+    assert measured((-6.8, -1.5), (-8.0, -1.5)) == (1, 0.0, [0])
 
 
 def test_a_paddle_that_jumps_through_a_resting_ball_has_let_it_escape():
-    assert seen((-6.8, -1.5), (-6.8, -1.5), angles=(REST, math.radians(45.0))) == (1, 0.0, [0])
+    assert measured((-6.8, -1.5), (-6.8, -1.5), angles=(REST, math.radians(45.0))) == (1, 0.0, [0])
 
 
 def test_a_ball_that_falls_past_the_tip_has_not_escaped():
-    assert seen((-7.0, -0.1), (-7.8, -0.1))[0] == 0
+    assert measured((-7.0, -0.1), (-7.8, -0.1))[0] == 0
 
 
 def test_ways_cross_only_where_both_do():
