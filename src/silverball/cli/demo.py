@@ -46,7 +46,7 @@ def make_demo(
     """Make a film, or a picture, of the program playing; say where it is."""
     from silverball.cli.console import compiling
     from silverball.cli.look import baking, theme_named
-    from silverball.cli.recording import ENDINGS, film_size, shoot
+    from silverball.cli.recording import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.players import make_player
@@ -70,7 +70,7 @@ def make_demo(
         hands.press(stage.game.world)
     with baking() as progress:
         renderer = Renderer(board, picture_size, theme=look, board_seed=board_seed, progress=progress)
-    shoot(out, stage, renderer, seconds)
+    record(out, stage, renderer, seconds)
     renderer.close()
 
 

@@ -160,7 +160,7 @@ def make_film(
     """
     from silverball.app.sessions import ReplaySession
     from silverball.cli.look import baking, theme_named
-    from silverball.cli.recording import ENDINGS, film_size, shoot
+    from silverball.cli.recording import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.game.replay.player import ReplayPlayer
@@ -175,5 +175,5 @@ def make_film(
         )
     stage = ReplaySession(ReplayPlayer(game))
     stage.player.seek(round(start * game.tick_rate))
-    shoot(out, stage, renderer, length, quiet=quiet)
+    record(out, stage, renderer, length, quiet=quiet)
     renderer.close()
