@@ -73,7 +73,7 @@ def make_demo(
         theme: Name of the theme.
         force: Whether an existing file is overwritten.
     """
-    from silverball.cli.recording import ENDINGS, film_size, shoot
+    from silverball.cli.recording import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.players import make_player
@@ -97,7 +97,7 @@ def make_demo(
         chosen_player.press(session.game.world)
     with baking() as progress:
         renderer = Renderer(board, picture_size, theme=look, board_seed=board_seed, progress=progress)
-    shoot(out, session, renderer, seconds)
+    record(out, session, renderer, seconds)
     renderer.close()
 
 

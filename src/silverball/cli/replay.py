@@ -166,7 +166,7 @@ def make_film(
         SilverballError: The part is empty, or the file cannot be written.
     """
     from silverball.app.sessions import ReplaySession
-    from silverball.cli.recording import ENDINGS, film_size, shoot
+    from silverball.cli.recording import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.game.replay.player import ReplayPlayer
@@ -181,5 +181,5 @@ def make_film(
         )
     session = ReplaySession(ReplayPlayer(game))
     session.player.seek(round(start * game.tick_rate))
-    shoot(out, session, renderer, length, quiet=quiet)
+    record(out, session, renderer, length, quiet=quiet)
     renderer.close()

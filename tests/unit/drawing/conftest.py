@@ -1,4 +1,4 @@
-"""Baked pictures of tests go to a folder of their own, and no machine's cache is looked at."""
+"""Baked pictures of tests go to a folder of their own; the cache of the machine is not used."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of pictures: whole on the disk, or an error and nothing."""
+"""Films and pictures in files: complete on the disk, or an error and no file."""
 
 from __future__ import annotations
 

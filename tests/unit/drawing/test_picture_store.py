@@ -1,4 +1,4 @@
-"""The store: what comes out is what went in, and no fault of a disk costs more than time."""
+"""The picture cache: what comes out is what went in, and faults of a disk cost time only."""
 
 from __future__ import annotations
 
