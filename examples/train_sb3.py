@@ -178,7 +178,9 @@ options = {"frame_skip": 60 // DECISIONS, "time_limit": LONGEST}
 unseen = PinballVectorEnv(
     chosen.balls, "SameStep", own_boards=True, boards=chosen.balls, board_seed=UNSEEN, **options
 )
-worlds = {name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN) for name in ("random", "reflex")}
+worlds = {
+    name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN, tick_rate=60) for name in ("random", "reflex")
+}
 others = {name: time_balls(one, name, LONGEST).score[0] for name, one in worlds.items()}
 for name, points in others.items():
     print(f"the player {name}: {points:.0f} points a ball", flush=True)

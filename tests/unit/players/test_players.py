@@ -76,14 +76,14 @@ def test_the_reflex_player_lifts_the_paddle_that_a_ball_comes_down_on(side: int)
 def test_the_reflex_player_loses_fewer_balls_than_the_idle_one() -> None:
     drained = {}
     for name in SIMPLE:
-        batch = WorldBatch(full_table(), count=32, seed=1)
+        batch = WorldBatch(full_table(), count=32, seed=1, tick_rate=60)
         drained[name] = play(batch, name, 60.0, balls=1).drained
     assert drained["reflex"] < drained["idle"]
 
 
 @pytest.mark.parametrize("name", SIMPLE)
 def test_a_player_alone_plays_the_same_game_as_in_the_compiled_loop(name: str) -> None:
-    batch = WorldBatch(full_table(), count=3, seed=6)
+    batch = WorldBatch(full_table(), count=3, seed=6, tick_rate=60)
     play(batch, name, 20.0, balls=2)
     player = make_player(name)
     for index in range(3):
@@ -96,7 +96,7 @@ def test_a_player_alone_plays_the_same_game_as_in_the_compiled_loop(name: str) -
 
 
 def test_the_totals_of_a_rollout_add_up() -> None:
-    batch = WorldBatch("random", count=6, seed=1)
+    batch = WorldBatch("random", count=6, seed=1, tick_rate=60)
     progress: list[float] = []
     played = play(batch, "reflex", 50.0, balls=2, audit=True, progress=progress.append)
     state = batch.state

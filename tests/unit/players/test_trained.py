@@ -170,7 +170,7 @@ def test_obstacles_do_not_change_its_presses():
 
 @pytest.mark.parametrize("paddles", [(), (LEFT,)], ids=["none", "left"])
 def test_the_features_of_a_missing_paddle_are_zero(paddles):
-    batch = WorldBatch(table_of(*paddles), 2, 1)
+    batch = WorldBatch(table_of(*paddles), 2, 1, tick_rate=60)
     batch.run(np.ones((1, 2, 3), bool), 5)
     with np.errstate(all="raise"):
         raw = raw_features(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
@@ -180,7 +180,7 @@ def test_the_features_of_a_missing_paddle_are_zero(paddles):
 
 
 def test_its_features_are_those_of_the_lowest_ball_and_zero_without_one():
-    batch = WorldBatch("classic", 2)
+    batch = WorldBatch("classic", 2, tick_rate=60)
     batch.create_balls(np.array([True, False]))
     batch.run(np.zeros((1, 2, 3), bool), 240)
     batch.create_balls(np.array([True, False]))
