@@ -78,15 +78,17 @@ class RegisteredPolicy:
         self.buttons = np.zeros((batch.count, 2), np.bool_)
         seeds = batch.state["seed"].tolist()
         player = CheckedPlayer(name, seeds[0])
-        self._player = player if player.has_batch_form else None
-        self._single = [] if player.has_batch_form else [player, *(CheckedPlayer(name, s) for s in seeds[1:])]
-        self._views = [WorldView(batch, index) for index in range(len(self._single))]
+        self._batch_player = player if player.has_batch_form else None
+        self._players: list[tuple[CheckedPlayer, WorldView]] = []  # one for each world, without a batch form
+        if not player.has_batch_form:
+            players = [player, *(CheckedPlayer(name, seed) for seed in seeds[1:])]
+            self._players = [(one, WorldView(batch, index)) for index, one in enumerate(players)]
 
     def decide(self) -> None:
         """Choose the buttons to hold in the next tick."""
-        if self._player is not None:
-            self.buttons[:] = self._player.press_batch(self._batch)
-        for index, (player, view) in enumerate(zip(self._single, self._views, strict=True)):
+        if self._batch_player is not None:
+            self.buttons[:] = self._batch_player.press_batch(self._batch)
+        for index, (player, view) in enumerate(self._players):
             self.buttons[index] = player.press(view.world())
 
 

@@ -44,9 +44,9 @@ class SoakLog:
 
     Attributes:
         options: `Options.as_dict()`.
-        code: The hash of the code that does it.
+        code: The hash of the code that did it.
         rounds: Rounds done.
-        totals: Of these.
+        totals: Totals of these rounds.
         findings: The names of the files of findings, beside the log.
     """
 

@@ -16,7 +16,7 @@ CRADLE = (SlantWall(start=(0.0, 0.0), end=(1.5, -1.5)), SlantWall(start=(0.0, 0.
 
 def cradled() -> WorldBatch:
     """Two worlds in which a ball lies forever."""
-    batch = WorldBatch(table_of(*CRADLE), count=2)
+    batch = WorldBatch(table_of(*CRADLE), count=2, tick_rate=60)
     batch.state["created"] = batch.state["ball"]["id"][:, 0] = 1
     batch.state["ball"]["x"][:, 0] = 1.0
     return batch
@@ -48,7 +48,7 @@ def test_a_ball_that_makes_no_points_is_lost_after_fifteen_seconds() -> None:
 def test_holding_both_paddles_up_does_not_pay() -> None:
     lives = {}
     for kind in ("hold", "reflex"):
-        lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50), kind, 60.0)
+        lives[kind] = time_balls(WorldBatch(full_table(), count=64, seed=50, tick_rate=60), kind, 60.0)
     held, reflex = lives["hold"], lives["reflex"]
     assert held.stalled > 0
     assert held.mean[0] < reflex.mean[0]
@@ -63,5 +63,5 @@ def test_a_ball_that_outlives_the_time_is_censored() -> None:
 
 
 def test_a_board_with_paddles_and_nothing_else_gives_no_points() -> None:
-    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1), "reflex", 20.0)
+    times = time_balls(WorldBatch(table_of(*PADDLES), count=3, seed=1, tick_rate=60), "reflex", 20.0)
     assert times.score[0] == times.score_per_minute[0] == 0.0

@@ -193,11 +193,11 @@ def test_both_forms_keep_balls_for_as_long() -> None:
 
 
 def test_a_player_sees_the_events_and_hits_of_its_world_and_cannot_move_it() -> None:
-    batch = WorldBatch("random", 2, seed=3)
+    batch = WorldBatch("random", 2, seed=3, tick_rate=60)
     batch.create_balls()
     view, kinds = WorldView(batch, 1), set()
     for _ in range(600):
-        batch.run(np.zeros((1, 2, 3), bool), 1)
+        batch.step(np.zeros((2, 3), bool))
         world = view.world()
         kinds |= {event.kind for event in world.events}
         assert world.digest() == digest(batch.state[1])
