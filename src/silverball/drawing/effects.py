@@ -26,7 +26,7 @@ SPARK_SECONDS = 0.38
 MAX_SPARKS = 12  # of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
 MAX_HITS = 24  # whose sparks are remembered
-GOLDEN = 0.6180339887498949  # its multiples, without the whole part, are spread evenly over 0 to 1
+GOLDEN = 0.6180339887498949  # the fractional parts of its multiples are spread evenly over 0 to 1
 
 
 class Spot(NamedTuple):
@@ -79,7 +79,7 @@ class Effects:
         self._paths.clear()
 
     def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Remember events of a world with so many ticks per second."""
+        """Remember events of a world; `tick_rate` is in ticks per second."""
         for event in events:
             time = event.tick / tick_rate + event.offset
             if event.kind == "hit":

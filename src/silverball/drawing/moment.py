@@ -39,12 +39,12 @@ class Moment(NamedTuple):
 
     @classmethod
     def of(cls, world: World) -> Self:
-        """The moment that a world is in."""
+        """The present moment of a world."""
         return cls.of_record(world.records[0], world.tick_rate)
 
     @classmethod
     def of_record(cls, record: Any, tick_rate: int) -> Self:
-        """The moment that a WORLD record describes, of a world with so many ticks per second."""
+        """The moment of a WORLD record; `tick_rate` is in ticks per second."""
         from silverball.world.events import read_balls, read_paddles
 
         balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in read_balls(record, 0.0))

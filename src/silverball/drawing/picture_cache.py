@@ -49,8 +49,8 @@ class PictureCache:
         try:
             if not os.path.lexists(path):
                 return None
-            kept = path.read_bytes() if path.is_file() else b""  # reading a pipe might never end
-            digest, content = kept[:DIGEST_SIZE], kept[DIGEST_SIZE:]
+            data = path.read_bytes() if path.is_file() else b""  # reading a pipe might never end
+            digest, content = data[:DIGEST_SIZE], data[DIGEST_SIZE:]
             if digest != digest_of(key, content):
                 _remove(path)
                 return None
@@ -64,10 +64,10 @@ class PictureCache:
         """Save arrays under a key, if the disk allows it."""
         content = io.BytesIO()
         np.savez(content, **arrays)  # type: ignore[arg-type]  # the stubs mistake the names for options
-        kept = digest_of(key, content.getvalue()) + content.getvalue()
+        data = digest_of(key, content.getvalue()) + content.getvalue()
         with contextlib.suppress(OSError):
             self.folder.mkdir(parents=True, exist_ok=True)
-            write_whole(self.folder / (key + ENDING), lambda place: place.write_bytes(kept))
+            write_whole(self.folder / (key + ENDING), lambda place: place.write_bytes(data))
             self._evict()
 
     def _evict(self) -> None:

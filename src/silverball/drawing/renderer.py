@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from silverball.world import Event, World
 
 DEFAULT_HEIGHT = 480  # [pixel]
-KEPT_RENDERERS = 8  # of `render`; a renderer of the default height takes about 5 MB
+MAX_RENDERERS = 8  # of `render`; a renderer of the default height takes about 5 MB
 
 
 class Painter(Protocol):
@@ -46,7 +46,7 @@ class Painter(Protocol):
 class Renderer:
     """Draws one table at one size and in one theme. It needs no display.
 
-    The first renderer of a table bakes its picture, which takes a second or two; baked pictures are kept in
+    The first renderer of a table bakes its picture, which takes a second or two; baked pictures are saved in
     the user's cache folder. After that a frame takes a fraction of a millisecond.
 
     Args:
@@ -204,13 +204,13 @@ _lock = threading.Lock()  # a renderer draws one picture at a time
 def render(table: Table, record: Any, tick_rate: int, height: int, theme: str) -> NDArray[np.uint8]:
     """Draw a WORLD record, without effects of what came before: RGB, uint8 `[height, width, 3]`.
 
-    The renderers of the last few tables are kept, so that calls after the first are fast.
+    The renderers of the last few tables are reused, so calls after the first are fast.
     """
     with _lock:
         return _renderer(table, height, theme).array(Moment.of_record(record, tick_rate)).copy()
 
 
-@lru_cache(maxsize=KEPT_RENDERERS)
+@lru_cache(maxsize=MAX_RENDERERS)
 def _renderer(table: Table, height: int, theme: str) -> Renderer:
     return Renderer(table, height=height, theme=theme, effects="less")
 
