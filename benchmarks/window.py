@@ -76,9 +76,9 @@ def main() -> None:
             if not sharp and window.is_sharp:
                 sharp = seconds_since_python_started()
             # A press comes at any moment of the wait for the next picture.
-            before = window.beat_until(time.perf_counter() + random() * (due - time.perf_counter()), before)
+            before = window.poll_until(time.perf_counter() + random() * (due - time.perf_counter()), before)
             hands.move()
-            before = window.beat_until(due, before)
+            before = window.poll_until(due, before)
         size = window.size
         driver = pygame.display.get_driver()
         latency = window.latency
@@ -115,11 +115,11 @@ class Hands:
         self._player, self._window, self._pygame = player, window, pygame
         self._down = [False, False]
         self.balls: list[int] = []
-        player.press(window.program.stage.game.world)  # loads its kernel now, not in the middle of a frame
+        player.press(window.program.session.game.world)  # loads its kernel now, not in the middle of a frame
 
     def move(self) -> None:
         """Press and release what has changed."""
-        pygame, world = self._pygame, self._window.program.stage.game.world
+        pygame, world = self._pygame, self._window.program.session.game.world
         self.balls.append(len(world.balls))
         if len(world.balls) < 2:
             pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
@@ -135,12 +135,12 @@ class Watcher:
     """Lets the program play in attract mode, and measures how long its player thinks."""
 
     def __init__(self, name: str, window: Any) -> None:
-        window.rehearsal.wait()
+        window.player_warmup.wait()
         window.program.menus.open_attract()
-        window.program.show_off(name, nobody_there=True)
+        window.program.start_demo(name, is_attract=True)
         self._window = window
-        self._player = window.program.stage.player
-        window.program.stage.player = self
+        self._player = window.program.session.player
+        window.program.session.player = self
         self.balls: list[int] = []
         self.decisions: list[float] = []  # [s]
         self.processor: list[float] = []  # [s] of them for which this thread had the processor
@@ -157,7 +157,7 @@ class Watcher:
 
     def move(self) -> None:
         """Press nothing."""
-        self.balls.append(len(self._window.program.stage.game.world.balls))
+        self.balls.append(len(self._window.program.session.game.world.balls))
 
 
 if __name__ == "__main__":

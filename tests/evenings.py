@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from silverball.app.catalog import Library
+from silverball.app.catalog import Catalog
 from silverball.app.controls import Action, Held
 from silverball.app.program import Program
 from silverball.app.settings import Settings
@@ -24,15 +24,15 @@ class Evening:
     def __init__(self, folder, settings=None, table=LEAKY) -> None:
         self.said: list[str] = []
         self.store = Store(folder, at_once=True)  # as a window has it
-        self.library = Library(self.store, folder, {table.name: table})
+        self.catalog = Catalog(self.store, folder, {table.name: table})
         chosen = settings or Settings(table=table.name)
-        self.program = Program(self.store, chosen, self.library, seed=3, say=self.said.append)
+        self.program = Program(self.store, chosen, self.catalog, seed=3, say=self.said.append)
         self.seconds = 0.0
 
     def go(self, seconds: float) -> None:
         for _ in range(round(seconds * 30)):
             self.seconds += 1 / 30
-            self.program.pass_time(self.seconds)
+            self.program.update(self.seconds)
             self.program.advance(NOTHING, 8)
             self.program.dots(self.seconds)
 
@@ -44,10 +44,10 @@ class Evening:
 
     def play_to_the_end(self) -> None:
         for _ in range(30):
-            if self.program.stage.has_ended:
+            if self.program.session.has_ended:
                 return
             self.tap(Action.CREATE)
             for _ in range(60):
-                if self.program.stage.game.phase is not Phase.PLAY:
+                if self.program.session.game.phase is not Phase.PLAY:
                     break
                 self.go(0.5)

@@ -32,7 +32,7 @@ class Player:
 
     @property
     def game(self):
-        return self.window.program.stage.game
+        return self.window.program.session.game
 
     @property
     def world(self):
@@ -94,10 +94,10 @@ def sketches(request, monkeypatch) -> None:
 
 
 @pytest.fixture(autouse=True)
-def no_rehearsal(request, monkeypatch) -> None:
+def no_player_warmup(request, monkeypatch) -> None:
     """Only tests marked `rehearsed` wait for players that need compiled code of their own."""
     if "rehearsed" not in request.keywords:
-        monkeypatch.setattr("silverball.app.player_warmup.Rehearsal._work", lambda self: None)
+        monkeypatch.setattr("silverball.app.player_warmup.PlayerWarmup._work", lambda self: None)
 
 
 @pytest.fixture

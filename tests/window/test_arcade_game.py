@@ -70,7 +70,7 @@ def test_a_game_from_the_menu_to_the_score_table(open_window, tmp_path, hands):
         do["right"]()
     do["start"]()  # scores
     assert player.menus.page == "scores"
-    shown = player.program._library.scores(player.program.settings.table, Mode.ARCADE)
+    shown = player.program._catalog.scores(player.program.settings.table, Mode.ARCADE)
     assert [(row.initials, row.score) for row in shown] == [("BAC", score)]
     with Store(tmp_path / "data") as other:
         (row,) = other.scores()
@@ -98,10 +98,10 @@ def test_a_game_is_watched_again_from_its_last_page(open_window):
     for _ in range(3):
         player.tap(pygame.K_d)
     assert player.program.speed == 16.0
-    player.until(lambda: player.program.stage.has_ended)
+    player.until(lambda: player.program.session.has_ended)
     assert player.game.score == score
     player.tap(pygame.K_a)  # at its end the paddles jump
-    assert not player.program.stage.has_ended
+    assert not player.program.session.has_ended
     player.tap(pygame.K_ESCAPE)
     assert player.menus.page == "over"
 
@@ -123,7 +123,7 @@ def test_a_replay_stands_still_and_goes_on_tick_by_tick(open_window):
     player.tap(pygame.K_n)
     assert player.world.tick == tick + 1
     player.tap(pygame.K_SPACE)
-    player.until(lambda: player.program.stage.has_ended)
+    player.until(lambda: player.program.session.has_ended)
     assert player.game.digest() == replay.digest
 
 
@@ -171,20 +171,20 @@ def test_attract_mode_plays_by_itself_after_half_a_minute_and_any_button_ends_it
 @pytest.mark.rehearsed
 def test_the_planner_takes_over_the_show_and_can_be_watched_until_a_key_is_pressed(open_window):
     player = open_window(mode=None)
-    player.window.rehearsal.wait(300.0)
+    player.window.player_warmup.wait(300.0)
     player.seconds(31.0)
     assert player.menus.page == "attract"
-    assert player.program.stage.player.kind == PlayerKind.PLANNER
+    assert player.program.session.player.kind == PlayerKind.PLANNER
     player.tap(pygame.K_z)
     assert player.menus.page == "main"
     for key in (pygame.K_d, pygame.K_d, pygame.K_d, pygame.K_SPACE, pygame.K_d, pygame.K_SPACE):
         player.tap(key)
     assert player.menus.page == ""
-    assert player.program.stage.player.kind == PlayerKind.TRAINED
+    assert player.program.session.player.kind == PlayerKind.TRAINED
     player.tap(pygame.K_a)
     player.tap(pygame.K_a)
     player.tap(pygame.K_SPACE)
-    assert player.program.stage.player.kind == PlayerKind.PLANNER
+    assert player.program.session.player.kind == PlayerKind.PLANNER
     tick = player.world.tick
     player.seconds(1.0)
     assert player.world.tick > tick
@@ -258,7 +258,7 @@ def test_initials_that_nobody_enters_are_taken_as_offered_and_the_show_begins(op
     player.tap(pygame.K_F1)  # help that was left open is closed too
     player.seconds(32.0)
     assert player.menus.page == "attract"
-    assert not player.window.listener.shows_help
+    assert not player.window.input_handler.shows_help
     tick = player.world.tick
     player.seconds(1.0)
     assert player.world.tick > tick
@@ -285,7 +285,7 @@ def test_going_back_in_a_replay_leaves_no_ball_behind_that_is_not_lost_yet(open_
     play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
     replay = player.game.replay
     again = open_window(replay=replay, table=None, mode=None)
-    again.until(lambda: again.program.stage.has_ended)
+    again.until(lambda: again.program.session.has_ended)
     effects = again.window._picture.renderer.effects
     assert effects._dives
     again.program.jump(-0.5 * replay.ticks / replay.tick_rate)

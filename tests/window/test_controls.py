@@ -5,11 +5,11 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from silverball.app.clock import TickClock
-from silverball.app.controls import Action, Buttons, Controls
+from silverball.app.controls import Action, Controls, PaddleButtons
 from silverball.app.gamepad import BUTTON_NAMES, TRIGGER_DOWN, TRIGGER_UP, Gamepads
 from silverball.app.menus import ACTIONS
 from silverball.app.settings import Settings
+from silverball.app.timing import TickClock
 
 
 @pytest.fixture(autouse=True)
@@ -62,7 +62,7 @@ def test_a_shortcut_of_the_desktop_moves_no_more_than_paddles():
 
 
 def test_a_paddle_is_held_while_one_of_two_sources_holds_it():
-    buttons = Buttons()
+    buttons = PaddleButtons()
     buttons.press("key a", Action.LEFT)
     buttons.press("pad 0 leftshoulder", Action.LEFT)
     buttons.release("key a")
@@ -72,7 +72,7 @@ def test_a_paddle_is_held_while_one_of_two_sources_holds_it():
 
 
 def test_a_tap_counts_in_the_first_tick_only():
-    buttons = Buttons()
+    buttons = PaddleButtons()
     buttons.press("key d", Action.RIGHT)
     buttons.release("key d")
     held = buttons.take()

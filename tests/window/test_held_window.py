@@ -38,4 +38,4 @@ def test_a_score_that_still_waits_when_the_window_closes_is_there_at_the_next_st
         (file,) = (tmp_path / "data").glob("silverball-waiting-*")
         assert file.name in capsys.readouterr().err
     again = open_window(leaky(), seed=3, mode=None)
-    assert [row.score for row in again.program._library.scores("Leaky", Mode.ARCADE)] == [score]
+    assert [row.score for row in again.program._catalog.scores("Leaky", Mode.ARCADE)] == [score]

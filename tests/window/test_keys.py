@@ -63,9 +63,9 @@ def test_a_tap_is_not_lost_in_a_beat_too_short_for_a_tick(player):
     rest = player.program.table.paddle[0].rest_angle
     player.press(pygame.K_a)
     player.release(pygame.K_a)
-    player.window.beat(0.1 * TICK)
+    player.window.poll_input(0.1 * TICK)
     assert angles(player)[0] == pytest.approx(rest)
-    player.window.beat(TICK)
+    player.window.poll_input(TICK)
     assert angles(player)[0] > rest
 
 
@@ -73,7 +73,7 @@ def test_a_button_reaches_the_simulation_at_the_next_tick_not_at_the_next_pictur
     player.frames(10)
     tick = player.world.tick
     player.press(pygame.K_a)
-    player.window.beat(TICK)
+    player.window.poll_input(TICK)
     assert player.world.tick == tick + 1
     assert player.world.paddles[0].angular_velocity > 0.0
     assert len(player.window.latency.to_tick) == 1
@@ -140,8 +140,8 @@ def test_no_input_method_has_the_letters_whatever_is_done_to_the_window(player):
     assert not is_typing()
     screen = player.window._screen
     for do in (
-        screen.toggle_full,
-        screen.toggle_full,
+        screen.toggle_fullscreen,
+        screen.toggle_fullscreen,
         lambda: screen.resize((300, 500)),
         lambda: pygame.event.post(pygame.Event(pygame.WINDOWFOCUSGAINED)),
         lambda: pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED, x=300, y=500)),
@@ -158,10 +158,10 @@ def test_a_key_that_comes_up_as_another_letter_lets_go_of_what_it_held(player):
         pygame.Event(pygame.KEYDOWN, key=pygame.K_a, mod=0, unicode="", scancode=pygame.KSCAN_A)
     )
     player.frames(1)
-    assert player.window.listener.buttons.held == (True, False)
+    assert player.window.input_handler.buttons.held == (True, False)
     pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_q, mod=0, unicode="", scancode=pygame.KSCAN_A))
     player.frames(1)
-    assert player.window.listener.buttons.held == (False, False)
+    assert player.window.input_handler.buttons.held == (False, False)
 
 
 def test_a_key_that_loses_its_use_while_it_is_held_lets_go(player):
@@ -171,7 +171,7 @@ def test_a_key_that_loses_its_use_while_it_is_held_lets_go(player):
     player.frames(1)
     player.release(pygame.K_a)
     player.frames(1)
-    assert player.window.listener.buttons.held == (False, False)
+    assert player.window.input_handler.buttons.held == (False, False)
 
 
 def test_the_help_stops_the_time_while_it_is_shown(player):
@@ -194,11 +194,11 @@ def test_the_help_has_two_pages_that_paddles_space_and_arrows_turn(open_window, 
     player.tap(pygame.K_F1)
     for expected in (1, 0, 1):
         player.tap(pygame.key.key_code(name))
-        assert player.window.listener.help_page == expected
+        assert player.window.input_handler.help_page == expected
     assert player.menus.signature == page  # nothing was chosen behind it
     player.tap(pygame.K_F1)
     player.tap(pygame.K_F1)
-    assert player.window.listener.help_page == 0
+    assert player.window.input_handler.help_page == 0
 
 
 def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window, monkeypatch):
@@ -228,7 +228,9 @@ def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
     placed = []
     monkeypatch.setattr(overlay, "_place", lambda target, image, *rest: placed.append(image.get_size()))
     rules = how_to_score(player.program.table, Mode.ARCADE)
-    overlay.draw_help(pygame.Surface(size), size[0] / 11.0, 7, player.window.listener.controls, page, rules)
+    overlay.draw_help(
+        pygame.Surface(size), size[0] / 11.0, 7, player.window.input_handler.controls, page, rules
+    )
     ((width, height),) = placed
     assert width <= size[0]
     assert height <= size[1]
@@ -314,7 +316,7 @@ def test_closing_the_window_ends_the_program(player, event):
 def test_escape_goes_back_step_by_step_and_never_ends_a_game_at_once(player):
     player.tap(pygame.K_F1)
     player.tap(pygame.K_ESCAPE)
-    assert not player.window.listener.shows_help
+    assert not player.window.input_handler.shows_help
     player.tap(pygame.K_ESCAPE)
     assert player.menus.page == "pause"
     player.tap(pygame.K_ESCAPE)

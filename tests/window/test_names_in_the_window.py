@@ -7,8 +7,7 @@ import os
 import pytest
 
 from hostile_text import NAMES, NO_TEXT, obeyed_in, toml_string
-from silverball.app.messages import Messages
-from silverball.app.overlay import draw_message
+from silverball.app.overlay import Messages, draw_message
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.text import line, wrapped
 from silverball.game.scores.store import Store

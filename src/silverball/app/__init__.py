@@ -12,7 +12,7 @@ menus/       the pages of the score display; score_display.py what it shows duri
 sound/       from recipes to what is heard
 clock.py     real time into ticks; latency.py, framerate.py what is measured of it
 startup.py   loading the physics while the table is already on screen
-listener.py  what an event of the window asks for
+input_handler.py  what an event of the window asks for
 screen.py    the window of the operating system (pointer.py, sdl.py); picture.py the table in it
 overlay.py   what is written on top (layout.py, messages.py); debug.py what the physics sees
 window.py    all of it together, in beats and frames

@@ -20,7 +20,7 @@ RESERVED: dict[Kind, tuple[str, ...]] = {"keys": ("escape",), "pad": ("guide",)}
 """What cannot be chosen: Esc always goes back, and the guide button belongs to the system."""
 
 
-class ActionLine(NamedTuple):
+class ActionBinding(NamedTuple):
     """One action.
 
     Attributes:
@@ -45,7 +45,7 @@ class ActionLine(NamedTuple):
 
 
 ACTIONS = (
-    ActionLine(
+    ActionBinding(
         "left",
         "LEFT PADDLE",
         ("a", "left", "left shift"),
@@ -53,7 +53,7 @@ ACTIONS = (
         True,
         ("button 3", "button 5", "button 7", "hat 1 left", "axis 1 -"),
     ),
-    ActionLine(
+    ActionBinding(
         "right",
         "RIGHT PADDLE",
         ("d", "right", "right shift"),
@@ -61,18 +61,18 @@ ACTIONS = (
         True,
         ("button 2", "button 6", "button 8", "hat 1 right", "axis 1 +"),
     ),
-    ActionLine("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
-    ActionLine("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
-    ActionLine("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
-    ActionLine("new_board", "NEW BOARD", ("r",)),
-    ActionLine("mute", "MUTE", ("m",)),
-    ActionLine("help", "HELP", ("f1",)),
-    ActionLine("debug", "DEBUG VIEW", ("f3",)),
-    ActionLine("full_screen", "FULL SCREEN", ("f11",)),
-    ActionLine("slower", "SLOWER", (",",)),
-    ActionLine("faster", "FASTER", (".",)),
-    ActionLine("single_tick", "SINGLE TICK", ("n",)),
-    ActionLine("back", "BACK", (), ("back",), joystick=("button 9",)),
+    ActionBinding("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
+    ActionBinding("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
+    ActionBinding("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
+    ActionBinding("new_board", "NEW BOARD", ("r",)),
+    ActionBinding("mute", "MUTE", ("m",)),
+    ActionBinding("help", "HELP", ("f1",)),
+    ActionBinding("debug", "DEBUG VIEW", ("f3",)),
+    ActionBinding("full_screen", "FULL SCREEN", ("f11",)),
+    ActionBinding("slower", "SLOWER", (",",)),
+    ActionBinding("faster", "FASTER", (".",)),
+    ActionBinding("single_tick", "SINGLE TICK", ("n",)),
+    ActionBinding("back", "BACK", (), ("back",), joystick=("button 9",)),
 )
 """All actions that can be given other keys. Esc is always "back" and is not among them."""
 
@@ -127,7 +127,7 @@ def chosen(settings: Settings, kind: Kind) -> Mapping[str, tuple[str, ...]]:
     return settings.pad if kind == "pad" else settings.joysticks.get(kind, {})
 
 
-def with_chosen(settings: Settings, kind: Kind, names: Mapping[str, tuple[str, ...]]) -> Settings:
+def with_bindings(settings: Settings, kind: Kind, names: Mapping[str, tuple[str, ...]]) -> Settings:
     """The settings with this choice instead; without any names, as it was at first."""
     if kind in ("keys", "pad"):
         return settings.changed(**{kind: dict(names)})
@@ -135,50 +135,54 @@ def with_chosen(settings: Settings, kind: Kind, names: Mapping[str, tuple[str, .
     return settings.changed(joysticks=others | ({kind: dict(names)} if names else {}))
 
 
-def keys_of(settings: Settings, line: ActionLine) -> tuple[str, ...]:
+def keys_for(settings: Settings, line: ActionBinding) -> tuple[str, ...]:
     """The keys of an action."""
-    return names_of(settings, line, "keys")
+    return names_for(settings, line, "keys")
 
 
-def pad_of(settings: Settings, line: ActionLine) -> tuple[str, ...]:
+def pad_buttons_for(settings: Settings, line: ActionBinding) -> tuple[str, ...]:
     """The gamepad buttons of an action."""
-    return names_of(settings, line, "pad")
+    return names_for(settings, line, "pad")
 
 
-def names_of(settings: Settings, line: ActionLine, kind: Kind) -> tuple[str, ...]:
+def names_for(settings: Settings, line: ActionBinding, kind: Kind) -> tuple[str, ...]:
     """The keys or the buttons of an action."""
     return chosen(settings, kind).get(line.action, line.defaults(kind))
 
 
-def action_by_key(settings: Settings, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
+def action_by_key(settings: Settings, actions: Sequence[ActionBinding] = ACTIONS) -> dict[str, str]:
     """What every key does: actions by names of keys."""
     return action_by_name(settings, "keys", actions)
 
 
-def action_by_pad(settings: Settings, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
+def action_by_pad(settings: Settings, actions: Sequence[ActionBinding] = ACTIONS) -> dict[str, str]:
     """What every gamepad button does: actions by names of buttons."""
     return action_by_name(settings, "pad", actions)
 
 
-def action_by_name(settings: Settings, kind: Kind, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
+def action_by_name(
+    settings: Settings, kind: Kind, actions: Sequence[ActionBinding] = ACTIONS
+) -> dict[str, str]:
     """What every key or button does: actions by their names."""
     by_name: dict[str, str] = {}
     mine = chosen(settings, kind)
     # What a player chose counts more than a default, whichever stands first.
     for line in sorted(actions, key=lambda line: line.action not in mine):
-        for name in names_of(settings, line, kind):
+        for name in names_for(settings, line, kind):
             by_name.setdefault(name, line.action)
     return by_name
 
 
-def owner(settings: Settings, actions: Sequence[ActionLine], kind: Kind, name: str) -> ActionLine | None:
+def owner(
+    settings: Settings, actions: Sequence[ActionBinding], kind: Kind, name: str
+) -> ActionBinding | None:
     """The action to which a key or button belongs; None if it is free."""
     found = action_by_name(settings, kind, actions)
     return next((line for line in actions if line.action == found.get(name)), None)
 
 
 def assigned(
-    settings: Settings, actions: Sequence[ActionLine], kind: Kind, action: str, names: Sequence[str]
+    settings: Settings, actions: Sequence[ActionBinding], kind: Kind, action: str, names: Sequence[str]
 ) -> Settings:
     """The settings in which an action has these keys or buttons, and no other action has any of them.
 
@@ -191,8 +195,8 @@ def assigned(
     """
     differing: dict[str, tuple[str, ...]] = {}
     for line in actions:
-        kept = names_of(settings, line, kind)
+        kept = names_for(settings, line, kind)
         mine = tuple(names) if line.action == action else tuple(n for n in kept if n not in names)
         if mine != line.defaults(kind):
             differing[line.action] = mine
-    return with_chosen(settings, kind, differing)
+    return with_bindings(settings, kind, differing)

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.menus import ScoreRow, TableEntry
 from silverball.app.table_files import (
-    FIRST_GLANCE,
-    GLANCE,
-    Reading,
+    FIRST_REFRESH_WAIT,
+    REFRESH_WAIT,
+    FileReading,
     Stamp,
     TableFiles,
     first_problem,
@@ -80,7 +80,7 @@ class Catalog:
 
     def entries(self) -> list[TableEntry]:
         """All tables that can be chosen, and the files that cannot be used, with their first problem."""
-        self._files.look(FIRST_GLANCE if self._seen < 0 else GLANCE)
+        self._files.look(FIRST_REFRESH_WAIT if self._seen < 0 else REFRESH_WAIT)
         self._seen = self._files.version
         built_in = [name for name in table_names() if name not in self._given]
         entries = [
@@ -107,7 +107,7 @@ class Catalog:
             if name == self._chosen and reading is not None:
                 self._told = reading.stamp
 
-    def news(self) -> Reading | None:
+    def news(self) -> FileReading | None:
         """What the chosen file says now, once after every change; None if there is nothing new.
 
         A file that cannot be used is told of only at the second look: perhaps it was being written.
@@ -182,27 +182,27 @@ def file_name(name: str) -> str:
     return plain(Path(name).name)
 
 
-def file_in_words(name: str) -> str:
+def quoted_file_name(name: str) -> str:
     """The same in a sentence."""
     file = file_name(name)
     return f"'{file}'" if " " in file else file
 
 
-def trouble_words(name: str, problem: str) -> str:
+def table_problem_text(name: str, problem: str) -> str:
     """What is wrong with a table that cannot be played, and how to learn all of it, as one sentence."""
     told = plain(problem)
     if not is_path(name):
         return told
     command = f"silverball check {plain(shlex.quote(name))}"
-    return f"{file_in_words(name)} cannot be played: {told} (all of it: {command})"
+    return f"{quoted_file_name(name)} cannot be played: {told} (all of it: {command})"
 
 
-def trouble_of(name: str, error: SilverballError) -> str:
+def table_error_text(name: str, error: SilverballError) -> str:
     """The same from the error that reading the table has raised."""
-    return trouble_words(name, first_problem(error))
+    return table_problem_text(name, first_problem(error))
 
 
-def _of_file(name: str, reading: Reading | None) -> TableEntry:
+def _of_file(name: str, reading: FileReading | None) -> TableEntry:
     """A file in the list; one that cannot be used goes by its name on the disk."""
     if reading is None:
         return TableEntry(name, file_name(name), "is being read")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import TYPE_CHECKING
 
-from silverball.app.catalog import trouble_words
+from silverball.app.catalog import table_problem_text
 from silverball.app.menus import commands
 from silverball.app.sessions import GameSession
 
@@ -35,15 +35,15 @@ def _(command: commands.WatchScore, program: Program) -> None:
     program.watch_score(int(command.key))
 
 
-@execute.register(commands.WatchMachine)
-def _(command: commands.WatchMachine, program: Program) -> None:
-    program.show_off(command.player)
+@execute.register(commands.WatchDemo)
+def _(command: commands.WatchDemo, program: Program) -> None:
+    program.start_demo(command.player)
 
 
 @execute.register(commands.Attract)
 def _(command: commands.Attract, program: Program) -> None:
     if command.on and program.is_ready and not program.has_game:
-        program.show_off(nobody_there=True)
+        program.start_demo(is_attract=True)
 
 
 @execute.register(commands.Change)
@@ -51,14 +51,14 @@ def _(command: commands.Change, program: Program) -> None:
     program.use(command.settings)
 
 
-@execute.register(commands.SeeBoard)
-def _(command: commands.SeeBoard, program: Program) -> None:
-    program.see_board(command.seed)
+@execute.register(commands.ShowBoard)
+def _(command: commands.ShowBoard, program: Program) -> None:
+    program.show_board(command.seed)
 
 
-@execute.register(commands.TellTrouble)
-def _(command: commands.TellTrouble, program: Program) -> None:
-    program.say(trouble_words(command.table, command.problem))
+@execute.register(commands.ShowTableProblem)
+def _(command: commands.ShowTableProblem, program: Program) -> None:
+    program.say(table_problem_text(command.table, command.problem))
 
 
 @execute.register(commands.Quit)
@@ -73,15 +73,15 @@ def _(command: commands.Resume, program: Program) -> None:
 
 @execute.register(commands.Restart)
 def _(command: commands.Restart, program: Program) -> None:
-    if isinstance(program.stage, GameSession):
-        program.begin(program.stage.game.mode)
+    if isinstance(program.session, GameSession):
+        program.begin(program.session.game.mode)
 
 
 @execute.register(commands.EndGame)
 def _(command: commands.EndGame, program: Program) -> None:
-    if isinstance(program.stage, GameSession) and not program.stage.has_ended:
-        program.give_up(program.stage)
-    program.stage = None
+    if isinstance(program.session, GameSession) and not program.session.has_ended:
+        program.give_up(program.session)
+    program.session = None
 
 
 @execute.register(commands.SaveReplay)
@@ -93,7 +93,7 @@ def _(command: commands.SaveReplay, program: Program) -> None:
 
 @execute.register(commands.Initials)
 def _(command: commands.Initials, program: Program) -> None:
-    program.keeper.rename(program.ended, command.text)
+    program.archive.rename(program.ended, command.text)
     program.use(program.settings.changed(initials=command.text))
 
 

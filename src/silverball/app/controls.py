@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import pygame
 
-from silverball.app.menus import ACTIONS, ActionLine, Button, action_by_key, action_by_name, keys_of
+from silverball.app.menus import ACTIONS, ActionBinding, Button, action_by_key, action_by_name, keys_for
 from silverball.app.settings import Settings
 
 
@@ -66,7 +66,7 @@ class Controls:
 
     def keys(self, action: Action) -> tuple[str, ...]:
         """The names of the keys that ask for something."""
-        return keys_of(self._settings, _LINES[action])
+        return keys_for(self._settings, _LINES[action])
 
     @property
     def key_names(self) -> frozenset[str]:
@@ -110,7 +110,7 @@ class Held(NamedTuple):
     rest: tuple[bool, bool]
 
 
-class Buttons:
+class PaddleButtons:
     """The paddle buttons that are down, and those that were down since the last tick, however briefly.
 
     A button is told by its source, for example "key a" or "pad 0 leftshoulder": two keys may hold one paddle.
@@ -152,4 +152,4 @@ class Buttons:
         return Held(first, (left, right))
 
 
-_LINES: dict[str, ActionLine] = {line.action: line for line in ACTIONS}
+_LINES: dict[str, ActionBinding] = {line.action: line for line in ACTIONS}

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
 
-from silverball.app.framerate import FrameTimes
-from silverball.app.latency import LatencyMeter, middle
+from silverball.app.timing import FrameTimes, LatencyMeter, middle
 from silverball.drawing import palette
 from silverball.drawing.text import line
 

@@ -1,6 +1,6 @@
 """Who can be watched while the program plays by itself, and who plays until that one is ready?
 
-`PERFORMERS` is the one list: the menu offers it, the window makes its players ready (`player_warmup.py`),
+`DEMO_PLAYERS` is the one list: the menu offers it, the window makes its players ready (`player_warmup.py`),
 and the
 first of it plays when nobody is there. To add one, add its line.
 """
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from silverball.players import Player
 
 
-class Performer(NamedTuple):
+class DemoPlayer(NamedTuple):
     """A player that can be watched.
 
     Attributes:
@@ -33,16 +33,18 @@ class Performer(NamedTuple):
     fastest: float = 16.0
 
 
-PERFORMERS = (
-    Performer("planner", "PLANNER", "LOOKS AHEAD", "plan_worlds", 2.0),
-    Performer("trained", "TRAINED", "LEARNT BY TRIAL"),
-    Performer("reflex", "REFLEX", "HITS WHAT COMES"),
+DEMO_PLAYERS = (
+    DemoPlayer("planner", "PLANNER", "LOOKS AHEAD", "plan_worlds", 2.0),
+    DemoPlayer("trained", "TRAINED", "LEARNT BY TRIAL"),
+    DemoPlayer("reflex", "REFLEX", "HITS WHAT COMES"),
 )
-BEST = PERFORMERS[0]
-STAND_IN = next(performer for performer in PERFORMERS if performer.name == "reflex")  # ready with the physics
+BEST_PLAYER = DEMO_PLAYERS[0]
+STAND_IN = next(
+    demo_player for demo_player in DEMO_PLAYERS if demo_player.name == "reflex"
+)  # ready with the physics
 
 
-class DemoPlayers:
+class DemoPlayerSelector:
     """Who plays: whoever was asked for, or the stand-in until that one is ready.
 
     Args:
@@ -59,14 +61,14 @@ class DemoPlayers:
 
     def begin(self, name: str) -> Player:
         """Ask for a player, and have one that plays at once."""
-        self.asked = next(performer for performer in PERFORMERS if performer.name == name)
+        self.asked = next(demo_player for demo_player in DEMO_PLAYERS if demo_player.name == name)
         return self._enter()
 
-    def follow(self, stage: DemoSession) -> bool:
+    def follow(self, session: DemoSession) -> bool:
         """Let the one who was asked for take over as soon as it is ready; whether it has just done so."""
         if self.playing is self.asked or not self.is_ready(self.asked.name):
             return False
-        stage.player = self._enter()
+        session.player = self._enter()
         return True
 
     def _enter(self) -> Player:

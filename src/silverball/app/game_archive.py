@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from silverball.table import Table
 
 
-class Ended(NamedTuple):
+class GameResult(NamedTuple):
     """What has become of a game that is over.
 
     Attributes:
@@ -51,15 +51,15 @@ class GameArchive:
 
     Args:
         store: Where.
-        library: Learns of new scores.
+        catalog: Learns of new scores.
     """
 
-    def __init__(self, store: Store, library: Catalog) -> None:
-        self._store, self._library = store, library
+    def __init__(self, store: Store, catalog: Catalog) -> None:
+        self._store, self._catalog = store, catalog
         self._score_waits = False  # and the player knows
         self._next_try = self._next_words = 0.0
 
-    def pass_time(self, seconds: float) -> str:
+    def update(self, seconds: float) -> str:
         """Real time has gone on: try to write what waits for another program.
 
         Args:
@@ -73,7 +73,7 @@ class GameArchive:
         self._next_try = seconds + RETRY_SECONDS
         is_saved = self._store.try_again()
         if is_saved:
-            self._library.forget_scores()
+            self._catalog.forget_scores()
         if not self._score_waits or (not is_saved and (self._store.is_safe or seconds < self._next_words)):
             return ""
         self._next_words = seconds + REMIND_SECONDS
@@ -87,9 +87,9 @@ class GameArchive:
 
     def file(self, game: Game, why: str) -> Path | None:
         """Keep the replay of a game as a file; where it is, None if it cannot be written."""
-        return self._library.keep_file(game.replay.to_text(), why, game.score)
+        return self._catalog.keep_file(game.replay.to_text(), why, game.score)
 
-    def ended(self, game: Game, recipe: Table, initials: str, *, counts: bool) -> Ended:
+    def ended(self, game: Game, recipe: Table, initials: str, *, counts: bool) -> GameResult:
         """Keep a game that is over.
 
         Args:
@@ -102,24 +102,24 @@ class GameArchive:
         if game.fault:
             path = self.file(game, "fault")
             where = f"A replay for a report is at {path}." if path else "Its replay is lost."
-            return Ended(words=f"{game.fault}: this board had to stop. {where} R makes a new one")
+            return GameResult(words=f"{game.fault}: this board had to stop. {where} R makes a new one")
         if game.mode is not Mode.ARCADE or not counts or game.score <= 0:
-            return Ended()
-        key, text = self._library.key(recipe), game.replay.to_text()
+            return GameResult()
+        key, text = self._catalog.key(recipe), game.replay.to_text()
         rank = self._store.is_high(game.score, game.mode, key.digest)
         table = dump_table(without_meshes(recipe))
         number = self._store.add_score(
             initials, game.score, game.mode, key.title, key.digest, game.seed, text, table_text=table
         )
-        self._library.forget_scores()
+        self._catalog.forget_scores()
         self._score_waits = self._store.is_held
         if self._score_waits:
-            return Ended(rank, number, WAITS if self._store.is_safe else NOT_YET)
-        return Ended(rank, number, "" if self._store.keeps else LOST)
+            return GameResult(rank, number, WAITS if self._store.is_safe else NOT_YET)
+        return GameResult(rank, number, "" if self._store.keeps else LOST)
 
-    def rename(self, ended: Ended, initials: str) -> None:
+    def rename(self, ended: GameResult, initials: str) -> None:
         """The player has given initials for a score."""
         if ended.score_id is not None:
             with suppress(SilverballError):  # another program may have removed the score meanwhile
                 self._store.rename(ended.score_id, initials)
-            self._library.forget_scores()
+            self._catalog.forget_scores()

@@ -18,7 +18,7 @@ import pygame
 from silverball.app import sdl
 from silverball.drawing.text import can_show
 
-US_PLACES: dict[str, int] = {
+US_SCANCODES: dict[str, int] = {
     character: first + place
     for first, characters in (
         (pygame.KSCAN_A, "abcdefghijklmnopqrstuvwxyz1234567890"),
@@ -28,7 +28,7 @@ US_PLACES: dict[str, int] = {
     for place, character in enumerate(characters)
 } | {"space": pygame.KSCAN_SPACE}
 """Where a US keyboard has its signs, as SDL numbers places."""
-US_SIGNS = {place: character for character, place in US_PLACES.items()}
+US_LABELS = {place: character for character, place in US_SCANCODES.items()}
 
 WITH_SHIFT = {";": ".", ".": ","}
 """What keys bear with Shift if the layout has it nowhere else: "." on AZERTY, "," on Cyrillic ones.
@@ -56,36 +56,36 @@ class Keyboard:
     """The keyboard with the layout that is in use; SDL is asked for it."""
 
     def __init__(self) -> None:
-        self._bears: dict[int, str] = {}  # what a key bears, by its place
+        self._labels: dict[int, str] = {}  # what a key bears, by its place
         self.read()
 
     def read(self) -> None:
         """The layout may be another one now."""
-        keys = {place: sdl.key_at(place) for place in _PLACES}
-        self._bears = {place: name for place, key in keys.items() if key and (name := bears(key, place))}
+        keys = {place: sdl.keycode_at(place) for place in _PLACES}
+        self._labels = {place: name for place, key in keys.items() if key and (name := key_label(key, place))}
 
     def hear(self, event: KeyEvent) -> bool:
         """Learn from a key press; returns whether the layout is another one than it was."""
-        name = bears(event.key, event.scancode)
-        if not self._bears or not event.scancode or self._bears.get(event.scancode) == name:
+        name = key_label(event.key, event.scancode)
+        if not self._labels or not event.scancode or self._labels.get(event.scancode) == name:
             return False
         self.read()
-        self._bears[event.scancode] = name  # an event is never out of date
+        self._labels[event.scancode] = name  # an event is never out of date
         return True
 
     def meant(self, event: KeyEvent, names: Iterable[str]) -> str:
         """Which one of some names a key press means; empty if none."""
         names = set(names)
-        name = bears(event.key, event.scancode)
+        name = key_label(event.key, event.scancode)
         if event.mod & pygame.KMOD_SHIFT:
             typed = WITH_SHIFT.get(name, "")
-            if typed in names and typed not in self._bears.values():
+            if typed in names and typed not in self._labels.values():
                 return typed
-        if event.scancode in self._bears:
+        if event.scancode in self._labels:
             return self._meanings(names).get(event.scancode, "")
         # A program made the press up, as an on-screen keyboard does, or SDL cannot be asked.
         if name not in names and not name.isascii():
-            name = US_SIGNS.get(event.scancode, "")
+            name = US_LABELS.get(event.scancode, "")
         return name if name in names else ""
 
     def letter(self, event: KeyEvent) -> str:
@@ -95,8 +95,8 @@ class Keyboard:
 
     def name_of(self, event: KeyEvent) -> str:
         """The name to keep for a key that has none yet; empty if there is nothing to tell it by."""
-        name, sign = bears(event.key, event.scancode), US_SIGNS.get(event.scancode, "")
-        if len(name) > 1 or name in US_PLACES or sign in self._bears.values():
+        name, sign = key_label(event.key, event.scancode), US_LABELS.get(event.scancode, "")
+        if len(name) > 1 or name in US_SCANCODES or sign in self._labels.values():
             return name
         return sign or name
 
@@ -108,31 +108,31 @@ class Keyboard:
         """
         labels = {}
         for place, name in self._meanings(set(names)).items():
-            label = self._bears.get(place, name)
+            label = self._labels.get(place, name)
             if not can_show(label):
-                sign = US_SIGNS.get(place, name)
-                label = name if sign in self._bears.values() else sign
+                sign = US_LABELS.get(place, name)
+                label = name if sign in self._labels.values() else sign
             if name not in (label, "space"):
                 labels[name] = label
         return labels
 
     def _meanings(self, names: set[str]) -> dict[int, str]:
         """The names that keys have, by their places."""
-        meanings = {place: name for place, name in self._bears.items() if name in names}
+        meanings = {place: name for place, name in self._labels.items() if name in names}
         for name in sorted(names - set(meanings.values())):
-            place = US_PLACES.get(name, 0)
-            for _ in US_PLACES:  # a place whose own sign is meant gives way to that sign's place
+            place = US_SCANCODES.get(name, 0)
+            for _ in US_SCANCODES:  # a place whose own sign is meant gives way to that sign's place
                 if place not in meanings:
                     break
-                place = US_PLACES.get(self._bears.get(place, ""), 0)
+                place = US_SCANCODES.get(self._labels.get(place, ""), 0)
             if place and place not in meanings:
-                sign = self._bears.get(place)
-                meanings |= {other: name for other in self._bears if self._bears[other] == sign}
+                sign = self._labels.get(place)
+                meanings |= {other: name for other in self._labels if self._labels[other] == sign}
                 meanings[place] = name
         return meanings
 
 
-def bears(key: int, scancode: int) -> str:
+def key_label(key: int, scancode: int) -> str:
     """What stands on a key, as pygame names it; a sign that pygame has no name for names itself.
 
     Args:
@@ -142,4 +142,4 @@ def bears(key: int, scancode: int) -> str:
     name = pygame.key.name(key)
     if not name and 32 < key <= sys.maxunicode and chr(key).isprintable():
         name = chr(key)
-    return name or US_SIGNS.get(scancode, "")
+    return name or US_LABELS.get(scancode, "")

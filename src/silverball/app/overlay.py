@@ -1,6 +1,6 @@
-"""What is written on top of the table? Short messages, and the help: all keys, and how to score.
+"""Text on top of the table: short messages, and the help pages with all keys and the scoring rules.
 
-Every panel is put together once for a size and then only placed.
+Every panel is composed once per size and then only blitted.
 """
 
 from __future__ import annotations
@@ -16,11 +16,12 @@ from silverball.app.scoring import Rule
 from silverball.app.widgets import column, in_columns, key_cap, panel, plate, row
 from silverball.drawing import palette
 from silverball.drawing.text import line, wrapped
+from silverball.plain import plain
 
 TEXT_SIZE = 0.5  # [u] of ordinary text
-LEAST_TEXT_SIZE = 11  # [pixel]
-LEAST_MESSAGE_SIZE = 8  # [pixel] to which a message shrinks before it grows beyond its place
-LEAST_HELP_SIZE = 7  # [pixel] to which the help shrinks before it is made smaller as a picture
+MIN_TEXT_SIZE = 11  # [pixel]
+MIN_MESSAGE_SIZE = 8  # [pixel] to which a message shrinks before it grows beyond its place
+MIN_HELP_SIZE = 7  # [pixel] to which the help shrinks before it is made smaller as a picture
 HELP_SHARE = 0.94  # of the table's area that the help may take
 HELP_PAGES = 2
 DIM = (0, 0, 0, 120)  # over the table behind the help and the pause
@@ -28,7 +29,7 @@ DIM = (0, 0, 0, 120)  # over the table behind the help and the pause
 
 def text_size(scale: float) -> int:
     """The size of ordinary text [pixel] at so many pixels per table unit."""
-    return max(round(TEXT_SIZE * scale), LEAST_TEXT_SIZE)
+    return max(round(TEXT_SIZE * scale), MIN_TEXT_SIZE)
 
 
 def draw_message(
@@ -86,7 +87,7 @@ def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
     padding = size // 2
     lines = wrapped(text, size, width - 2 * padding)
     words = column([line(text, size, palette.TEXT) for text in lines], 0)
-    if words.get_height() + padding > height and size > LEAST_MESSAGE_SIZE:
+    if words.get_height() + padding > height and size > MIN_MESSAGE_SIZE:
         return _message(text, size - 1, width, height)
     return plate(words, width, max(height, words.get_height() + padding))
 
@@ -139,7 +140,7 @@ def _rules(size: int, room: tuple[int, int], rules: tuple[Rule, ...], foot: str)
 def _fitting(build: Callable[[int], pygame.Surface], size: int, room: tuple[int, int]) -> pygame.Surface:
     """What is built at the greatest size at which it fits, from this one down."""
     image = build(size)
-    while size > LEAST_HELP_SIZE and (image.get_width() > room[0] or image.get_height() > room[1]):
+    while size > MIN_HELP_SIZE and (image.get_width() > room[0] or image.get_height() > room[1]):
         size -= 1
         image = build(size)
     share = min(room[0] / image.get_width(), room[1] / image.get_height())
@@ -165,3 +166,42 @@ def _place(target: pygame.Surface, image: pygame.Surface, height: float, strengt
     image.set_alpha(round(255 * min(max(strength, 0.0), 1.0)))
     middle = (target.get_width() // 2, round(height * target.get_height()))
     target.blit(image, image.get_rect(center=middle))
+
+
+MIN_SECONDS = 2.2
+MAX_SECONDS_IN_PLAY = 2.5  # while a ball needs the player's eyes
+SECONDS_PER_LETTER = 0.045  # an unhurried reader; chosen by reading them aloud
+FADE_SECONDS = 0.4
+
+
+class Messages:
+    """The message on screen; a new one takes its place, the same one again changes nothing."""
+
+    def __init__(self) -> None:
+        self.text = ""
+        self._left = 0.0
+
+    def say(self, text: str) -> None:
+        """Show a message, with a capital in front (but not of a file's name) and a full stop behind."""
+        text = plain(text, keep="\n")
+        if "." not in text.split(" ", 1)[0]:
+            text = text[:1].upper() + text[1:]
+        text = text if text.endswith((".", "!", "?", "…")) else f"{text}."
+        if text == self.text and self._left > 0.0:
+            return
+        self.text = text
+        self._left = MIN_SECONDS + SECONDS_PER_LETTER * len(text)
+
+    def clear(self) -> None:
+        """Show none."""
+        self._left = 0.0
+
+    def update(self, seconds: float, *, in_play: bool = False) -> None:
+        """Let real time pass; while a ball is in play no message stays long."""
+        most = MAX_SECONDS_IN_PLAY if in_play else self._left
+        self._left = max(0.0, min(self._left, most) - seconds)
+
+    @property
+    def strength(self) -> float:
+        """How visible the message is: 1, fading to 0."""
+        return min(1.0, self._left / FADE_SECONDS)

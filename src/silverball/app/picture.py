@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from silverball.world import Event
 
 SETTLED = 0.25  # [s] for which a size has stood
-GREATEST_DRAWN = 2880  # [pixel] of height; what is higher is stretched, for it would take a gigabyte
-GREATEST_HEIGHT = 4320  # [pixel] to which a table grows
+MAX_DRAWN = 2880  # [pixel] of height; what is higher is stretched, for it would take a gigabyte
+MAX_HEIGHT = 4320  # [pixel] to which a table grows
 
 
 class _Shown(NamedTuple):
@@ -130,9 +130,9 @@ class Picture:
     @property
     def _drawn_size(self) -> tuple[int, int]:
         """The size at which the table is drawn in the end."""
-        if self.area.height <= GREATEST_DRAWN or self._shown is None:
+        if self.area.height <= MAX_DRAWN or self._shown is None:
             return self.area.size
-        return best_size(self._shown.table.board, GREATEST_DRAWN)
+        return best_size(self._shown.table.board, MAX_DRAWN)
 
     def _renew(self) -> None:
         assert self._shown is not None
@@ -163,7 +163,7 @@ class Picture:
 def fitted(board: Board, window_size: tuple[int, int]) -> pygame.Rect:
     """The largest area in the middle of a window that the whole table fits into."""
     width, height = window_size
-    wide, high = best_size(board, min(max(height, 2), GREATEST_HEIGHT))
+    wide, high = best_size(board, min(max(height, 2), MAX_HEIGHT))
     if wide > width:
         high = max(2, high * width // wide)
         wide = best_size(board, high)[0]

@@ -14,7 +14,7 @@ import os
 import threading
 from typing import TYPE_CHECKING
 
-from silverball.app.demo_players import PERFORMERS, STAND_IN, Performer
+from silverball.app.demo_players import DEMO_PLAYERS, STAND_IN, DemoPlayer
 from silverball.background_process import Compiler
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ NICENESS = 10  # behind the game, and behind the drawing, which is seen first
 COMPILE_SECONDS = 1800.0  # after which compiling is given up; 17 s of a processor, if it gets one
 
 
-class Rehearsal:
+class PlayerWarmup:
     """Makes the players ready, one after the other; begun when the physics is loaded.
 
     Args:
@@ -36,7 +36,7 @@ class Rehearsal:
         self._table = table
         self._ready = {STAND_IN.name}
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._work, name="silverball rehearsal", daemon=True)
+        self._thread = threading.Thread(target=self._work, name="silverball player_warmup", daemon=True)
         self._thread.start()
 
     def is_ready(self, name: str) -> bool:
@@ -54,11 +54,11 @@ class Rehearsal:
     def _work(self) -> None:
         if self._stop.wait(HEAD_START):
             return
-        for performer in PERFORMERS:
+        for demo_player in DEMO_PLAYERS:
             with contextlib.suppress(Exception):  # the game goes on, and so does the stand-in
-                if is_there(performer) or (self._compile() and is_there(performer)):
-                    press_once(performer, self._table)
-                    self._ready.add(performer.name)
+                if is_there(demo_player) or (self._compile() and is_there(demo_player)):
+                    press_once(demo_player, self._table)
+                    self._ready.add(demo_player.name)
             if self._stop.is_set():
                 return
 
@@ -69,14 +69,14 @@ class Rehearsal:
         return cache_folder() is not None and _compiler.finish(self._stop, COMPILE_SECONDS)
 
 
-def is_there(performer: Performer) -> bool:
+def is_there(demo_player: DemoPlayer) -> bool:
     """Whether all compiled code of a player is on disk."""
     from silverball.physics.kernel import is_compiled
 
-    return not performer.kernel or is_compiled(performer.kernel)
+    return not demo_player.kernel or is_compiled(demo_player.kernel)
 
 
-def press_once(performer: Performer, table: Table) -> None:
+def press_once(demo_player: DemoPlayer, table: Table) -> None:
     """Let a player press once before a ball, so that no later press has to load or compile."""
     from silverball.game.game import Game
     from silverball.players import make_player
@@ -84,16 +84,16 @@ def press_once(performer: Performer, table: Table) -> None:
     game = Game(table, 0)
     game.create_ball()
     game.advance(False, False, 1)
-    make_player(performer.name).press(game.world)
+    make_player(demo_player.name).press(game.world)
 
 
 def compile_all() -> None:
     """Compile what is missing of all players."""
     from silverball.table import load_table
 
-    for performer in PERFORMERS:
-        if not is_there(performer):
-            press_once(performer, load_table("classic"))
+    for demo_player in DEMO_PLAYERS:
+        if not is_there(demo_player):
+            press_once(demo_player, load_table("classic"))
 
 
 _compiler = Compiler("silverball.app.player_warmup")

@@ -1,6 +1,6 @@
-"""What is the program doing, and what follows from a button? Games begin, pause, end and are kept.
+"""What is the program doing, and what follows from a button? Games begin, pause and end.
 
-At any time there is a board, perhaps a stage on it (somebody plays, a replay, the program itself), perhaps a
+At any time there is a board, perhaps a session on it (a player, a replay, or the program itself), perhaps a
 page of the menus on the score display. The window passes in actions and time, and shows what is here; no
 window in here.
 """
@@ -12,16 +12,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from silverball.app.catalog import file_in_words, trouble_of, trouble_words
+from silverball.app.catalog import quoted_file_name, table_error_text, table_problem_text
 from silverball.app.command_handlers import execute
 from silverball.app.controls import MENU_BUTTONS, PADDLES, Action, Held
-from silverball.app.demo_players import BEST, DemoPlayers
-from silverball.app.game_archive import Ended, GameArchive
-from silverball.app.menus import Button, Menus, ReplayFace
-from silverball.app.progress_bar import Progress, draw_line, draw_page
-from silverball.app.score_display import Display
+from silverball.app.demo_players import BEST_PLAYER, DemoPlayerSelector
+from silverball.app.game_archive import GameArchive, GameResult
+from silverball.app.menus import Button, Menus, ReplayStatus
+from silverball.app.score_display import ScoreDisplay
 from silverball.app.sessions import DemoSession, GameSession, ReplaySession, Session, why_no_tick
 from silverball.app.settings import Settings
+from silverball.app.startup import Progress, draw_line, draw_page
 from silverball.errors import BoardFull, NoRoom, SilverballError
 from silverball.game.view import Mode
 from silverball.plain import plain
@@ -47,7 +47,7 @@ class Program:
     Args:
         store: What is kept.
         settings: As they were kept.
-        library: The tables and scores that can be chosen.
+        catalog: The tables and scores that can be chosen.
         seed: Of the first board; None draws one.
         say: Tells the player a sentence.
         themes: Names of the colours there are.
@@ -57,15 +57,15 @@ class Program:
         table: The board that is seen, finished.
         seed: That it was made with.
         recipe: What it was made of.
-        stage: What goes on on it; None before anything does.
+        session: What goes on on it; None before anything does.
         menus: The pages on the score display.
         is_ready: Whether the physics is loaded.
         progress: How far it is compiled; None while nothing is.
         is_over: Whether the program is to end.
         is_held: Whether a replay stands still.
         store: What is kept.
-        keeper: Keeps games in it.
-        cast: Who plays when the program plays by itself.
+        archive: Keeps games in it.
+        demo_players: Who plays when the program plays by itself.
         ended: What has become of the game that was over last.
         say: Tells the player a sentence.
     """
@@ -74,37 +74,37 @@ class Program:
         self,
         store: Store,
         settings: Settings,
-        library: Catalog,
+        catalog: Catalog,
         seed: int | None = None,
         say: Callable[[str], None] = lambda text: None,
         themes: Sequence[str] = ("neon",),
     ) -> None:
         self.settings = settings
-        self.stage: Session | None = None
+        self.session: Session | None = None
         self.is_ready = self.is_over = False
         self.progress: Progress | None = None
         self.is_held = False
-        library.choose(settings.table)
-        self.menus = Menus(settings, library.entries(), library.scores, themes=themes)
+        catalog.choose(settings.table)
+        self.menus = Menus(settings, catalog.entries(), catalog.scores, themes=themes)
         self.menus.know(has_last_game=store.last_game() is not None)
-        self.display = Display()
+        self.display = ScoreDisplay()
         self.store, self.say = store, say
-        self.keeper = GameArchive(store, library)
-        self.cast = DemoPlayers()
-        self._library = library
+        self.archive = GameArchive(store, catalog)
+        self.demo_players = DemoPlayerSelector()
+        self._catalog = catalog
         self._now = 0.0
         self._speed = AS_PLAYED
         self._wish: Callable[[], None] | None = None  # waits for the physics
         self._ended_at: float | None = None  # when the game that is played was over
         self._counts = True  # whether its score is for the scores
-        self.ended = Ended()
-        self._is_shown_off = False  # the program plays because nobody is there
+        self.ended = GameResult()
+        self._is_attract_demo = False  # the program plays because nobody is there
         self._is_fresh = True  # nobody has played on this board yet
         self._looked = 0.0  # when the table files were looked at
         self._played: Table | None = None  # of what the board of the game was made
         self._key: Key | None = None  # under which its score is listed
         self._is_blind = store.is_blind  # the settings are not known yet
-        self._see(library.recipe(settings.table), seed)
+        self._see(catalog.recipe(settings.table), seed)
 
     # --- what there is to see -----------------------------------------------------------------------
 
@@ -116,36 +116,36 @@ class Program:
     @property
     def is_playing(self) -> bool:
         """Whether somebody's paddles move now."""
-        return isinstance(self.stage, GameSession) and not self.menus.is_open and not self.stage.has_ended
+        return isinstance(self.session, GameSession) and not self.menus.is_open and not self.session.has_ended
 
     @property
     def is_moving(self) -> bool:
         """Whether time goes on on the board."""
-        if self.stage is None or self.stage.has_ended:
+        if self.session is None or self.session.has_ended:
             return False
-        if isinstance(self.stage, GameSession):
+        if isinstance(self.session, GameSession):
             return not self.menus.is_open
         return not self.is_held
 
     @property
     def is_paused(self) -> bool:
         """Whether a game waits for its player."""
-        return isinstance(self.stage, GameSession) and self.menus.is_open and not self.stage.has_ended
+        return isinstance(self.session, GameSession) and self.menus.is_open and not self.session.has_ended
 
     @property
     def has_game(self) -> bool:
         """Whether a game is played, paused or not, and not over."""
-        return isinstance(self.stage, GameSession) and not self.stage.has_ended
+        return isinstance(self.session, GameSession) and not self.session.has_ended
 
     @property
     def mode(self) -> Mode:
         """The game that is played, or the one that is chosen."""
-        return self.stage.game.mode if isinstance(self.stage, GameSession) else Mode(self.settings.mode)
+        return self.session.game.mode if isinstance(self.session, GameSession) else Mode(self.settings.mode)
 
     @property
-    def is_heard(self) -> bool:
+    def is_audible(self) -> bool:
         """Whether the board makes sounds: not while it only shows off."""
-        return not self._is_shown_off
+        return not self._is_attract_demo
 
     @property
     def board_seed(self) -> int | None:
@@ -155,10 +155,10 @@ class Program:
     def dots(self, seconds: float) -> Dots:
         """What the score display shows."""
         below = None
-        if self.stage is not None:
-            is_played, mode = self.stage.is_played, self.stage.game.mode
-            best = self._library.best(self._key, mode) if is_played and self._key is not None else 0
-            below = self.display.frame(self.stage.game.face, seconds, best)
+        if self.session is not None:
+            is_played, mode = self.session.is_played, self.session.game.mode
+            best = self._catalog.best(self._key, mode) if is_played and self._key is not None else 0
+            below = self.display.frame(self.session.game.face, seconds, best)
         if not self.menus.is_open and below is None:
             return draw_page(seconds, self.progress)
         dots = self.menus.draw(seconds, below)
@@ -168,7 +168,7 @@ class Program:
 
     # --- time ---------------------------------------------------------------------------------------
 
-    def pass_time(self, seconds: float) -> None:
+    def update(self, seconds: float) -> None:
         """Real time has gone on.
 
         Args:
@@ -178,18 +178,18 @@ class Program:
         self._try_to_save(seconds)
         execute(self.menus.tick(seconds), self)
         self._look_at_files()
-        stage = self.stage
-        if isinstance(stage, GameSession) and stage.has_ended:
-            self._after_the_end(stage)
-        if isinstance(stage, DemoSession) and self.cast.follow(stage):
+        session = self.session
+        if isinstance(session, GameSession) and session.has_ended:
+            self._after_the_end(session)
+        if isinstance(session, DemoSession) and self.demo_players.follow(session):
             self._announce()
         # A replay is played a little ahead, so that a jump is quick.
-        if isinstance(stage, ReplaySession) and self._goes_on(lambda: stage.player.prepare(480)):
-            self.menus.show_replay(self._replay_face(stage))
+        if isinstance(session, ReplaySession) and self._goes_on(lambda: session.player.prepare(480)):
+            self.menus.show_replay(self._replay_status(session))
 
     def _try_to_save(self, seconds: float) -> None:
         """Save what waits for another program that held the file of the scores."""
-        words = self.keeper.pass_time(seconds)
+        words = self.archive.update(seconds)
         if self._is_blind and not self.store.is_held:
             self._is_blind = False
             here = {"table": self.settings.table, "mode": self.settings.mode}
@@ -201,28 +201,28 @@ class Program:
 
     def advance(self, held: Held, ticks: int) -> None:
         """Move what goes on on the board by a number of ticks."""
-        stage = self.stage
-        if stage is not None and self.is_moving:
-            self._goes_on(lambda: stage.advance(held, ticks))
+        session = self.session
+        if session is not None and self.is_moving:
+            self._goes_on(lambda: session.advance(held, ticks))
 
     def single_tick(self, held: Held) -> None:
         """Move on by one tick while the game waits."""
-        stage = self.stage
-        if stage is None or self.is_moving or stage.has_ended:
-            self.say(why_no_tick(stage))
+        session = self.session
+        if session is None or self.is_moving or session.has_ended:
+            self.say(why_no_tick(session))
             return
         self._no_longer_counts()
-        self._goes_on(lambda: stage.advance(held, 1))
+        self._goes_on(lambda: session.advance(held, 1))
 
     def jump(self, seconds: float) -> None:
         """Go back or ahead in the replay that is watched."""
-        stage = self.stage
-        if isinstance(stage, ReplaySession):
-            target = stage.player.tick + round(seconds * stage.player.replay.tick_rate)
-            self._goes_on(lambda: stage.player.seek(target))
+        session = self.session
+        if isinstance(session, ReplaySession):
+            target = session.player.tick + round(seconds * session.player.replay.tick_rate)
+            self._goes_on(lambda: session.player.seek(target))
 
     def _goes_on(self, move: Callable[[], object]) -> bool:
-        """Whether what moves the stage went well; a replay that is not the game it says is put away."""
+        """Whether what moves the session went well; a replay that is not the game it says is put away."""
         try:
             move()
         except SilverballError as error:
@@ -247,14 +247,14 @@ class Program:
                 self.press_menu(MENU_BUTTONS[action])
             elif self.menus.page == "attract":
                 self.press_menu(Button.BACK)  # any button will do
-            elif action is Action.NEW_BOARD and isinstance(self.stage, GameSession):
+            elif action is Action.NEW_BOARD and isinstance(self.session, GameSession):
                 self._new_board(again)
             elif action is Action.JITTER and self.is_paused:
                 self.say("the game is paused")
-        elif self.stage is None:
+        elif self.session is None:
             self._press_while_waiting(action)
-        elif isinstance(self.stage, GameSession):
-            self._press_in_play(action, again, self.stage)
+        elif isinstance(self.session, GameSession):
+            self._press_in_play(action, again, self.session)
         else:
             self._stop_watching()  # the program plays; whoever touches anything wants the menu
 
@@ -296,14 +296,14 @@ class Program:
         else:
             self.say(WAIT)
 
-    def _press_in_play(self, action: Action, again: bool, stage: GameSession) -> None:
-        if stage.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
+    def _press_in_play(self, action: Action, again: bool, session: GameSession) -> None:
+        if session.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
             if self._ended_at is not None:  # its score is kept
                 self._ended_at = self._now - OVER_SECONDS  # seen enough
         elif action is Action.CREATE:
-            self._try(lambda: self._bring_ball(stage))
+            self._try(lambda: self._bring_ball(session))
         elif action is Action.JITTER:
-            self._try(stage.game.jitter)
+            self._try(session.game.jitter)
         elif action is Action.PAUSE or action is Action.BACK:
             self.menus.open_pause()
         elif action is Action.NEW_BOARD:
@@ -311,8 +311,8 @@ class Program:
         elif action in PADDLES and all(paddle.side != str(action) for paddle in self.table.paddle):
             self.say(f"this table has no {action} paddle")
 
-    def _bring_ball(self, stage: GameSession) -> None:
-        question = stage.bring_ball(self._key_of(Action.CREATE))
+    def _bring_ball(self, session: GameSession) -> None:
+        question = session.bring_ball(self._key_of(Action.CREATE))
         if question:
             self.display.say(question, at_once=True)
 
@@ -330,7 +330,7 @@ class Program:
     def change_speed(self, step: int) -> None:
         """Slower (-1) or faster (+1), by one step."""
         self._speed = min(max(self._speed + step, 0), self._fastest)
-        if isinstance(self.stage, GameSession):
+        if isinstance(self.session, GameSession):
             self.say("as fast as ever" if self.speed == 1.0 else f"{self.speed:g} of the speed")
         if self.speed < 1.0:
             self._no_longer_counts()
@@ -338,14 +338,14 @@ class Program:
     @property
     def _fastest(self) -> int:
         """The place in SPEEDS beyond which nothing is made faster."""
-        if isinstance(self.stage, GameSession):
+        if isinstance(self.session, GameSession):
             return AS_PLAYED
-        most = self.cast.playing.fastest if isinstance(self.stage, DemoSession) else SPEEDS[-1]
+        most = self.demo_players.playing.fastest if isinstance(self.session, DemoSession) else SPEEDS[-1]
         return max(place for place, speed in enumerate(SPEEDS) if speed <= most)
 
     def _no_longer_counts(self) -> None:
-        stage = self.stage
-        if self._counts and isinstance(stage, GameSession) and stage.game.mode is Mode.ARCADE:
+        session = self.session
+        if self._counts and isinstance(session, GameSession) and session.game.mode is Mode.ARCADE:
             self._counts = False
             self.say("slowed down, this game no longer counts for the scores")
 
@@ -374,23 +374,23 @@ class Program:
 
     def keep_last_game(self) -> None:
         """Keep the replay of the game that is played, if anything was played."""
-        stage = self.stage
-        if isinstance(stage, GameSession) and self._ended_at is None:
-            if stage.has_ended:
-                self._after_the_end(stage)
+        session = self.session
+        if isinstance(session, GameSession) and self._ended_at is None:
+            if session.has_ended:
+                self._after_the_end(session)
                 return
-            self.keeper.last_game(stage.game)
+            self.archive.last_game(session.game)
             self.menus.know(has_last_game=self.store.last_game() is not None)
 
-    def give_up(self, stage: GameSession) -> None:
+    def give_up(self, session: GameSession) -> None:
         """The player ends a game: it can be watched, but its score is not for the scores."""
-        stage.game.end()
-        self.keeper.last_game(stage.game)
+        session.game.end()
+        self.archive.last_game(session.game)
         self.menus.know(has_last_game=self.store.last_game() is not None)
 
     def keep_file(self, what: str) -> Path | None:
         """Keep the replay of the game that is played as a file; where it is, None if it cannot be written."""
-        return self.keeper.file(self.stage.game, what) if isinstance(self.stage, GameSession) else None
+        return self.archive.file(self.session.game, what) if isinstance(self.session, GameSession) else None
 
     def _when_ready(self, do: Callable[[], None]) -> None:
         if self.is_ready:
@@ -402,16 +402,16 @@ class Program:
     def _look_at(self, table: str, seed: int | None) -> bool:
         """Show another board; False, told why, and the old one, if it cannot be used."""
         try:
-            self._see(self._library.recipe(table), seed)
+            self._see(self._catalog.recipe(table), seed)
         except SilverballError as error:
-            self.say(trouble_of(table, error))
+            self.say(table_error_text(table, error))
             return False
         return True
 
     def _see(self, recipe: Table, seed: int | None) -> None:
         """Show the board that a seed makes of a table, None drawing one."""
         seed = secrets.randbelow(SEEDS) if seed is None else seed
-        self.table: Table = self._library.finished(recipe, seed)
+        self.table: Table = self._catalog.finished(recipe, seed)
         self.recipe: Table = recipe
         self.seed = seed
         self._is_fresh = True
@@ -426,28 +426,28 @@ class Program:
         self.menus.close()
         self._is_fresh = False
         self._played = self.recipe  # its file may say something else before the game is over
-        self._key = self._library.key(self.recipe)
+        self._key = self._catalog.key(self.recipe)
         self._start(GameSession(Game(self.table, self.seed, mode)))
 
-    def _start(self, stage: Session) -> None:
-        self.stage = stage
-        self.display = Display(self._key_of(Action.CREATE), is_calm=self.settings.effects == "less")
-        self._speed, self.is_held, self._is_shown_off = AS_PLAYED, False, False
-        self._ended_at, self._counts, self.ended = None, True, Ended()
+    def _start(self, session: Session) -> None:
+        self.session = session
+        self.display = ScoreDisplay(self._key_of(Action.CREATE), is_calm=self.settings.effects == "less")
+        self._speed, self.is_held, self._is_attract_demo = AS_PLAYED, False, False
+        self._ended_at, self._counts, self.ended = None, True, GameResult()
 
     def _key_of(self, action: Action) -> str:
         """The first key of an action, as the display writes it."""
         return self.menus.key(action)
 
     def _new_board(self, again: bool) -> None:
-        stage, before = self.stage, self.recipe
-        mode = stage.game.mode if stage is not None else Mode(self.settings.mode)
+        session, before = self.session, self.recipe
+        mode = session.game.mode if session is not None else Mode(self.settings.mode)
         seed = self.seed if again else None
         words = ""
         try:
-            self._see(self._library.recipe(self.settings.table), seed)
+            self._see(self._catalog.recipe(self.settings.table), seed)
         except SilverballError as error:
-            words = f"{trouble_of(self.settings.table, error)}. This is the table as it was"
+            words = f"{table_error_text(self.settings.table, error)}. This is the table as it was"
             if not self._look_at_kept(before, seed):
                 return
         self.menus.close()
@@ -465,7 +465,7 @@ class Program:
 
     def _board_words(self, before: Table, again: bool) -> str:
         """What there is to say of the board that has just been made."""
-        news = f"{file_in_words(self.settings.table)} was read again" if self.recipe != before else ""
+        news = f"{quoted_file_name(self.settings.table)} was read again" if self.recipe != before else ""
         if self.recipe.random is not None:
             key = self._key_of(Action.NEW_BOARD)
             words = (
@@ -482,39 +482,39 @@ class Program:
             return
         self._looked = self._now
         is_choosing = self.menus.is_open and not self.is_paused
-        if self._library.look(whole=is_choosing) and is_choosing:
-            self.menus.know(tables=self._library.entries())
-        if isinstance(self.stage, ReplaySession | DemoSession):
+        if self._catalog.look(whole=is_choosing) and is_choosing:
+            self.menus.know(tables=self._catalog.entries())
+        if isinstance(self.session, ReplaySession | DemoSession):
             return  # when that is over, the file is read in any case
-        reading = self._library.news()
+        reading = self._catalog.news()
         if reading is None or reading.table == self.recipe:
             return
-        if self.stage is None:
+        if self.session is None:
             self._look_at(self.settings.table, self.seed)
             return
         file, key = (
-            file_in_words(self.settings.table),
+            quoted_file_name(self.settings.table),
             self._key_of(Action.NEW_BOARD).replace("?", "a new game"),
         )
         if reading.table is not None:
             self.say(f"{file} has changed: {key} plays the new one")
         else:
             self.say(
-                f"{trouble_words(self.settings.table, reading.problem)}. {key} plays the table as it was"
+                f"{table_problem_text(self.settings.table, reading.problem)}. {key} plays the table as it was"
             )
 
-    def _after_the_end(self, stage: GameSession) -> None:
+    def _after_the_end(self, session: GameSession) -> None:
         """Keep a game that is over at once, and show what comes after it when it has been seen."""
         if self._ended_at is None:
-            self.ended = self.keeper.ended(
-                stage.game, self._played or self.recipe, self.settings.initials, counts=self._counts
+            self.ended = self.archive.ended(
+                session.game, self._played or self.recipe, self.settings.initials, counts=self._counts
             )
             self.menus.know(has_last_game=True)
             if self.ended.words:
                 self.say(self.ended.words)
             self._ended_at = self._now
         elif self._now - self._ended_at >= OVER_SECONDS and not self.menus.is_open:
-            self.menus.open_over(stage.game.score, self.ended.rank)
+            self.menus.open_over(session.game.score, self.ended.rank)
 
     def _show_replay(self, replay: Replay) -> None:
         from silverball.game.replay.player import ReplayPlayer
@@ -522,38 +522,38 @@ class Program:
         self.keep_last_game()
         self.recipe = self.table = replay.table
         self.seed = replay.seed
-        stage = ReplaySession(ReplayPlayer(replay))
-        self._start(stage)
-        self.menus.open_transport(self._replay_face(stage))
+        session = ReplaySession(ReplayPlayer(replay))
+        self._start(session)
+        self.menus.open_transport(self._replay_status(session))
 
-    def show_off(self, player: str = BEST.name, *, nobody_there: bool = False) -> None:
+    def start_demo(self, player: str = BEST_PLAYER.name, *, is_attract: bool = False) -> None:
         """Let the program play, as soon as the physics is ready; a stand-in plays until the player is."""
-        self._when_ready(lambda: self._show_off(player, nobody_there))
+        self._when_ready(lambda: self._start_demo(player, is_attract))
 
-    def _show_off(self, player: str, nobody_there: bool) -> None:
-        wants_board = self.recipe.random is not None or self.stage is not None
-        if wants_board and not self._look_at(self.settings.table, None) and not nobody_there:
+    def _start_demo(self, player: str, is_attract: bool) -> None:
+        wants_board = self.recipe.random is not None or self.session is not None
+        if wants_board and not self._look_at(self.settings.table, None) and not is_attract:
             self.menus.reopen()
             return
-        self._start(DemoSession(self.table, self.seed, self.cast.begin(player)))
-        self._is_shown_off = nobody_there
+        self._start(DemoSession(self.table, self.seed, self.demo_players.begin(player)))
+        self._is_attract_demo = is_attract
         self._announce()
 
     def _announce(self) -> None:
         """Tell on the score display who plays while the program plays by itself."""
         self._speed = min(self._speed, self._fastest)
-        self.display.performer = self.cast.playing.label
-        self.menus.know(performer=self.cast.playing)
+        self.display.demo_player = self.demo_players.playing.label
+        self.menus.know(demo_player=self.demo_players.playing)
 
     def _stop_watching(self) -> None:
-        if isinstance(self.stage, ReplaySession):
+        if isinstance(self.session, ReplaySession):
             self.end_watching()
-        self.stage = None
+        self.session = None
         self.menus.reopen()
 
-    def _replay_face(self, stage: ReplaySession) -> ReplayFace:
-        player, rate = stage.player, stage.player.replay.tick_rate
-        return ReplayFace(player.tick / rate, player.ticks / rate, self.speed, self.is_held, "REPLAY")
+    def _replay_status(self, session: ReplaySession) -> ReplayStatus:
+        player, rate = session.player, session.player.replay.tick_rate
+        return ReplayStatus(player.tick / rate, player.ticks / rate, self.speed, self.is_held, "REPLAY")
 
     def watch_text(self, text: str, source: str) -> None:
         """Show a replay, or tell why it cannot be played."""
@@ -573,13 +573,13 @@ class Program:
 
     def end_watching(self) -> None:
         """Nobody watches any longer: the chosen table is seen again."""
-        self.stage = None
+        self.session = None
         self._look_at(self.settings.table, self.menus.seed)
 
-    def see_board(self, seed: int | None) -> None:
+    def show_board(self, seed: int | None) -> None:
         """Show the board that a seed makes, unless a game is played."""
         if not self.has_game:
-            self.stage = None
+            self.session = None
             self._look_at(self.settings.table, seed)
 
     def use(self, settings: Settings) -> None:
@@ -595,7 +595,7 @@ class Program:
 
     def _take(self, settings: Settings) -> None:
         self.settings = settings
-        self._library.choose(settings.table)
+        self._catalog.choose(settings.table)
 
     def _refuse(self, error: SilverballError) -> None:
         self.say(str(error))

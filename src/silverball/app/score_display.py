@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from silverball.drawing.dotmatrix import animations as dotshows
+from silverball.drawing.dotmatrix import animations
 from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, TINY, fitting
 from silverball.game.view import GameEvent, GameEventKind, GameView, Mode, Phase
@@ -21,7 +21,7 @@ COUNT_TIME = 0.25  # [s] in which the score counts up to its new value
 POINTS_TIME = 0.7  # [s] for which the points of a hit are shown
 SAY_TIME = 2.5  # [s] for which a message stands
 SAY_SPEED = 45.0  # [dot/s] of messages that are too long
-MOST_MESSAGES = 4  # that wait; a message that comes too late tells nothing
+MAX_MESSAGES = 4  # that wait; a message that comes too late tells nothing
 PATIENCE = 3.5  # [s] after which a show that could not begin is out of date
 COMBO_SHOWN = 3  # hits in a row from which they are announced
 COMBO_FULL = 8  # hits in a row at which the meters are full
@@ -51,21 +51,21 @@ class Show(NamedTuple):
     length: float
     full: Scene | None = None
     full_time: float = 0.0
-    look: Callable[[Dots, float, str, int], None] = dotshows.grown
+    look: Callable[[Dots, float, str, int], None] = animations.grown
 
 
-class Display:
+class ScoreDisplay:
     """The score display of one game.
 
     Attributes:
         start_key: The key that brings a ball, as the display is to write it.
-        performer: Who plays if nobody does: written beside the balls.
+        demo_player: Who plays if nobody does: written beside the balls.
         is_calm: Nothing fills the display or flashes over all of it, for sensitive eyes.
     """
 
     def __init__(self, start_key: str = "SPACE", is_calm: bool = False) -> None:
         self.start_key = start_key
-        self.performer = ""
+        self.demo_player = ""
         self.is_calm = is_calm
         self._queue: list[tuple[Show, float | None]] = []  # with the time since when it waits
         self._show: Show | None = None
@@ -153,7 +153,7 @@ class Display:
         elif self._show is not None:
             at = seconds - self._began
             if self._show is _HIGH_SCORE:
-                dotshows.fireworks(dots, at % 2.4, bottom=16)
+                animations.fireworks(dots, at % 2.4, bottom=16)
             self._show.look(dots, at, headline, 2)
             self._draw_score(dots, 19, seconds)
         elif face.tilted:
@@ -187,7 +187,7 @@ class Display:
         if self._tilted_since is not None:
             at = seconds - self._tilted_since
             period = HIDDEN_AT_MOST + SEEN_AT_LEAST
-            return (lambda dots: dotshows.tilt(dots, at)) if at % period < HIDDEN_AT_MOST else None
+            return (lambda dots: animations.tilt(dots, at)) if at % period < HIDDEN_AT_MOST else None
         show = self._show
         if show is None or show.full is None or seconds - self._began >= show.full_time:
             return None
@@ -207,8 +207,8 @@ class Display:
         dots.number(self._score(seconds), WIDTH // 2, 1, WIDTH - 12)
         _draw_combo_meters(dots, face.combo, seconds)
         _draw_balls(dots, face)
-        if self.performer:
-            dots.text(self.performer, 7 * face.most_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
+        if self.demo_player:
+            dots.text(self.demo_player, 7 * face.most_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
         if face.multiplier > 1:
             text = f"×{face.multiplier}"
             width = NORMAL.width(text) + 4
@@ -286,7 +286,7 @@ class _Messages:
     def add(self, text: str) -> None:
         """One more, unless it is the last one again; of too many only the newest are kept."""
         if not self._texts or self._texts[-1] != text:
-            del self._texts[1 : max(len(self._texts) - MOST_MESSAGES + 2, 1)]
+            del self._texts[1 : max(len(self._texts) - MAX_MESSAGES + 2, 1)]
             self._texts.append(text)
 
     def at(self, seconds: float) -> tuple[str, int] | None:
@@ -307,22 +307,22 @@ class _Messages:
 
 def _combo_scene(value: int) -> Scene:
     def scene(dots: Dots, at: float) -> None:
-        dotshows.ring(dots, at, speed=170.0)
-        dotshows.burst(dots, at)
+        animations.ring(dots, at, speed=170.0)
+        animations.burst(dots, at)
         dots.text(f"{value} HITS", WIDTH // 2, 5, BOLD, "center", scale=2)
 
     return scene
 
 
 def _high_scene(dots: Dots, at: float) -> None:
-    dotshows.fireworks(dots, at + 0.3)
+    animations.fireworks(dots, at + 0.3)
     dots.box(14, 9, 132, 14, 0)
-    dotshows.grown(dots, at, "HIGH SCORE!", 11)
+    animations.grown(dots, at, "HIGH SCORE!", 11)
 
 
 _HIGH_SCORE = Show("high", 6, "HIGH SCORE!", 3.2, _high_scene, 0.8)
-_SAVED = Show("saved", 5, "BALL SAVED", 2.2, dotshows.saved_ball, 0.85)
-_DOUBLE = Show("double", 3, "DOUBLE POINTS", 2.2, dotshows.two_balls, 0.8)
+_SAVED = Show("saved", 5, "BALL SAVED", 2.2, animations.saved_ball, 0.85)
+_DOUBLE = Show("double", 3, "DOUBLE POINTS", 2.2, animations.two_balls, 0.8)
 
 
 def _show_of(news: GameEvent) -> Show | None:
@@ -336,9 +336,9 @@ def _show_of(news: GameEvent) -> Show | None:
     if news.kind is GameEventKind.DOUBLE_ON:
         return _DOUBLE
     if news.kind is GameEventKind.WARNING:
-        return Show("warning", 4, "WARNING" + "!" * min(news.value, 3), 1.2, look=dotshows.shaken)
+        return Show("warning", 4, "WARNING" + "!" * min(news.value, 3), 1.2, look=animations.shaken)
     if news.kind is GameEventKind.BALL_LOST and news.value:
-        return Show("lost", 1, f"BALL {news.value} LOST", 1.4, dotshows.falling_ball, 0.45)
+        return Show("lost", 1, f"BALL {news.value} LOST", 1.4, animations.falling_ball, 0.45)
     return None
 
 

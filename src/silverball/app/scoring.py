@@ -11,7 +11,7 @@ from silverball.table import Arcade, Table
 
 KINDS = ("cylinder", "triangular prism", "slant wall", "paddle")
 TIMES = {1: "once", 2: "twice"}
-MOST_SHOVES = 1002  # one more than the greatest limit of a table
+MAX_SHOVES = 1002  # one more than the greatest limit of a table
 
 
 class Rule(NamedTuple):
@@ -115,7 +115,7 @@ def quick_shoves(arcade: Arcade) -> tuple[int | None, int]:
     """Which of shoves in quick succession is warned of first, None if none is, and which one tilts."""
     warns: int | None = None
     warnings = 0
-    for count in range(1, MOST_SHOVES):
+    for count in range(1, MAX_SHOVES):
         swing = count * tilt.SHOVE
         verdict = tilt.judged(swing, warnings, arcade.tilt_warning, arcade.tilt_limit, arcade.warnings)
         if verdict is tilt.Verdict.TILT:
@@ -123,7 +123,7 @@ def quick_shoves(arcade: Arcade) -> tuple[int | None, int]:
         if verdict is tilt.Verdict.WARNING:
             warnings += 1
             warns = warns or count
-    return warns, MOST_SHOVES
+    return warns, MAX_SHOVES
 
 
 def _ordinal(number: int) -> str:

@@ -1,6 +1,6 @@
-"""The window of the operating system: how is it opened, how large is it, and is there a display at all?
+"""The window of the operating system, its size, and the mouse pointer over it.
 
-A pixel here is a real pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
+A pixel here is a physical pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
 """
 
 from __future__ import annotations
@@ -8,16 +8,15 @@ from __future__ import annotations
 import pygame
 
 from silverball.app import sdl
-from silverball.app.pointer import Pointer
 from silverball.drawing.icon import ball_icon
 from silverball.video_driver import open_video
 
 DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take
 TITLE_BAR = 48  # [pixel] of it that the title bar alone may take
 FRAME = 8  # [pixel] that a frame may add on both sides
-GREATEST_HEIGHT = 1200  # [pixel] of the window at first
+MAX_HEIGHT = 1200  # [pixel] of the window at first
 ICON_SIDE = 64  # [pixel]
-LEAST_SIZE = (170, 340)  # [pixel] below which nothing can be read
+MIN_SIZE = (170, 340)  # [pixel] below which nothing can be read
 REMEDY = "`silverball demo` makes a film of a game without one, for example: silverball demo --out demo.gif"
 FRAME_RATES = (60, 240)  # [1/s] the least and the greatest that is aimed at, whatever the screen says
 _TYPING_ENDS = (pygame.WINDOWSHOWN, pygame.WINDOWSIZECHANGED, pygame.WINDOWFOCUSGAINED)
@@ -40,22 +39,22 @@ class Screen:
         self._title = title
         self._window: pygame.Window | None = None
         self._pointer = Pointer()
-        self.is_full = False
+        self.is_fullscreen = False
 
     @property
-    def first_room(self) -> tuple[int, int]:
+    def max_initial_size(self) -> tuple[int, int]:
         """Width and height [pixel] within which a whole window, its decorations included, fits the screen."""
         width, height = self.desktop
         room = [width - 2 * FRAME, height - DECORATION]
-        usable, area = sdl.usable_area(0), sdl.screen_area(0)
+        usable, area = sdl.usable_bounds(0), sdl.display_bounds(0)
         if usable is not None and area is not None and area.size == self.desktop:
             room = [min(room[0], usable.width - 2 * FRAME), min(room[1], usable.height - TITLE_BAR)]
-        return max(room[0], 1), min(max(room[1], 1), GREATEST_HEIGHT)
+        return max(room[0], 1), min(max(room[1], 1), MAX_HEIGHT)
 
     @property
     def first_height(self) -> int:
         """The height [pixel] at which the whole window, its decorations included, fits the screen."""
-        return self.first_room[1]
+        return self.max_initial_size[1]
 
     @property
     def refresh_rate(self) -> int:
@@ -72,9 +71,9 @@ class Screen:
     def open(self, size: tuple[int, int]) -> None:
         """Show the window at a size."""
         self._window = pygame.Window(self._title, size, resizable=True, allow_high_dpi=True)
-        self._window.minimum_size = min(LEAST_SIZE[0], size[0]), min(LEAST_SIZE[1], size[1])
+        self._window.minimum_size = min(MIN_SIZE[0], size[0]), min(MIN_SIZE[1], size[1])
         self._window.set_icon(ball_icon(ICON_SIDE))
-        _hear_keys_alone()
+        _disable_text_input()
 
     def owns(self, event: pygame.Event) -> bool:
         """Whether an event is about this window, and not about another one of this program."""
@@ -84,29 +83,29 @@ class Screen:
         """Show what has been drawn."""
         self._opened.flip()
 
-    def toggle_full(self) -> None:
+    def toggle_fullscreen(self) -> None:
         """Fill the screen, or go back."""
-        self.is_full = not self.is_full
-        if self.is_full:
+        self.is_fullscreen = not self.is_fullscreen
+        if self.is_fullscreen:
             self._opened.set_fullscreen(desktop=True)
         else:
             self._opened.set_windowed()
-        _hear_keys_alone()
+        _disable_text_input()
 
     def resize(self, size: tuple[int, int]) -> None:
         """Make the window another size."""
         self._opened.size = size
-        _hear_keys_alone()
+        _disable_text_input()
 
     def answer(self, event: pygame.Event) -> None:
         """Follow the pointer, and what the desktop does with the window."""
         self._pointer.answer(event)
         if event.type in _TYPING_ENDS:
-            _hear_keys_alone()
+            _disable_text_input()
 
-    def pass_time(self, elapsed: float, *, waits: bool) -> None:
+    def update(self, elapsed: float, *, waits: bool) -> None:
         """Real time has gone on [s], while a game waits for its player or not."""
-        self._pointer.pass_time(elapsed, waits=waits)
+        self._pointer.update(elapsed, waits=waits)
 
     def close(self) -> None:
         """Close the window."""
@@ -120,8 +119,8 @@ class Screen:
         if self._window is None:
             return 0
         sizes = pygame.display.get_desktop_sizes()
-        number = sdl.screen_of(self._window.id)
-        if number is not None and all(sdl.screen_area(screen) for screen in range(len(sizes))):
+        number = sdl.display_index(self._window.id)
+        if number is not None and all(sdl.display_bounds(screen) for screen in range(len(sizes))):
             return number
         # Nobody says where the screens stand: side by side, then, the first one on the left.
         middle, left = self._window.position[0] + self._window.size[0] // 2, 0
@@ -137,6 +136,46 @@ class Screen:
         return self._window
 
 
-def _hear_keys_alone() -> None:
+def _disable_text_input() -> None:
     """End the typing of text with which SDL begins: an input method that composes would keep letters."""
     pygame.key.stop_text_input()
+
+
+REST = 2.0  # [s] without a move, after which it is hidden
+_TOUCHED = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
+
+
+class Pointer:
+    """The mouse pointer over the window."""
+
+    def __init__(self) -> None:
+        self._rests = 0.0  # since when it has not been moved [s]
+        self._is_elsewhere = False  # another window has the focus
+        self._waited = False
+
+    def answer(self, event: pygame.Event) -> None:
+        """Take note of a move, and of the focus that comes and goes."""
+        if event.type in _TOUCHED:
+            if getattr(event, "rel", None) != (0, 0):  # as comes with a window that opens under it
+                self._show()
+        elif event.type in (pygame.WINDOWFOCUSLOST, pygame.WINDOWFOCUSGAINED):
+            self._is_elsewhere = event.type == pygame.WINDOWFOCUSLOST
+            self._show()
+
+    def update(self, elapsed: float, *, waits: bool) -> None:
+        """Let real time pass.
+
+        Args:
+            elapsed: How much [s].
+            waits: Whether a game waits for its player.
+        """
+        if waits and not self._waited:
+            self._show()
+        self._waited = waits
+        self._rests += elapsed
+        if self._rests >= REST and not self._is_elsewhere and pygame.mouse.get_visible():
+            pygame.mouse.set_visible(False)
+
+    def _show(self) -> None:
+        self._rests = 0.0
+        pygame.mouse.set_visible(True)

@@ -18,13 +18,13 @@ class _Rect(ctypes.Structure):
     _fields_ = (("x", ctypes.c_int), ("y", ctypes.c_int), ("w", ctypes.c_int), ("h", ctypes.c_int))
 
 
-def key_at(scancode: int) -> int | None:
+def keycode_at(scancode: int) -> int | None:
     """What the key at a place bears on the present layout, as pygame's number; 0 if nothing."""
     function = _function("SDL_GetKeyFromScancode")
     return None if function is None else int(function(scancode))
 
 
-def screen_of(window: int) -> int | None:
+def display_index(window: int) -> int | None:
     """On which screen, counted from 0, most of a window stands.
 
     Args:
@@ -38,12 +38,12 @@ def screen_of(window: int) -> int | None:
     return screen if screen >= 0 else None
 
 
-def screen_area(screen: int) -> pygame.Rect | None:
+def display_bounds(screen: int) -> pygame.Rect | None:
     """Where a screen stands among the others, and how large it is."""
     return _area("SDL_GetDisplayBounds", screen)
 
 
-def usable_area(screen: int) -> pygame.Rect | None:
+def usable_bounds(screen: int) -> pygame.Rect | None:
     """The part of a screen that no task bar, dock or menu bar takes."""
     return _area("SDL_GetDisplayUsableBounds", screen)
 

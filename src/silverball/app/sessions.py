@@ -189,10 +189,10 @@ def _could_come(face: GameView) -> bool:
     return 0 < face.ball < face.balls and face.on_board < face.most_balls and not face.tilted
 
 
-def why_no_tick(stage: Session | None) -> str:
+def why_no_tick(session: Session | None) -> str:
     """Why nothing can be moved on by a single tick now."""
-    if stage is not None and stage.has_ended:
-        return "the game is over" if isinstance(stage, GameSession) else "the replay has ended"
-    if isinstance(stage, ReplaySession):
+    if session is not None and session.has_ended:
+        return "the game is over" if isinstance(session, GameSession) else "the replay has ended"
+    if isinstance(session, ReplaySession):
         return "one tick at a time is for a replay that is held"
     return "one tick at a time is for a game that is paused"

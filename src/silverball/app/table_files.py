@@ -21,15 +21,15 @@ from silverball.table import Table, load_table, table_digest
 from silverball.table.file import SIZE_LIMIT
 
 ENDING = ".toml"
-GLANCE = 0.01  # [s] that a look waits for what is read: a table of a hundred parts is ready by then
-PACE = 0.02  # [s] between two of many files, in which the game has Python to itself
-FIRST_GLANCE = 0.5  # [s] the same before the first picture: some fifty tables
+REFRESH_WAIT = 0.01  # [s] that a look waits for what is read: a table of a hundred parts is ready by then
+READ_PAUSE = 0.02  # [s] between two of many files, in which the game has Python to itself
+FIRST_REFRESH_WAIT = 0.5  # [s] the same before the first picture: some fifty tables
 
 Mark: TypeAlias = tuple[str, int, int, int, int, int]
 Stamp: TypeAlias = tuple[Mark, ...]
 
 
-class Reading(NamedTuple):
+class FileReading(NamedTuple):
     """What a file said when it was read last.
 
     Attributes:
@@ -56,7 +56,7 @@ class TableFiles:
         self._folder = folder
         self._chosen = ""
         self._names: tuple[str, ...] = ()
-        self._readings: dict[str, Reading] = {}
+        self._readings: dict[str, FileReading] = {}
         self._thread = threading.Thread()
         self._stale: deque[str] = deque()  # to be read; the thread takes them from the left
         self._versions = itertools.count(1)  # of two threads none takes the same
@@ -68,7 +68,7 @@ class TableFiles:
         """The paths of all files, the chosen one first if it lies elsewhere."""
         return self._names
 
-    def reading(self, name: str) -> Reading | None:
+    def reading(self, name: str) -> FileReading | None:
         """What a file said when it was read last; None if it was not read yet."""
         return self._readings.get(name)
 
@@ -76,7 +76,7 @@ class TableFiles:
         """Watch this file too, if it is one."""
         self._chosen = name if is_path(name) else ""
 
-    def look(self, wait: float = GLANCE, *, whole: bool = True) -> None:
+    def look(self, wait: float = REFRESH_WAIT, *, whole: bool = True) -> None:
         """Look which files there are and which have changed, and have those read.
 
         Args:
@@ -142,10 +142,10 @@ class TableFiles:
         while self._stale:
             name = self._stale.popleft()
             self._note(name, _read(name)[0])
-            if time.monotonic() - start > FIRST_GLANCE:
-                time.sleep(PACE)
+            if time.monotonic() - start > FIRST_REFRESH_WAIT:
+                time.sleep(READ_PAUSE)
 
-    def _note(self, name: str, reading: Reading) -> None:
+    def _note(self, name: str, reading: FileReading) -> None:
         self._readings[name] = reading
         self.version = next(self._versions)
 
@@ -162,19 +162,19 @@ def first_problem(error: SilverballError) -> str:
     return " ".join(str(error).split())
 
 
-def _read(name: str) -> tuple[Reading, SilverballError | None]:
+def _read(name: str) -> tuple[FileReading, SilverballError | None]:
     """Read a file; the stamp is taken first, so that a change meanwhile is found at the next look."""
     mark = _mark(name)
     stamp = (mark, *(_mark(mesh) for mesh in _meshes(name)))
     error: SilverballError
     try:
         table = load_table(name)
-        return Reading(stamp, table, table_digest(table)), None
+        return FileReading(stamp, table, table_digest(table)), None
     except SilverballError as problem:
         error = problem
     except Exception as problem:  # whatever is in a file of somebody's, the game and its menu go on
         error = TableError(name, [Problem("", f"cannot be read ({type(problem).__name__}: {problem})")])
-    return Reading(stamp, problem=first_problem(error)), error
+    return FileReading(stamp, problem=first_problem(error)), error
 
 
 def _meshes(name: str) -> list[str]:

@@ -17,16 +17,13 @@ import pygame
 
 from silverball.app import overlay
 from silverball.app.catalog import Catalog
-from silverball.app.clock import TickClock
 from silverball.app.controls import Action
 from silverball.app.debug import DebugView
-from silverball.app.framerate import FrameTimes
-from silverball.app.latency import LatencyMeter
-from silverball.app.listener import Listener
+from silverball.app.input_handler import InputHandler
 from silverball.app.menus import capital
-from silverball.app.messages import Messages
+from silverball.app.overlay import Messages
 from silverball.app.picture import Picture, fitted
-from silverball.app.player_warmup import Rehearsal
+from silverball.app.player_warmup import PlayerWarmup
 from silverball.app.program import Program
 from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
@@ -34,6 +31,7 @@ from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
 from silverball.app.startup import Startup, compiling_words
+from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
 from silverball.drawing.themes import THEMES
 from silverball.errors import SilverballError, TableError
@@ -49,7 +47,7 @@ if TYPE_CHECKING:
 
 TICK_RATE = 240
 LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor more
-BEAT = 0.001  # [s] between two looks at the buttons
+POLL_INTERVAL = 0.001  # [s] between two looks at the buttons
 PAGE_SOUNDS = {"initials": "high_score", "attract": "attract"}
 RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles with full strength
 
@@ -99,11 +97,13 @@ class Window:
         settings = self.program.settings
         self._on_ready = on_ready
         self._startup: Startup | None = Startup(self.program.table, on_compile)
-        self.rehearsal: Rehearsal | None = None  # of the players that can be watched
+        self.player_warmup: PlayerWarmup | None = None  # of the players that can be watched
         board = self.program.table.board
-        self._screen.open(best_size(board, height) if height else fitted(board, self._screen.first_room).size)
+        self._screen.open(
+            best_size(board, height) if height else fitted(board, self._screen.max_initial_size).size
+        )
         if settings.full_screen:
-            self._screen.toggle_full()
+            self._screen.toggle_fullscreen()
         self._picture = Picture(self._screen.surface.get_size())
         self.sounds = Sounds(settings)
         self.sounds.open()
@@ -111,12 +111,14 @@ class Window:
         self._frame_times = FrameTimes()
         self.latency = LatencyMeter()
         self.debug = DebugView()
-        self.listener = Listener(self.program, self._screen, self.sounds, self.messages, self.latency)
+        self.input_handler = InputHandler(
+            self.program, self._screen, self.sounds, self.messages, self.latency
+        )
         self._settings = settings
-        self._stage: Session | None = None
+        self._session: Session | None = None
         self._before: Moment | None = None  # one tick before the present one
         self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
-        self._moved_at = 0.0  # at the last picture of a stage that had not ended
+        self._moved_at = 0.0  # at the last picture of a session that had not ended
         for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
             self.messages.say(trouble)
         if replay is not None:
@@ -136,15 +138,15 @@ class Window:
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
             settings = settings.changed(mode=mode)
-        library = Catalog(self.store, self._folder, given)
+        catalog = Catalog(self.store, self._folder, given)
         try:
-            return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
+            return Program(self.store, settings, catalog, seed, self.messages.say, tuple(THEMES))
         except TableError as error:
             if table is not None:
                 raise
             self.messages.say(str(error))
             settings = settings.changed(table=Settings(mode=settings.mode).table)
-            return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
+            return Program(self.store, settings, catalog, seed, self.messages.say, tuple(THEMES))
 
     # --- the loop ---------------------------------------------------------------------------------
 
@@ -154,28 +156,28 @@ class Window:
         try:
             while not self.is_over and (seconds is None or before - start < seconds):
                 due = time.perf_counter() + 1.0 / self.frame_rate
-                before = self.beat_until(due, self.picture(before))
+                before = self.poll_until(due, self.render_frame(before))
         except Exception:
-            self._keep_after_crash()
+            self._save_crash_replay()
             raise
         finally:
             self.close()
 
-    def beat(self, elapsed: float) -> None:
+    def poll_input(self, elapsed: float) -> None:
         """Answer the buttons and play on, so many seconds after the last beat or frame."""
         self._seconds += elapsed
-        self._begin_when_ready()
+        self._finish_startup()
         for event in pygame.event.get():
-            self.listener.answer(event)
+            self.input_handler.answer(event)
         self._play(elapsed)
 
     def frame(self, elapsed: float) -> None:
         """One frame, so many seconds after the last beat or frame."""
-        self.beat(elapsed)
+        self.poll_input(elapsed)
         self.draw()
         self.show()
 
-    def picture(self, before: float) -> float:
+    def render_frame(self, before: float) -> float:
         """One picture in real time; buttons are heard before it is made and before it is shown.
 
         Args:
@@ -184,9 +186,9 @@ class Window:
         Returns:
             When the last beat was now.
         """
-        before = self._beat_since(before)
+        before = self._poll_since(before)
         self.draw()
-        before = self._beat_since(before)
+        before = self._poll_since(before)
         self.show()
         return before
 
@@ -194,15 +196,15 @@ class Window:
         """Make the picture and the sounds of this moment."""
         elapsed, self._drawn_at = self._seconds - self._drawn_at, self._seconds
         page = self.program.menus.page
-        self.program.pass_time(self._seconds)
+        self.program.update(self._seconds)
         if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
             self.sounds.menu(PAGE_SOUNDS[self.program.menus.page])
-            self.listener.shows_help = False  # whoever asked for it has gone, or wants to sign a score
+            self.input_handler.shows_help = False  # whoever asked for it has gone, or wants to sign a score
         self._follow_settings()
         self._frame_times.add(self._seconds)
-        is_watched = self.program.is_playing and bool(self._stage and self._stage.game.world.balls)
-        self.messages.pass_time(elapsed, in_play=is_watched)
-        self._screen.pass_time(elapsed, waits=self.program.is_paused)
+        is_watched = self.program.is_playing and bool(self._session and self._session.game.world.balls)
+        self.messages.update(elapsed, in_play=is_watched)
+        self._screen.update(elapsed, waits=self.program.is_paused)
         self._sound(elapsed)
         self._draw()
         self.latency.drawn()
@@ -215,12 +217,12 @@ class Window:
     def close(self) -> None:
         """Keep the game that is played and close the window."""
         self.program.keep_last_game()
-        self.program.stage = self._stage = None
+        self.program.session = self._session = None
         self._picture.close()
-        if self.rehearsal is not None:
-            self.rehearsal.close()
+        if self.player_warmup is not None:
+            self.player_warmup.close()
         self.sounds.close()
-        self.listener.close()
+        self.input_handler.close()
         self._screen.close()
         if not self.store.is_safe:
             print(f"waiting for another program that holds {self.store.path} …", file=sys.stderr)
@@ -256,7 +258,7 @@ class Window:
         wanted = self.program.settings.frame_rate
         return self._screen.refresh_rate if wanted == "screen" else int(wanted)
 
-    def beat_until(self, due: float, before: float) -> float:
+    def poll_until(self, due: float, before: float) -> float:
         """Go on beating until the next picture is due.
 
         Args:
@@ -267,29 +269,29 @@ class Window:
             When the last beat was now.
         """
         while not self.is_over:
-            before = self._beat_since(before)
+            before = self._poll_since(before)
             left = due - time.perf_counter()
             if left <= 0.0:
                 break
-            time.sleep(min(BEAT, left) if self.is_ready else left)
+            time.sleep(min(POLL_INTERVAL, left) if self.is_ready else left)
         return before
 
-    def _beat_since(self, before: float) -> float:
+    def _poll_since(self, before: float) -> float:
         """A beat, when the last one was at this time; the time now."""
         now = time.perf_counter()
-        self.beat(now - before)
+        self.poll_input(now - before)
         return now
 
     # --- playing ----------------------------------------------------------------------------------
 
-    def _begin_when_ready(self) -> None:
+    def _finish_startup(self) -> None:
         if self._startup is not None and self._startup.is_done:
             self._startup = None
             self.program.progress = None
             self.messages.clear()
             self._on_ready()
-            self.rehearsal = Rehearsal(self.program.table)
-            self.program.cast.is_ready = self.rehearsal.is_ready
+            self.player_warmup = PlayerWarmup(self.program.table)
+            self.program.demo_players.is_ready = self.player_warmup.is_ready
             self.program.get_ready()
         elif self._startup is not None:
             self.program.progress = self._startup.progress
@@ -298,73 +300,78 @@ class Window:
 
     def _play(self, elapsed: float) -> None:
         program = self.program
-        self._follow_stage()
-        if not program.is_moving or self.listener.shows_help:
-            self.listener.buttons.forget_taps()
+        self._follow_session()
+        if not program.is_moving or self.input_handler.shows_help:
+            self.input_handler.buttons.forget_taps()
             self.latency.forget()
             self._note_events()  # single ticks have some too
             return
         self._clock.speed = program.speed
         ticks = self._clock.advance(elapsed)
-        if ticks == 0 or self._stage is None:
+        if ticks == 0 or self._session is None:
             return
-        held = self.listener.buttons.take()
+        held = self.input_handler.buttons.take()
         if ticks > 1:
             program.advance(held, ticks - 1)
             held = held._replace(first=held.rest)
-        self._before = Moment.of(self._stage.game.world)
+        self._before = Moment.of(self._session.game.world)
         program.advance(held, 1)
         self.latency.ticked()
         self._note_events()
 
     def _note_events(self) -> None:
-        stage, program = self._stage, self.program
-        if stage is None:
+        session, program = self._session, self.program
+        if session is None:
             return
-        world = stage.game.world
-        news, events = stage.take_news(), stage.take_events()
+        world = session.game.world
+        news, events = session.take_news(), session.take_events()
         program.display.tell(news)
         self._picture.note(events, world.tick_rate)
         self.debug.note(events, world.tick_rate)
-        if program.is_heard:
+        if program.is_audible:
             self.sounds.tell(news)
             self.sounds.note(events, world.tick_rate, world.table.board.width)
-        if stage.is_played:
+        if session.is_played:
             for event in events:
                 if event.kind == "hit" and event.part.startswith("cylinder"):
-                    self.listener.pads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
+                    self.input_handler.gamepads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
 
-    def _follow_stage(self) -> None:
+    def _follow_session(self) -> None:
         """Another game, replay or show has begun."""
-        stage = self.program.stage
-        if stage is self._stage:
+        session = self.program.session
+        if session is self._session:
             return
-        self._stage, self._before = stage, None
+        self._session, self._before = session, None
         self._picture.forget()
         self.debug.forget()
-        self._clock = TickClock(stage.game.tick_rate if stage is not None else TICK_RATE)
-        if stage is not None:
-            self.sounds.begin(stage.game.world.table)
+        self._clock = TickClock(session.game.tick_rate if session is not None else TICK_RATE)
+        if session is not None:
+            self.sounds.begin(session.game.world.table)
 
     def _follow_settings(self) -> None:
         settings = self.program.settings
         if settings is self._settings:
             return
         before, self._settings = self._settings, settings
-        self.listener.use(settings)
+        self.input_handler.use(settings)
         self.sounds.change(settings)
-        if settings.full_screen not in (before.full_screen, self._screen.is_full):
-            self._screen.toggle_full()
+        if settings.full_screen not in (before.full_screen, self._screen.is_fullscreen):
+            self._screen.toggle_fullscreen()
 
     def _sound(self, elapsed: float) -> None:
         program, sounds = self.program, self.sounds
-        if not program.is_moving or self.listener.shows_help or self._stage is None or not program.is_heard:
+        if (
+            not program.is_moving
+            or self.input_handler.shows_help
+            or self._session is None
+            or not program.is_audible
+        ):
             sounds.pause()
             sounds.rolling((), elapsed, self.program.table.board.width)
             return
         sounds.resume()
-        world = self._stage.game.world
-        game = self._stage.game
+        world = self._session.game.world
+        game = self._session.game
         sounds.buttons(*((False, False) if game.face.tilted else game.held))
         balls = rolling_balls(world)
         sounds.rolling(balls, elapsed * program.speed, world.table.board.width)
@@ -372,11 +379,11 @@ class Window:
     # --- drawing ----------------------------------------------------------------------------------
 
     def _draw(self) -> None:
-        program, stage = self.program, self._stage
+        program, session = self.program, self._session
         moment = Moment.before(program.table)
-        if stage is not None:
-            moment = Moment.of(stage.game.world)
-            if stage.has_ended:
+        if session is not None:
+            moment = Moment.of(session.game.world)
+            if session.has_ended:
                 # Nothing moves any more, but what was on its way is gone soon: a lost ball, sparks, lights.
                 moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
             else:
@@ -387,26 +394,26 @@ class Window:
         target = self._picture.draw(moment, self._screen.surface, program.dots(self._seconds))
         renderer = self._picture.renderer
         scale, apron = self._picture.scale, self._picture.apron
-        if self.listener.shows_debug and stage is not None:
-            self.debug.draw(target, renderer.camera, stage.game.world)
+        if self.input_handler.shows_debug and session is not None:
+            self.debug.draw(target, renderer.camera, session.game.world)
             self.debug.draw_figures(
-                target, stage.game.world, self._frame_times, self.latency, program.speed,
+                target, session.game.world, self._frame_times, self.latency, program.speed,
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
-        if self.listener.shows_help:
-            shoves = self.listener.controls.shown_keys(Action.JITTER)
+        if self.input_handler.shows_help:
+            shoves = self.input_handler.controls.shown_keys(Action.JITTER)
             rules = how_to_score(program.table, program.mode, capital(shoves[0]) if shoves else "")
             overlay.draw_help(
-                target, scale, program.seed, self.listener.controls, self.listener.help_page, rules
+                target, scale, program.seed, self.input_handler.controls, self.input_handler.help_page, rules
             )
         if self.messages.strength > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
 
     # --- what is left behind ----------------------------------------------------------------------
 
-    def _keep_after_crash(self) -> None:
-        stage = self._stage
-        if stage is not None and stage.is_played:
+    def _save_crash_replay(self) -> None:
+        session = self._session
+        if session is not None and session.is_played:
             path = self.program.keep_file("crash")
             where = f"A replay for a report is at {plain(str(path))}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)

@@ -93,11 +93,11 @@ def filmed(
         only_last: Whether only the last picture is wanted.
     """
     from silverball.app.controls import Held
-    from silverball.app.score_display import Display
+    from silverball.app.score_display import ScoreDisplay
     from silverball.drawing import Moment
 
     nothing = Held((False, False), (False, False))
-    display, world = Display(), stage.game.world
+    display, world = ScoreDisplay(), stage.game.world
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
         stage.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)

@@ -36,8 +36,8 @@ def play(evening) -> int:
     """A game of arcade to its end; its score."""
     evening.program.play(Mode.ARCADE, "Leaky", 3)
     evening.play_to_the_end()
-    assert evening.program.stage.game.score > 0
-    return evening.program.stage.game.score
+    assert evening.program.session.game.score > 0
+    return evening.program.session.game.score
 
 
 @pytest.mark.parametrize(("seconds", "page"), [(1, ""), (6, "initials"), (60, "attract")])
@@ -45,7 +45,7 @@ def test_a_score_waits_and_is_saved_when_the_file_is_free(evening, tmp_path, sec
     with held(tmp_path / FILE):
         score = play(evening)
         assert WAITS in evening.said
-        assert [row.score for row in evening.program._library.scores("Leaky", Mode.ARCADE)] == [score]
+        assert [row.score for row in evening.program._catalog.scores("Leaky", Mode.ARCADE)] == [score]
         evening.go(seconds)
         assert evening.program.menus.page == page
         assert in_the_file(tmp_path) == []

@@ -5,9 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reading import reads
-from silverball.app.demo_players import PERFORMERS
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
-from silverball.app.menus import page as layout
+from silverball.app.demo_players import DEMO_PLAYERS
+from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry, page_layout
 from silverball.app.menus.commands import (
     Attract,
     Change,
@@ -22,8 +21,8 @@ from silverball.app.menus.commands import (
     Restart,
     Resume,
     SaveReplay,
+    WatchDemo,
     WatchLast,
-    WatchMachine,
     WatchScore,
 )
 from silverball.app.menus.menus import IDLE, REPEAT_AFTER
@@ -175,24 +174,24 @@ def test_the_board_of_the_last_game_can_be_played_again():
     assert choose(menus, "PLAY") == Play(Mode.ARCADE, "random", 4711)
 
 
-@pytest.mark.parametrize("performer", PERFORMERS)
-def test_every_performer_can_be_watched_on_the_chosen_table(performer):
+@pytest.mark.parametrize("demo_player", DEMO_PLAYERS)
+def test_every_performer_can_be_watched_on_the_chosen_table(demo_player):
     menus = menus_with(Settings(table="random"))
     choose(menus, "WATCH")
-    for _ in PERFORMERS:
-        if reads(menus.draw(LATER), performer.label):
+    for _ in DEMO_PLAYERS:
+        if reads(menus.draw(LATER), demo_player.label):
             break
         press(menus, RIGHT)
-    assert reads(menus.draw(LATER), f"{performer.hint} ON")
-    assert press(menus, START) == WatchMachine(performer.name)
+    assert reads(menus.draw(LATER), f"{demo_player.hint} ON")
+    assert press(menus, START) == WatchDemo(demo_player.name)
 
 
 def test_the_attract_pages_tell_who_plays():
     menus = menus_with()
     menus.open_attract()
-    for performer in PERFORMERS:
-        menus.know(performer=performer)
-        assert any(reads(menus.draw(at / 2), performer.label) for at in range(60))
+    for demo_player in DEMO_PLAYERS:
+        menus.know(demo_player=demo_player)
+        assert any(reads(menus.draw(at / 2), demo_player.label) for at in range(60))
 
 
 def test_what_can_be_watched():
@@ -212,27 +211,27 @@ def test_after_watching_the_page_is_open_from_which_it_began():
     menus.open_over(500)
     choose(menus, "WATCH IT")
     assert not menus.is_open
-    menus.open_transport(ReplayFace(0.0, 30.0))
+    menus.open_transport(ReplayStatus(0.0, 30.0))
     assert press(menus, BACK) == EndReplay()
     assert menus.page == "over"
 
 
 def test_the_replay_page_asks_for_speed_hold_and_jumps():
     menus = menus_with()
-    menus.open_transport(ReplayFace(5.0, 30.0))
+    menus.open_transport(ReplayStatus(5.0, 30.0))
     assert press(menus, RIGHT) == ReplaySpeed(1)
     assert press(menus, LEFT) == ReplaySpeed(-1)
     assert press(menus, START) == ReplayPause()
-    menus.show_replay(ReplayFace(5.0, 30.0, paused=True))
+    menus.show_replay(ReplayStatus(5.0, 30.0, paused=True))
     assert isinstance(press(menus, RIGHT), ReplayJump)
     assert press(menus, LEFT).seconds < 0.0
-    menus.show_replay(ReplayFace(30.0, 30.0))
+    menus.show_replay(ReplayStatus(30.0, 30.0))
     assert press(menus, START) == EndReplay()
 
 
 def test_the_replay_page_shows_time_and_speed_below_the_score():
     menus = menus_with()
-    menus.open_transport(ReplayFace(65.0, 130.0, 0.25))
+    menus.open_transport(ReplayStatus(65.0, 130.0, 0.25))
     game = Dots()
     game.text("4,567", 30, 4)
     dots = menus.draw(1.0, game)
@@ -363,7 +362,7 @@ def test_a_long_message_stays_until_it_can_be_read_to_its_end():
 
 def test_the_replay_page_tells_whose_game_it_is_and_how_to_leave():
     menus = menus_with()
-    menus.open_transport(ReplayFace(0.0, 30.0, title="abc"))
+    menus.open_transport(ReplayStatus(0.0, 30.0, title="abc"))
     frames = [menus.draw(tick / 2) for tick in range(60)]
     for text in ("ABC", "SPEED", "BOTH PADDLES HELD: LEAVE", "0:00"):
         assert any(reads(dots, text) for dots in frames), text
@@ -404,9 +403,11 @@ def test_texts_that_are_too_long_scroll_from_their_first_dot_to_their_last(text,
                 sheet[row][at + column] = bool(glyph[row, column])
         at += glyph.shape[1] + NORMAL.gap
     starts, ends = Dots(), Dots()
-    layout.marquee(starts, text, 3, left, left + room, NORMAL, 0.0, "left")
-    moving = max(whole - room, 0) / layout.SCROLL_SPEED
-    layout.marquee(ends, text, 3, left, left + room, NORMAL, layout.SCROLL_WAIT + moving + 0.5, "left")
+    page_layout.marquee(starts, text, 3, left, left + room, NORMAL, 0.0, "left")
+    moving = max(whole - room, 0) / page_layout.SCROLL_SPEED
+    page_layout.marquee(
+        ends, text, 3, left, left + room, NORMAL, page_layout.SCROLL_WAIT + moving + 0.5, "left"
+    )
     shown = min(whole, room)
     first = [[bool(dot) for dot in row] for row in starts.pixels[3:12, left : left + shown]]
     last = [[bool(dot) for dot in row] for row in ends.pixels[3:12, left : left + shown]]
@@ -452,10 +453,10 @@ def test_the_title_tells_which_of_many_choices_is_shown(count):
     pictures = set()
     for index in range(count):
         dots = Dots()
-        layout.title(dots, "TABLE", index, count)
+        page_layout.title(dots, "TABLE", index, count)
         pictures.add(dots.pixels.tobytes())
         assert reads(dots, "TABLE")
-        assert reads(dots, f"{index + 1}/{count}") == (count > layout.MOST_MARKS)
+        assert reads(dots, f"{index + 1}/{count}") == (count > page_layout.MAX_MARKS)
     assert len(pictures) == count
 
 
@@ -467,4 +468,4 @@ def test_a_paddle_that_is_held_hurries_through_a_long_list():
     menus.press(RIGHT)
     for tick in range(12 * 60):
         menus.tick(1.0 + tick / 60)
-    assert menus._desk.pages[-1].index > 250  # within twelve seconds
+    assert menus.context.pages[-1].index > 250  # within twelve seconds

@@ -15,8 +15,8 @@ from silverball.app.menus import (
     action_by_key,
     action_by_name,
     action_by_pad,
-    keys_of,
-    pad_of,
+    keys_for,
+    pad_buttons_for,
 )
 from silverball.app.menus.commands import Change
 from silverball.app.settings import Settings
@@ -69,7 +69,7 @@ def test_a_free_key_is_taken_at_once():
 def test_one_more_key_joins_those_that_are_there():
     menus = asking("LEFT PADDLE", "ONE MORE")
     menus.capture("q")
-    assert keys_of(menus.settings, LINES["left"]) == ("a", "left", "left shift", "q")
+    assert keys_for(menus.settings, LINES["left"]) == ("a", "left", "left shift", "q")
 
 
 def test_a_gamepad_button_is_asked_for_like_a_key():
@@ -90,7 +90,7 @@ def test_a_key_that_is_used_is_named_with_its_action_and_taken_only_if_meant():
     assert menus.settings == Settings()
     choose(menus, "TAKE IT")
     assert action_by_key(menus.settings)["p"] == "jitter"
-    assert keys_of(menus.settings, LINES["pause"]) == ()
+    assert keys_for(menus.settings, LINES["pause"]) == ()
 
 
 def test_a_conflict_can_be_left_or_answered_with_another_key():
@@ -104,7 +104,7 @@ def test_a_conflict_can_be_left_or_answered_with_another_key():
     choose(menus, "OTHER KEY")
     assert menus.wants_key
     menus.capture("x")
-    assert keys_of(menus.settings, LINES["jitter"]) == ("x",)
+    assert keys_for(menus.settings, LINES["jitter"]) == ("x",)
 
 
 def test_the_last_key_of_a_needed_action_is_refused_in_words():
@@ -121,7 +121,7 @@ def test_one_of_several_keys_of_a_needed_action_can_be_taken():
     menus = asking("JITTER")
     menus.capture("a")
     choose(menus, "TAKE IT")
-    assert keys_of(menus.settings, LINES["left"]) == ("left", "left shift")
+    assert keys_for(menus.settings, LINES["left"]) == ("left", "left shift")
     assert action_by_key(menus.settings)["a"] == "jitter"
 
 
@@ -201,8 +201,8 @@ def test_whatever_is_assigned_each_key_has_one_action_and_settings_hold_only_dif
         settings = assigned(settings, ACTIONS, "keys", action, names)
         table = action_by_key(settings)
         assert all(table[name] == action for name in names)
-        assert keys_of(settings, LINES[action]) == tuple(names)
-        every = [name for line in ACTIONS for name in keys_of(settings, line)]
+        assert keys_for(settings, LINES[action]) == tuple(names)
+        every = [name for line in ACTIONS for name in keys_for(settings, line)]
         assert len(every) == len(set(every))
         assert all(
             settings.keys[line.action] != line.keys for line in ACTIONS if line.action in settings.keys
@@ -213,7 +213,7 @@ def test_settings_from_elsewhere_that_give_a_key_twice_are_read_in_one_way():
     settings = Settings(keys={"jitter": ("p",)}, pad={"jitter": ("a",)})
     assert action_by_key(settings)["p"] == "jitter"
     assert action_by_pad(settings)["a"] == "jitter"
-    assert pad_of(settings, LINES["create"]) == ("a",)
+    assert pad_buttons_for(settings, LINES["create"]) == ("a",)
 
 
 def test_a_button_of_a_joystick_is_kept_for_its_make_and_leaves_gamepads_as_they_were():
@@ -225,7 +225,7 @@ def test_a_button_of_a_joystick_is_kept_for_its_make_and_leaves_gamepads_as_they
     choose(menus, "TAKE IT")
     assert action_by_name(menus.settings, "a guid")["button 7"] == "jitter"
     assert action_by_name(menus.settings, "another guid")["button 7"] == "left"
-    assert pad_of(menus.settings, LINES["jitter"]) == LINES["jitter"].pad
+    assert pad_buttons_for(menus.settings, LINES["jitter"]) == LINES["jitter"].pad
     choose(menus, "RESET")
     assert "button 7" not in action_by_name(menus.settings, "a guid")
     press(menus, BACK)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from reading import reads
 from silverball.app.menus import Button, Menus, TableEntry
-from silverball.app.menus.commands import Initials, SeeBoard
+from silverball.app.menus.commands import Initials, ShowBoard
 from silverball.app.menus.entry import LETTERS
 from silverball.app.settings import Settings
 
@@ -45,7 +45,7 @@ def hit(menus: Menus, *keys: str):
 
 
 def text(menus: Menus) -> str:
-    return menus._desk.pages[-1].text
+    return menus.context.pages[-1].text
 
 
 @pytest.mark.parametrize("done", ["return", " "])
@@ -151,7 +151,7 @@ def test_a_seed_is_typed_by_its_digits():
     assert menus.page == "seed"
     assert hit(menus, "return") is None
     hit(menus, "4", "x", "7", "1", "backspace", "1")
-    assert hit(menus, "return") == SeeBoard(471)
+    assert hit(menus, "return") == ShowBoard(471)
     assert menus.seed == 471
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
+from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry
 from silverball.app.menus.commands import Attract, Initials
 from silverball.app.menus.entry import SIGN_PATIENCE
 from silverball.app.menus.menus import IDLE
@@ -29,13 +29,13 @@ def menus_at(root: str, *labels: str) -> Menus:
         "pause": menus.open_pause,
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
-        "replay": lambda: menus.open_transport(ReplayFace(3.0, 60.0)),
-        "held replay": lambda: menus.open_transport(ReplayFace(3.0, 60.0, paused=True)),
-        "ended replay": lambda: menus.open_transport(ReplayFace(60.0, 60.0)),
+        "replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
+        "held replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, paused=True)),
+        "ended replay": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     menus.tick(1.0)
     for label in labels:
-        page = menus._desk.pages[-1]
+        page = menus.context.pages[-1]
         found = [item.label for item in page._items()].index(label)
         for _ in range((found - page.index) % len(page._items())):
             press(menus, RIGHT)
@@ -51,7 +51,7 @@ def press(menus: Menus, *buttons: Button) -> None:
 
 def wait(menus: Menus, seconds: float) -> list[object]:
     """The commands that come while nobody touches anything."""
-    start = menus._desk.now
+    start = menus.context.now
     ticks = (menus.tick(start + STEP * count) for count in range(1, round(seconds / STEP) + 1))
     return [command for command in ticks if command is not None]
 

@@ -9,15 +9,15 @@ from collections import deque
 import numpy as np
 import pytest
 
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
+from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry
 from silverball.app.menus.commands import (
     EndReplay,
     Play,
     Quit,
     Restart,
     Resume,
+    WatchDemo,
     WatchLast,
-    WatchMachine,
     WatchScore,
 )
 from silverball.app.settings import Settings
@@ -31,7 +31,7 @@ TABLES = (
     TableEntry("tables/long.toml", "A table whose name is longer than any display", "Größe: 中"),
 )
 ROWS = (ScoreRow("ABC", 123_456_789, "2026-11-25", "k1"), ScoreRow("D.F", 4_560, "2026-11-24", "k2"))
-LEAVES = (Play, Resume, Restart, Quit, EndReplay, WatchLast, WatchMachine, WatchScore)
+LEAVES = (Play, Resume, Restart, Quit, EndReplay, WatchLast, WatchDemo, WatchScore)
 
 
 def fresh(root: str, with_scores: bool = True) -> Menus:
@@ -49,9 +49,9 @@ def fresh(root: str, with_scores: bool = True) -> Menus:
         "pause": menus.open_pause,
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
-        "transport": lambda: menus.open_transport(ReplayFace(3.0, 60.0)),
-        "held transport": lambda: menus.open_transport(ReplayFace(3.0, 60.0, paused=True)),
-        "ended transport": lambda: menus.open_transport(ReplayFace(60.0, 60.0)),
+        "transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
+        "held transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, paused=True)),
+        "ended transport": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     return menus
 

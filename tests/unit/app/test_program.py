@@ -8,9 +8,9 @@ from evenings import NOTHING, Evening
 from reading import reads
 from silverball.app.controls import Action
 from silverball.app.program import OVER_SECONDS, SPEEDS
-from silverball.app.progress_bar import Progress
 from silverball.app.sessions import DemoSession
 from silverball.app.settings import Settings
+from silverball.app.startup import Progress
 from silverball.errors import TableError
 from silverball.game.replay.format import Replay
 from silverball.game.replay.verify import verify
@@ -29,7 +29,7 @@ def evening(tmp_path):
 def test_a_score_is_kept_before_anything_of_it_is_shown(evening):
     evening.program.play(Mode.ARCADE, "Leaky", 3)
     evening.play_to_the_end()
-    score = evening.program.stage.game.score
+    score = evening.program.session.game.score
     assert score > 0
     assert evening.program.menus.page == ""
     assert [row.score for row in evening.store.scores()] == [score]
@@ -43,7 +43,7 @@ def test_a_score_is_kept_before_anything_of_it_is_shown(evening):
 def test_what_is_asked_for_before_the_physics_is_ready_is_done_when_it_is(tmp_path):
     evening = Evening(tmp_path)
     evening.program.play(Mode.FREE, "Leaky", 3)
-    assert evening.program.stage is None
+    assert evening.program.session is None
     assert "one moment" in evening.said[-1]
     evening.tap(Action.CREATE, Action.LEFT, Action.PAUSE)  # impatience changes nothing
     assert not evening.program.menus.is_open
@@ -75,7 +75,7 @@ def test_who_goes_back_before_the_physics_is_ready_is_in_the_menu_and_no_game_be
     evening.tap(Action.BACK)
     assert evening.program.menus.page == "main"
     evening.program.get_ready()
-    assert evening.program.stage is None
+    assert evening.program.session is None
     assert evening.program.menus.page == "main"
     evening.store.close()
 
@@ -87,7 +87,7 @@ def test_the_board_that_is_seen_in_the_menu_is_the_one_that_is_played_first(tmp_
     evening.program.get_ready()
     seen = evening.program.table
     evening.tap(Action.CREATE)
-    assert evening.program.stage.game.table == seen
+    assert evening.program.session.game.table == seen
     evening.tap(Action.NEW_BOARD)
     assert evening.program.table != seen
     evening.store.close()
@@ -99,7 +99,7 @@ def test_a_game_that_is_left_is_the_last_game(evening):
     evening.go(0.2)
     evening.tap(Action.PAUSE, Action.LEFT, Action.CREATE, Action.RIGHT, Action.CREATE)  # end game, yes
     assert evening.program.menus.page == "main"
-    assert evening.program.stage is None
+    assert evening.program.session is None
     replay = Replay.from_text(evening.store.last_game())
     assert replay.ended == "stopped"
     assert verify(replay).ok
@@ -141,44 +141,44 @@ def test_a_table_that_is_not_there_is_an_error_at_the_start_and_a_message_later(
 def test_nobody_there_lets_the_program_play_and_a_button_brings_the_menu_back(evening):
     evening.go(31.0)
     assert evening.program.menus.page == "attract"
-    assert not evening.program.is_heard
-    tick = evening.program.stage.game.tick
+    assert not evening.program.is_audible
+    tick = evening.program.session.game.tick
     evening.go(1.0)
-    assert evening.program.stage.game.tick > tick
+    assert evening.program.session.game.tick > tick
     evening.tap(Action.RIGHT)
     assert evening.program.menus.page == "main"
 
 
 def test_the_reflex_player_stands_in_until_the_planner_is_ready(evening):
     ready = {"reflex"}
-    evening.program.cast.is_ready = ready.__contains__
+    evening.program.demo_players.is_ready = ready.__contains__
     evening.go(31.0)
-    stage = evening.program.stage
-    assert stage.player.kind == PlayerKind.REFLEX
-    assert evening.program.display.performer == "REFLEX"
-    tick = stage.game.tick
+    session = evening.program.session
+    assert session.player.kind == PlayerKind.REFLEX
+    assert evening.program.display.demo_player == "REFLEX"
+    tick = session.game.tick
     ready.add("planner")
     evening.go(0.1)
-    assert evening.program.stage is stage
-    assert stage.player.kind == PlayerKind.PLANNER
-    assert stage.game.tick > tick
-    assert evening.program.display.performer == "PLANNER"
+    assert evening.program.session is session
+    assert session.player.kind == PlayerKind.PLANNER
+    assert session.game.tick > tick
+    assert evening.program.display.demo_player == "PLANNER"
 
 
 @pytest.mark.parametrize(
-    ("performer", "kind"), [("planner", PlayerKind.PLANNER), ("reflex", PlayerKind.REFLEX)]
+    ("demo_player", "kind"), [("planner", PlayerKind.PLANNER), ("reflex", PlayerKind.REFLEX)]
 )
 @pytest.mark.parametrize("action", [Action.LEFT, Action.JITTER, Action.NEW_BOARD, Action.CREATE])
-def test_who_is_watched_plays_and_any_button_brings_the_menu_back(evening, performer, kind, action):
-    evening.program.cast.is_ready = lambda name: True
+def test_who_is_watched_plays_and_any_button_brings_the_menu_back(evening, demo_player, kind, action):
+    evening.program.demo_players.is_ready = lambda name: True
     evening.program.menus.close()
-    evening.program.show_off(performer)
+    evening.program.start_demo(demo_player)
     evening.go(0.5)
-    assert evening.program.stage.player.kind == kind
-    assert evening.program.is_heard
+    assert evening.program.session.player.kind == kind
+    assert evening.program.is_audible
     evening.tap(action)
     assert evening.program.menus.page == "main"
-    assert evening.program.stage is None
+    assert evening.program.session is None
 
 
 @pytest.mark.parametrize("action", [Action.JITTER, Action.NEW_BOARD])
@@ -190,12 +190,12 @@ def test_a_button_that_works_no_menu_ends_the_show_too(evening, action):
 
 
 def test_the_planner_is_not_hurried_beyond_what_it_can_think(evening):
-    evening.program.show_off("reflex")
+    evening.program.start_demo("reflex")
     evening.program.menus.close()
     evening.tap(*[Action.FASTER] * 9)
     assert evening.program.speed == SPEEDS[-1]
-    evening.program.cast.is_ready = lambda name: True
-    evening.program.show_off("planner")
+    evening.program.demo_players.is_ready = lambda name: True
+    evening.program.start_demo("planner")
     evening.tap(*[Action.FASTER] * 9)
     assert evening.program.speed == 2.0
 
@@ -205,7 +205,7 @@ def test_a_replay_goes_faster_and_slower_holds_and_jumps(evening):
     evening.play_to_the_end()
     replay = Replay.from_text(evening.store.last_game())
     evening.program.watch(replay)
-    player = evening.program.stage.player
+    player = evening.program.session.player
     evening.tap(*[Action.FASTER] * 9)
     assert evening.program.speed == 16.0
     evening.tap(*[Action.SLOWER] * 9)
@@ -222,7 +222,7 @@ def test_a_replay_goes_faster_and_slower_holds_and_jumps(evening):
 
 def test_a_space_in_the_very_moment_of_the_end_costs_no_score(evening):
     evening.program.play(Mode.ARCADE, "Leaky", 3)
-    game = evening.program.stage.game
+    game = evening.program.session.game
     while not game.is_over:
         if game.phase is not Phase.PLAY:
             evening.program.press(Action.CREATE)
@@ -235,7 +235,7 @@ def test_a_space_in_the_very_moment_of_the_end_costs_no_score(evening):
 
 def test_a_program_that_ends_in_the_very_moment_of_the_end_has_kept_the_score(evening):
     evening.program.play(Mode.ARCADE, "Leaky", 3)
-    game = evening.program.stage.game
+    game = evening.program.session.game
     while not game.is_over:
         if game.phase is not Phase.PLAY:
             evening.program.press(Action.CREATE)
@@ -251,7 +251,7 @@ def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(eveni
     evening.program.play(Mode.FREE, "Leaky", 3)
     evening.tap(Action.CREATE)
     evening.go(0.5)
-    replay = evening.program.stage.game.replay
+    replay = evening.program.session.game.replay
     evening.program.watch(replace(replay, tail="+a+a+a+a"))  # four balls at once
     if move == "jump":
         evening.program.jump(5.0)
@@ -261,7 +261,7 @@ def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(eveni
     else:
         evening.go(0.1)
     assert "was recorded, but" in evening.said[-1]
-    assert evening.program.stage is None
+    assert evening.program.session is None
     assert evening.program.menus.is_open
 
 
@@ -270,20 +270,20 @@ def test_a_game_that_is_over_gives_way_to_the_show_when_nobody_is_there(evening)
     evening.play_to_the_end()
     evening.go(OVER_SECONDS + 40.0)
     assert evening.program.menus.page == "attract"
-    assert isinstance(evening.program.stage, DemoSession)
-    assert not evening.program.is_heard
+    assert isinstance(evening.program.session, DemoSession)
+    assert not evening.program.is_audible
     assert [row.initials for row in evening.store.scores()] == ["AAA"]
 
 
 def test_the_main_menu_after_a_game_shows_the_board_without_what_was_on_it(evening):
     evening.program.play(Mode.ARCADE, "Leaky", 3)
     evening.tap(Action.CREATE)
-    evening.program.stage.game.end()  # with a ball on the board
+    evening.program.session.game.end()  # with a ball on the board
     evening.go(OVER_SECONDS + 0.2)
     assert evening.program.menus.page == "over"
     evening.tap(Action.LEFT, Action.CREATE)  # menu
     assert evening.program.menus.page == "main"
-    assert evening.program.stage is None
+    assert evening.program.session is None
 
 
 def test_a_table_chosen_after_a_game_is_seen_at_once(evening):
@@ -292,14 +292,14 @@ def test_a_table_chosen_after_a_game_is_seen_at_once(evening):
     evening.program.menus.open_main()
     evening.program.use(evening.program.settings.changed(table="classic"))
     assert evening.program.table.name == "Classic"
-    assert evening.program.stage is None
+    assert evening.program.session is None
 
 
 def test_a_table_chosen_elsewhere_leaves_a_game_that_goes_on_alone(evening):
     evening.program.play(Mode.FREE, "Leaky", 3)
-    stage = evening.program.stage
+    session = evening.program.session
     evening.program.set(table="classic")
-    assert evening.program.stage is stage
+    assert evening.program.session is session
     assert evening.program.table.name == "Leaky"
 
 
@@ -312,7 +312,7 @@ def test_a_seed_that_is_chosen_is_seen_at_once_and_played(tmp_path):
     evening.tap(*[Action.RIGHT] * 2, Action.CREATE)
     while evening.program.menus.page == "table":
         evening.tap(Action.RIGHT)
-        page = evening.program.menus._desk.pages[-1]
+        page = evening.program.menus.context.pages[-1]
         if page._listed()[page.index].label == "BOARD SEED":
             evening.tap(Action.CREATE)
     evening.tap(Action.LEFT, Action.LEFT, Action.CREATE)
@@ -322,7 +322,7 @@ def test_a_seed_that_is_chosen_is_seen_at_once_and_played(tmp_path):
     evening.tap(Action.CREATE)
     assert evening.program.table == generate_table(42, load_table("random"))
     evening.tap(Action.BACK, Action.LEFT, Action.LEFT, Action.CREATE)
-    assert evening.program.stage.game.table == generate_table(42, load_table("random"))
+    assert evening.program.session.game.table == generate_table(42, load_table("random"))
     evening.store.close()
 
 
@@ -341,10 +341,10 @@ def test_a_single_tick_where_none_is_to_be_had_says_why(evening, state, words):
     if state == "ended replay":
         program.jump(1e6)
         evening.go(0.1)
-        assert program.stage.has_ended
+        assert program.session.has_ended
     elif state == "game":
         program.play(Mode.FREE, "Leaky", 3)
     elif state == "show":
-        program.show_off()
+        program.start_demo()
     program.single_tick(NOTHING)
     assert words in evening.said[-1]

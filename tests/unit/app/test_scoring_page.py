@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from silverball.app.scoring import how_to_score, quick_shoves
-from silverball.game.rules import Laws, Standing, hit, shoved, started
+from silverball.game.rules import RuleConfig, RuleState, hit, shoved, started
 from silverball.game.view import GameEventKind, Mode
 from silverball.table import Arcade, Board, Cylinder, Table, TriangularPrism, generate_table, load_table
 
@@ -24,7 +24,7 @@ def table_with(**arcade) -> Table:
 
 def factor_of(table: Table, count: int, balls: int = 1) -> int:
     """By which the last of so many hits in a row is multiplied, by the rules of the game."""
-    laws, now, news = Laws.of(table, Mode.ARCADE, RATE), Standing(), ()
+    laws, now, news = RuleConfig.of(table, Mode.ARCADE, RATE), RuleState(), ()
     for ball in range(balls):
         now, _ = started(laws, now, 0, ball + 1)
     for _ in range(count):
@@ -72,7 +72,7 @@ def test_where_a_second_ball_gains_nothing_nothing_is_said_of_it(numbers):
 def test_the_shoves_that_warn_and_tilt_are_those_of_the_rules(warning, limit, warnings):
     arcade = Arcade(tilt_warning=warning, tilt_limit=limit, warnings=warnings)
     table = Table(arcade=arcade)
-    laws, now = Laws.of(table, Mode.ARCADE, RATE), Standing()
+    laws, now = RuleConfig.of(table, Mode.ARCADE, RATE), RuleState()
     warned, count = None, 0
     while not now.tilted:
         count += 1

@@ -23,106 +23,106 @@ def playing(mode=Mode.ARCADE, table=LONG) -> GameSession:
     return GameSession(Game(table, 5, mode))
 
 
-def wait(stage: GameSession, seconds: float) -> None:
-    stage.advance(NOTHING, round(seconds * RATE))
+def wait(session: GameSession, seconds: float) -> None:
+    session.advance(NOTHING, round(seconds * RATE))
 
 
-def balls(stage: GameSession) -> int:
-    return stage.game.world.created
+def balls(session: GameSession) -> int:
+    return session.game.world.created
 
 
 def test_the_first_ball_comes_at_once():
-    stage = playing()
-    assert stage.bring_ball("SPACE") == ""
-    assert balls(stage) == 1
+    session = playing()
+    assert session.bring_ball("SPACE") == ""
+    assert balls(session) == 1
 
 
 @pytest.mark.parametrize("tenths", range(0, 10, 3))
 def test_within_a_second_of_a_ball_no_press_brings_another_nor_asks_for_it(tenths):
-    stage = playing()
-    stage.bring_ball("SPACE")
-    wait(stage, tenths / 10)
+    session = playing()
+    session.bring_ball("SPACE")
+    wait(session, tenths / 10)
     for _ in range(5):
-        assert "IN PLAY" in stage.bring_ball("SPACE")
-    assert balls(stage) == 1
-    wait(stage, SURE_AFTER)
-    assert "AGAIN" in stage.bring_ball("SPACE")  # those presses have asked nothing
-    assert balls(stage) == 1
+        assert "IN PLAY" in session.bring_ball("SPACE")
+    assert balls(session) == 1
+    wait(session, SURE_AFTER)
+    assert "AGAIN" in session.bring_ball("SPACE")  # those presses have asked nothing
+    assert balls(session) == 1
 
 
 @pytest.mark.parametrize("first", [1.0, 1.5, 3.0])
 @pytest.mark.parametrize("second", [0.0, 0.1, 1.0, 2.9, 3.1, 7.0])
 def test_a_press_asks_and_another_one_within_some_seconds_is_the_answer(first, second):
-    stage = playing()
-    stage.bring_ball("SPACE")
-    wait(stage, first)
-    assert stage.bring_ball("SPACE") == "SPACE AGAIN: BALL 2 OF 3"
-    assert balls(stage) == 1
-    wait(stage, second)
-    words = stage.bring_ball("SPACE")
-    assert balls(stage) == (2 if second <= SURE_WITHIN else 1)
-    assert bool(words) == (balls(stage) == 1)
+    session = playing()
+    session.bring_ball("SPACE")
+    wait(session, first)
+    assert session.bring_ball("SPACE") == "SPACE AGAIN: BALL 2 OF 3"
+    assert balls(session) == 1
+    wait(session, second)
+    words = session.bring_ball("SPACE")
+    assert balls(session) == (2 if second <= SURE_WITHIN else 1)
+    assert bool(words) == (balls(session) == 1)
 
 
 @pytest.mark.parametrize("hertz", [2, 5, 10, 30])
 def test_hammering_on_space_spends_no_ball_within_the_first_second(hertz):
-    stage = playing()
+    session = playing()
     for _ in range(hertz):
-        stage.bring_ball("SPACE")
-        assert balls(stage) == 1
-        wait(stage, 1.0 / hertz - 1.0 / RATE)
+        session.bring_ball("SPACE")
+        assert balls(session) == 1
+        wait(session, 1.0 / hertz - 1.0 / RATE)
 
 
 def test_every_further_ball_is_asked_for_again():
-    stage = playing(table=LONG.model_copy(update={"board": Board(gravity=0.1, max_balls=2)}))
-    stage.bring_ball("SPACE")
-    wait(stage, 2.0)
-    stage.bring_ball("SPACE")
-    stage.bring_ball("SPACE")
-    wait(stage, 2.0)
+    session = playing(table=LONG.model_copy(update={"board": Board(gravity=0.1, max_balls=2)}))
+    session.bring_ball("SPACE")
+    wait(session, 2.0)
+    session.bring_ball("SPACE")
+    session.bring_ball("SPACE")
+    wait(session, 2.0)
     with pytest.raises(BoardFull):
-        stage.bring_ball("SPACE")
+        session.bring_ball("SPACE")
 
 
 def test_with_the_last_ball_in_play_there_is_nothing_to_ask():
-    stage = playing(table=LONG.model_copy(update={"arcade": Arcade(balls=1)}))
-    stage.bring_ball("SPACE")
+    session = playing(table=LONG.model_copy(update={"arcade": Arcade(balls=1)}))
+    session.bring_ball("SPACE")
     with pytest.raises(SilverballError, match="no ball is left"):
-        stage.bring_ball("SPACE")
+        session.bring_ball("SPACE")
 
 
 def test_in_free_play_nothing_is_asked():
-    stage = playing(Mode.FREE)
-    assert [stage.bring_ball("SPACE"), stage.bring_ball("SPACE")] == ["", ""]
-    assert balls(stage) == 2
+    session = playing(Mode.FREE)
+    assert [session.bring_ball("SPACE"), session.bring_ball("SPACE")] == ["", ""]
+    assert balls(session) == 2
 
 
 def test_a_tilted_table_says_so_and_asks_nothing():
-    stage = playing()
-    stage.bring_ball("SPACE")
-    wait(stage, 2.0)
+    session = playing()
+    session.bring_ball("SPACE")
+    wait(session, 2.0)
     for _ in range(5):
-        stage.game.jitter()
-        wait(stage, 0.1)
-    assert stage.game.face.tilted
+        session.game.jitter()
+        wait(session, 0.1)
+    assert session.game.face.tilted
     with pytest.raises(SilverballError, match="tilt"):
-        stage.bring_ball("SPACE")
+        session.bring_ball("SPACE")
 
 
 def test_a_game_with_questions_is_the_same_game_and_its_replay_is_whole():
-    stage = playing()
+    session = playing()
     plain = Game(LONG, 5, Mode.ARCADE)
-    stage.bring_ball("SPACE")
+    session.bring_ball("SPACE")
     plain.create_ball()
-    wait(stage, 1.5)
+    wait(session, 1.5)
     plain.advance(ticks=360)
-    stage.bring_ball("SPACE")
-    stage.bring_ball("SPACE")
+    session.bring_ball("SPACE")
+    session.bring_ball("SPACE")
     plain.create_ball()
-    wait(stage, 2.0)
+    wait(session, 2.0)
     plain.advance(ticks=480)
-    assert stage.game.digest() == plain.digest()
-    assert verify(stage.game.replay).ok
+    assert session.game.digest() == plain.digest()
+    assert verify(session.game.replay).ok
 
 
 def test_the_display_asks_with_the_key_that_was_chosen(tmp_path):
@@ -136,8 +136,8 @@ def test_the_display_asks_with_the_key_that_was_chosen(tmp_path):
     evening.go(1.2)
     evening.tap(Action.CREATE)
     assert reads(evening.program.dots(evening.seconds), "RETURN AGAIN: BALL 2 OF 3")  # not behind the other
-    assert evening.program.stage.game.phase is Phase.PLAY
-    assert len(evening.program.stage.game.world.balls) == 1
+    assert evening.program.session.game.phase is Phase.PLAY
+    assert len(evening.program.session.game.world.balls) == 1
     evening.tap(Action.CREATE)
-    assert len(evening.program.stage.game.world.balls) == 2
+    assert len(evening.program.session.game.world.balls) == 2
     evening.store.close()

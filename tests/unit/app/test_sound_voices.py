@@ -7,14 +7,14 @@ from itertools import pairwise
 
 import pytest
 
-from silverball.app.sound.panning import FULL_SPEED, pan, strength_of
+from silverball.app.sound.levels import FULL_SPEED, pan, strength_of
 from silverball.app.sound.rolling import _SILENT, LANES, ROLL_SPEEDS, Rolling
-from silverball.app.sound.scale import BELL_STEPS
+from silverball.app.sound.synth import BELL_STEPS
 from silverball.app.sound.voices import (
     AGAIN_SECONDS,
+    MAX_AT_ONCE,
+    MAX_NEW,
     MENU,
-    MOST_AT_ONCE,
-    MOST_NEW,
     RUN_SECONDS,
     Voices,
     step_of,
@@ -182,13 +182,13 @@ def test_of_many_hits_in_a_frame_the_loudest_are_heard():
     events = [event(part=f"cylinder[{number}]", ball=number, speed=1.0 + number) for number in range(12)]
     events += [event("ball_hit", "ball", ball=99, speed=21.0)]
     notes = notes_of(*events)
-    assert len(notes) == MOST_NEW
+    assert len(notes) == MAX_NEW
     assert notes[0].key.name == "balls"
 
 
 def test_the_hits_of_a_frame_never_add_up_to_more_than_fits():
     notes = notes_of(*(event(part=f"slant_wall[{number}]", ball=number, speed=22.0) for number in range(4)))
-    assert sum(map(strength, notes)) == pytest.approx(MOST_AT_ONCE)
+    assert sum(map(strength, notes)) == pytest.approx(MAX_AT_ONCE)
 
 
 def test_a_ball_that_rattles_in_a_corner_gets_softer_and_makes_no_storm():
@@ -228,19 +228,19 @@ def test_a_button_pulls_the_coil_and_the_paddle_reaches_its_stop_after_its_strok
     voices.begin(Table.model_validate({"paddle": [{"side": "left", "pivot": [-7.0, -2.5], "stroke": 0.05}]}))
     assert names(voices.buttons(True, False)) == ["coil left"]
     assert voices.buttons(True, False) == []
-    assert voices.pass_time(0.04) == []
-    (stop,) = voices.pass_time(0.04)
+    assert voices.update(0.04) == []
+    (stop,) = voices.update(0.04)
     assert names([stop]) == ["stop left"]
     assert stop.ago == pytest.approx(0.03)
-    assert voices.pass_time(10.0) == []
+    assert voices.update(10.0) == []
 
 
 def test_a_paddle_that_falls_back_stops_more_softly():
     voices = Voices()
     voices.buttons(False, True)
-    (up,) = voices.pass_time(1.0)
+    (up,) = voices.update(1.0)
     voices.buttons(False, False)
-    (back,) = voices.pass_time(1.0)
+    (back,) = voices.update(1.0)
     assert names([up, back]) == ["stop right", "stop right"]
     assert strength(back) < 0.7 * strength(up)
     assert (up.key.layer, back.key.layer) == (1, 0)
@@ -249,9 +249,9 @@ def test_a_paddle_that_falls_back_stops_more_softly():
 def test_a_button_let_go_halfway_makes_only_the_way_back():
     voices = Voices()
     voices.buttons(True, False)
-    voices.pass_time(0.03)
+    voices.update(0.03)
     voices.buttons(False, False)
-    (back,) = voices.pass_time(0.05)
+    (back,) = voices.update(0.05)
     assert back.ago == pytest.approx(0.02)
 
 
@@ -259,7 +259,7 @@ def test_a_table_without_a_paddle_has_no_coil_on_that_side():
     voices = Voices()
     voices.begin(load_table("classic").model_copy(update={"paddle": ()}))
     assert voices.buttons(True, True) == []
-    assert voices.pass_time(1.0) == []
+    assert voices.update(1.0) == []
 
 
 def test_dead_paddles_are_silent_until_the_next_ball():

@@ -9,8 +9,8 @@ import pytest
 
 from reading import reads
 from silverball.app import startup
-from silverball.app.menus.page import MIDDLE_Y
-from silverball.app.progress_bar import LEAST_SHARE, LINE_Y, Progress, draw_line, draw_page
+from silverball.app.menus.page_layout import MIDDLE_Y
+from silverball.app.startup import LINE_Y, MIN_SHARE, Progress, draw_line, draw_page
 from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.physics import kernel
 from silverball.table import load_table
@@ -41,7 +41,7 @@ def test_the_time_so_far_and_in_all_is_always_there():
 
 
 def test_nobody_is_told_a_time_that_nobody_knows():
-    assert Progress(4.0, LEAST_SHARE / 2).words == "4 S"
+    assert Progress(4.0, MIN_SHARE / 2).words == "4 S"
     assert Progress(30.0, 1.0).words == "30/31 S"
 
 

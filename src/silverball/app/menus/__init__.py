@@ -6,35 +6,35 @@ commands say (`commands.py`).
 
 from silverball.app.bindings import (
     ACTIONS,
-    ActionLine,
+    ActionBinding,
     action_by_key,
     action_by_name,
     action_by_pad,
     capital,
-    keys_of,
-    pad_of,
+    keys_for,
+    pad_buttons_for,
     shown,
 )
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import JoystickEntry, ScoreRow, TableEntry
+from silverball.app.menus.context import JoystickEntry, ScoreRow, TableEntry
 from silverball.app.menus.menus import Menus
-from silverball.app.menus.transport import ReplayFace
+from silverball.app.menus.transport import ReplayStatus
 
 __all__ = [
     "ACTIONS",
-    "ActionLine",
+    "ActionBinding",
     "Button",
     "Command",
     "JoystickEntry",
     "Menus",
-    "ReplayFace",
+    "ReplayStatus",
     "ScoreRow",
     "TableEntry",
     "action_by_key",
     "action_by_name",
     "action_by_pad",
     "capital",
-    "keys_of",
-    "pad_of",
+    "keys_for",
+    "pad_buttons_for",
     "shown",
 ]

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 from typing import Any, NamedTuple
 
-from silverball.app.menus import page as layout
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 
 
@@ -32,17 +32,17 @@ class Value(NamedTuple):
     wraps: bool = True
     hints: tuple[str, ...] = ()
 
-    def place(self, desk: Desk) -> int:
+    def place(self, context: MenuContext) -> int:
         """Which value is set; the first one if it is none of them."""
-        value = getattr(desk.settings, self.field)
+        value = getattr(context.settings, self.field)
         return self.choices.index(value) if value in self.choices else 0
 
-    def stepped(self, desk: Desk, step: int) -> Command | None:
+    def stepped(self, context: MenuContext, step: int) -> Command | None:
         """Set the next value (+1) or the one before (-1)."""
         last = len(self.choices) - 1
-        index = self.place(desk) + step
+        index = self.place(context) + step
         index = index % (last + 1) if self.wraps else min(max(index, 0), last)
-        return None if index == self.place(desk) else desk.change(**{self.field: self.choices[index]})
+        return None if index == self.place(context) else context.change(**{self.field: self.choices[index]})
 
 
 class Item(NamedTuple):
@@ -98,24 +98,24 @@ class ChoicePage(Page):
         self._moved_at = -1.0
         self._direction = 0
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
+    def press(self, button: Button, context: MenuContext) -> Command | None:
         """Turn, choose, or go back."""
         items = self._listed()
         if self._is_editing:
             value = items[self.index].value
             if value is not None:
-                return self._edit(button, desk, value)
+                return self._edit(button, context, value)
         if button is Button.BACK:
-            return self._leave(desk)
+            return self._leave(context)
         if button is Button.START:
-            return self._choose(items[self.index], desk)
+            return self._choose(items[self.index], context)
         step = -1 if button is Button.LEFT else 1
         self.index = (self.index + step) % len(items)
         self._key = items[self.index].key
-        self.shown_at, self._moved_at, self._direction = desk.now, desk.now, step
+        self.shown_at, self._moved_at, self._direction = context.now, context.now, step
         return None
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """The title, the item, and what there is to say about it."""
         dots = Dots()
         items = self._listed()
@@ -124,25 +124,25 @@ class ChoicePage(Page):
         since = seconds - self.shown_at
         heading = self._title if isinstance(self._title, str) else self._title()
         if self._is_editing and item.value is not None:
-            _draw_value(dots, item, desk, since)
+            _draw_value(dots, item, context, since)
             return dots
-        layout.title(dots, heading, index, len(items), since)
-        shift = layout.slide(seconds - self._moved_at, self._direction) if self._moved_at >= 0.0 else 0
-        layout.middle(dots, item.label, since, shift)
+        page_layout.title(dots, heading, index, len(items), since)
+        shift = page_layout.slide(seconds - self._moved_at, self._direction) if self._moved_at >= 0.0 else 0
+        page_layout.middle(dots, item.label, since, shift)
         if len(items) > 1:
-            layout.arrows(dots, seconds)
-        layout.foot(dots, self._help(item, desk), since)
+            page_layout.arrows(dots, seconds)
+        page_layout.foot(dots, self._help(item, context), since)
         return dots
 
     def signature(self) -> Hashable:
         """Which item, and whether its value is being changed."""
         return self.index, self._is_editing
 
-    def _help(self, item: Item, desk: Desk) -> tuple[str, ...]:
-        key = desk.key("create")
+    def _help(self, item: Item, context: MenuContext) -> tuple[str, ...]:
+        key = context.key("create")
         if item.value is None:
             return (item.hint, "" if item.choose is None else f"{key}: {item.does}   ◄ ►: NEXT")
-        return f"IS {item.value.shown[item.value.place(desk)]} – {key}: CHANGE", item.hint
+        return f"IS {item.value.shown[item.value.place(context)]} – {key}: CHANGE", item.hint
 
     def _listed(self) -> Sequence[Item]:
         """The items; the one that was shown stays shown where others have come or gone before it."""
@@ -154,45 +154,47 @@ class ChoicePage(Page):
         self._key = items[self.index].key
         return items
 
-    def _choose(self, item: Item, desk: Desk) -> Command | None:
+    def _choose(self, item: Item, context: MenuContext) -> Command | None:
         if item.value is not None:
             self._is_editing = True
-            self._kept = getattr(desk.settings, item.value.field)
-            self.shown_at = desk.now
+            self._kept = getattr(context.settings, item.value.field)
+            self.shown_at = context.now
             return None
         return item.choose() if item.choose is not None else None
 
-    def _edit(self, button: Button, desk: Desk, value: Value) -> Command | None:
-        self.shown_at = desk.now
+    def _edit(self, button: Button, context: MenuContext, value: Value) -> Command | None:
+        self.shown_at = context.now
         if button is Button.START:
             self._is_editing = False
             return None
         if button is Button.BACK:
             self._is_editing = False
-            return desk.change(**{value.field: self._kept})
-        return value.stepped(desk, -1 if button is Button.LEFT else 1)
+            return context.change(**{value.field: self._kept})
+        return value.stepped(context, -1 if button is Button.LEFT else 1)
 
-    def _leave(self, desk: Desk) -> Command | None:
+    def _leave(self, context: MenuContext) -> Command | None:
         if self._back is not None:
             return self._back()
-        desk.back()
+        context.back()
         return None
 
 
-def _draw_value(dots: Dots, item: Item, desk: Desk, since: float) -> None:
+def _draw_value(dots: Dots, item: Item, context: MenuContext, since: float) -> None:
     value = item.value
     assert value is not None
-    index = value.place(desk)
-    layout.title(dots, item.label, seconds=since)
-    layout.middle(dots, value.shown[index], since)
-    layout.arrows(dots, since, strong=True)
+    index = value.place(context)
+    page_layout.title(dots, item.label, seconds=since)
+    page_layout.middle(dots, value.shown[index], since)
+    page_layout.arrows(dots, since, strong=True)
     if value.wraps:
-        layout.foot(
+        page_layout.foot(
             dots,
-            (value.hints[index] if value.hints else "", f"◄ ►: CHANGE   {desk.key('create')}: KEEP"),
+            (value.hints[index] if value.hints else "", f"◄ ►: CHANGE   {context.key('create')}: KEEP"),
             since,
         )
     else:
         # A scale shows how far it is set.
         last = len(value.choices) - 1
-        layout.meter(dots, layout.MARGIN, layout.FOOT_Y, WIDTH - 2 * layout.MARGIN, index / max(last, 1))
+        page_layout.meter(
+            dots, page_layout.MARGIN, page_layout.FOOT_Y, WIDTH - 2 * page_layout.MARGIN, index / max(last, 1)
+        )

@@ -55,7 +55,7 @@ class WatchScore:
 
 
 @dataclass(frozen=True)
-class WatchMachine:
+class WatchDemo:
     """Let the program play the chosen table and watch it; the menu has closed itself.
 
     Attributes:
@@ -73,7 +73,7 @@ class Change:
 
 
 @dataclass(frozen=True)
-class SeeBoard:
+class ShowBoard:
     """Show the board of the chosen table that a seed makes.
 
     Attributes:
@@ -84,7 +84,7 @@ class SeeBoard:
 
 
 @dataclass(frozen=True)
-class TellTrouble:
+class ShowTableProblem:
     """Tell why a table cannot be played.
 
     Attributes:
@@ -167,10 +167,10 @@ Command: TypeAlias = (
     Play
     | WatchLast
     | WatchScore
-    | WatchMachine
+    | WatchDemo
     | Change
-    | SeeBoard
-    | TellTrouble
+    | ShowBoard
+    | ShowTableProblem
     | Quit
     | Resume
     | Restart

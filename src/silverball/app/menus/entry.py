@@ -10,10 +10,10 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Callable, Hashable
 
-from silverball.app.bindings import keys_of
-from silverball.app.menus import page as layout
+from silverball.app.bindings import keys_for
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 
@@ -68,7 +68,7 @@ class LettersPage(Page):
         end = (END,) if len(self.text) >= self._least else ()
         return (*letters, *end, *((DELETE,) if self.text else ()))
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
+    def press(self, button: Button, context: MenuContext) -> Command | None:
         """Turn the letter, take it, or take the last one back."""
         if self._is_typed and button is Button.START:
             text = self._completed()
@@ -82,7 +82,7 @@ class LettersPage(Page):
         elif button is Button.RIGHT:
             self._turn = (self._turn + 1) % len(self.choices)
         elif button is Button.BACK or choice == DELETE:
-            return self._delete(desk)
+            return self._delete(context)
         elif choice == END:
             return self._done(self.text)
         else:
@@ -90,13 +90,13 @@ class LettersPage(Page):
             self._offer()
         return None
 
-    def type(self, written: str, key: str, desk: Desk, *, is_button: bool) -> bool:
+    def type(self, written: str, key: str, context: MenuContext, *, is_button: bool) -> bool:
         """A key was pressed; whether it was meant for the text.
 
         Args:
             written: What the key writes; empty if that is not known.
             key: The name of the key.
-            desk: Is told if this cannot be entered here.
+            context: Is told if this cannot be entered here.
             is_button: Whether it is a button of the menus as well.
         """
         if key == BACKSPACE:
@@ -106,7 +106,7 @@ class LettersPage(Page):
         elif letter := _typed(written, key, self._letters):
             self.text = (self.text + letter)[: self._most]
         elif written.isprintable() and written:
-            desk.say("ONLY DIGITS" if self._letters.isdigit() else "ONLY LETTERS, DIGITS, . AND -")
+            context.say("ONLY DIGITS" if self._letters.isdigit() else "ONLY LETTERS, DIGITS, . AND -")
             return True
         else:
             return False
@@ -114,31 +114,31 @@ class LettersPage(Page):
         self._turn = 0
         return True
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """The text so far, the letter that turns, and what the buttons do."""
         dots = Dots()
-        layout.title(dots, self._title, seconds=seconds)
-        help_ = self._help(desk, seconds)
+        page_layout.title(dots, self._title, seconds=seconds)
+        help_ = self._help(context, seconds)
         if self._most <= LARGE_MOST:
             self._draw_places(dots, 4, 8, 2, seconds)
             ends = not self._is_typed and self.choices[self._turn] == END
             for line, y in zip(help_, (11, 22), strict=True):
                 room = WIDTH - HELP_X - (END_WIDTH if ends else 0)
                 left = WIDTH - min(NORMAL.width(line), room)
-                layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
+                page_layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
         else:
-            self._draw_places(dots, (WIDTH - 28 - self._most * 11) // 2, layout.MIDDLE_Y, 1, seconds)
-            layout.foot(dots, ("   ".join(help_),), seconds)
+            self._draw_places(dots, (WIDTH - 28 - self._most * 11) // 2, page_layout.MIDDLE_Y, 1, seconds)
+            page_layout.foot(dots, ("   ".join(help_),), seconds)
         return dots
 
-    def _help(self, desk: Desk, seconds: float) -> tuple[str, str]:
+    def _help(self, context: MenuContext, seconds: float) -> tuple[str, str]:
         """What the buttons do, and in turn what the keys of a keyboard do."""
-        start = desk.key("create")
+        start = context.key("create")
         is_first = seconds % (2 * HELP_TURN) < HELP_TURN
         if self._is_typed:
             return ("TYPE ON", f"{start}: DONE") if is_first else ("◄ ►: TURN", "BACKSP.: DEL")
         does = {END: "DONE", DELETE: "DELETE"}.get(self.choices[self._turn], "TAKE")
-        return (_turning_keys(desk), f"{start}: {does}") if is_first else ("ALL OTHER", "KEYS: TYPE")
+        return (_turning_keys(context), f"{start}: {does}") if is_first else ("ALL OTHER", "KEYS: TYPE")
 
     def _draw_places(self, dots: Dots, left: int, y: int, scale: int, seconds: float) -> None:
         """A place for every letter, each underlined, and END behind them."""
@@ -148,13 +148,13 @@ class LettersPage(Page):
             x = left + place * step
             here = choice if place == count and choice not in (END, DELETE) else ""
             letter = self.text[place] if place < count else here
-            light = FULL if here or choice == END or self._is_typed else layout.HALF
+            light = FULL if here or choice == END or self._is_typed else page_layout.HALF
             dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
-            if place != count or not self._is_typed or layout.blinks(seconds):
-                dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else layout.HALF)
-        if choice == END and layout.blinks(seconds):
+            if place != count or not self._is_typed or page_layout.blinks(seconds):
+                dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else page_layout.HALF)
+        if choice == END and page_layout.blinks(seconds):
             dots.text(END, left + count * step + 2, y + 11 * scale - 11, BOLD)
-        if choice == DELETE and layout.blinks(seconds):
+        if choice == DELETE and page_layout.blinks(seconds):
             x = left + (count - 1) * step
             dots.invert(x - 1, y, step, 11 * scale)
 
@@ -166,16 +166,16 @@ class LettersPage(Page):
         """The text as it is to be taken if nothing more comes."""
         return self.text
 
-    def _delete(self, desk: Desk) -> Command | None:
+    def _delete(self, context: MenuContext) -> Command | None:
         if not self.text:
-            return self._give_up(desk)
+            return self._give_up(context)
         last = self.text[-1]
         self.text = self.text[:-1]
         self._turn = self.choices.index(last) if last in self.choices else 0
         return None
 
-    def _give_up(self, desk: Desk) -> Command | None:
-        desk.back()
+    def _give_up(self, context: MenuContext) -> Command | None:
+        context.back()
         return None
 
     def _offer(self) -> None:
@@ -200,13 +200,13 @@ class InitialsPage(LettersPage):
     def __init__(self, score: int, rank: int, start: str, done: Callable[[str], Command | None]) -> None:
         super().__init__("initials", f"NO. {rank} WITH {score:,}", LETTERS, 3, done, start=start)
 
-    def _give_up(self, desk: Desk) -> Command | None:
+    def _give_up(self, context: MenuContext) -> Command | None:
         # A score is never lost: who leaves at once gets the initials of last time.
         return self._done(self._offered)
 
-    def tick(self, desk: Desk) -> Command | None:
+    def tick(self, context: MenuContext) -> Command | None:
         """Whoever made the score may have gone; the next one must not sign it."""
-        return self._done(self._completed()) if desk.idle >= SIGN_PATIENCE else None
+        return self._done(self._completed()) if context.idle >= SIGN_PATIENCE else None
 
     def _completed(self) -> str:
         if self._is_typed and self.text:
@@ -224,8 +224,10 @@ def _typed(written: str, key: str, letters: str) -> str:
     return ""
 
 
-def _turning_keys(desk: Desk) -> str:
+def _turning_keys(context: MenuContext) -> str:
     """Which buttons turn, those that bear letters named."""
-    sides = [line for line in desk.actions if line.action in ("left", "right")]
-    letters = [desk.shown(key) for line in sides for key in keys_of(desk.settings, line) if len(key) == 1]
+    sides = [line for line in context.actions if line.action in ("left", "right")]
+    letters = [
+        context.shown(key) for line in sides for key in keys_for(context.settings, line) if len(key) == 1
+    ]
     return " ".join([*letters[:2], "◄ ►: TURN"])

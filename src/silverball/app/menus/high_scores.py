@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 
-from silverball.app.menus import page as layout
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import Desk, Page, ScoreRow, TableEntry
+from silverball.app.menus.context import MenuContext, Page, ScoreRow, TableEntry
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, TINY
 from silverball.game.view import Mode
@@ -27,30 +27,30 @@ class ScoresPage(Page):
     def __init__(self) -> None:
         self._index = 0
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
+    def press(self, button: Button, context: MenuContext) -> Command | None:
         """Turn to another table, or go back."""
         if button in (Button.START, Button.BACK):
-            desk.back()
+            context.back()
             return None
-        count = max(len(desk.boards()), 1)
+        count = max(len(context.boards()), 1)
         self._index = (self._index + (-1 if button is Button.LEFT else 1)) % count
-        self.shown_at = desk.now
+        self.shown_at = context.now
         return None
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """The name of the table and its scores."""
         dots = Dots()
-        boards = desk.boards()
+        boards = context.boards()
         if not boards:
-            layout.title(dots, "SCORES")
-            layout.middle(dots, "NO SCORES YET", seconds)
-            layout.foot(dots, (f"{desk.key('create')}: BACK",), seconds)
+            page_layout.title(dots, "SCORES")
+            page_layout.middle(dots, "NO SCORES YET", seconds)
+            page_layout.foot(dots, (f"{context.key('create')}: BACK",), seconds)
             return dots
         since = max(seconds - self.shown_at, 0.0)
         index = min(self._index, len(boards) - 1)
         entry, mode, rows = boards[index]
         draw_board(dots, entry, mode, rows[:ROWS], since)
-        layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", index, len(boards), since)
+        page_layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", index, len(boards), since)
         return dots
 
     def signature(self) -> Hashable:
@@ -77,7 +77,7 @@ def draw_board(dots: Dots, entry: TableEntry, mode: Mode, rows: Sequence[ScoreRo
 
 def _draw_row(dots: Dots, place: int, row: ScoreRow, y: int) -> None:
     """Rank, initials and score large; the date small, for it matters least, and only where there is room."""
-    dots.text(f"{place}", 11, y + 2, NORMAL, "right", layout.HALF)
+    dots.text(f"{place}", 11, y + 2, NORMAL, "right", page_layout.HALF)
     dots.text(row.initials, 15, y, BOLD)
     score = f"{row.score:,}"
     left = 20 + BOLD.width(row.initials)
@@ -85,4 +85,4 @@ def _draw_row(dots: Dots, place: int, row: ScoreRow, y: int) -> None:
     has_date = BOLD.width(score) <= right - left
     dots.number(row.score, right if has_date else WIDTH, y, WIDTH - left, (BOLD, NORMAL, TINY), "right", 220)
     if has_date:
-        dots.text(row.date, WIDTH, y + 3, TINY, "right", layout.HALF)
+        dots.text(row.date, WIDTH, y + 3, TINY, "right", page_layout.HALF)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import NamedTuple
 
-from silverball.app.menus import page as layout
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import (
     Button,
     Command,
@@ -14,7 +14,7 @@ from silverball.app.menus.commands import (
     ReplayPause,
     ReplaySpeed,
 )
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import NORMAL
 
@@ -24,7 +24,7 @@ HELP_TIME = 3.0  # [s] for which the help stands
 SPEEDS = {0.25: "1/4×", 0.5: "1/2×"}  # as glyphs they would be too small to read
 
 
-class ReplayFace(NamedTuple):
+class ReplayStatus(NamedTuple):
     """Where a replay stands.
 
     Attributes:
@@ -52,7 +52,7 @@ class TransportPage(Page):
     name = "transport"
     repeats = True
 
-    def __init__(self, face: ReplayFace) -> None:
+    def __init__(self, face: ReplayStatus) -> None:
         self.face = face
 
     @property
@@ -65,9 +65,9 @@ class TransportPage(Page):
         """A replay that is held is being studied."""
         return 0.0 if self._is_over() else STUDY
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
+    def press(self, button: Button, context: MenuContext) -> Command | None:
         """Ask the window for what the button means; it alone knows the replay."""
-        self.shown_at = desk.now
+        self.shown_at = context.now
         if button is Button.START:
             return EndReplay() if self._is_over() else ReplayPause()
         if button is Button.BACK:
@@ -75,16 +75,16 @@ class TransportPage(Page):
         step = -1 if button is Button.LEFT else 1
         return ReplayJump(step * JUMP) if self.face.paused or self._is_over() else ReplaySpeed(step)
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """What the game shows, and below it the line of the replay."""
         dots = Dots()
-        layout.under(dots, below)
+        page_layout.under(dots, below)
         # Where it stands matters most, so the help waits until nobody has touched anything for a while.
         since = max(seconds - self.shown_at, 0.0)
-        texts = {2: self.face.title.upper(), 4: self._help(desk), 6: "BOTH PADDLES HELD: LEAVE"}
+        texts = {2: self.face.title.upper(), 4: self._help(context), 6: "BOTH PADDLES HELD: LEAVE"}
         text = texts.get(int(since / HELP_TIME) % 8, "")
         if text:
-            layout.foot(dots, (text,), since % HELP_TIME)
+            page_layout.foot(dots, (text,), since % HELP_TIME)
         else:
             self._draw_line(dots, seconds)
         return dots
@@ -96,16 +96,16 @@ class TransportPage(Page):
     def _is_over(self) -> bool:
         return self.face.time >= self.face.length
 
-    def _help(self, desk: Desk) -> str:
-        key = desk.key("create")
+    def _help(self, context: MenuContext) -> str:
+        key = context.key("create")
         if self._is_over():
             return f"◄►: BACK   {key}: LEAVE"
         return f"◄►: JUMP   {key}: GO ON" if self.face.paused else f"◄►: SPEED   {key}: HOLD"
 
     def _draw_line(self, dots: Dots, seconds: float) -> None:
-        face, y = self.face, layout.FOOT_Y
+        face, y = self.face, page_layout.FOOT_Y
         if face.paused:
-            if layout.blinks(seconds, 1.0):
+            if page_layout.blinks(seconds, 1.0):
                 dots.box(0, y, 2, 7)
                 dots.box(4, y, 2, 7)
         else:
@@ -113,7 +113,7 @@ class TransportPage(Page):
         end = 9 + dots.text(_clock(face.time), 9, y, NORMAL)
         right = WIDTH - dots.text(_speed(face.speed), WIDTH, y, NORMAL, "right") - 4
         share = face.time / face.length if face.length > 0.0 else 1.0
-        layout.meter(dots, end + 4, y + 1, right - end - 4, share)
+        page_layout.meter(dots, end + 4, y + 1, right - end - 4, share)
 
 
 def _clock(seconds: float) -> str:

@@ -8,8 +8,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from silverball.app.sound.scale import BAR, BELL, SKIN, TUNED_BAR, pitch_of
-from silverball.app.sound.synth import Partial, Wave, envelope, glide, mix, noise, puff, ring, struck
+from silverball.app.sound.synth import (
+    BAR,
+    BELL,
+    SKIN,
+    TUNED_BAR,
+    Partial,
+    Wave,
+    envelope,
+    glide,
+    mix,
+    noise,
+    pitch_of,
+    puff,
+    ring,
+    struck,
+)
 
 
 def wall(layer: int, random: np.random.Generator) -> Wave:

@@ -140,7 +140,7 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
         notes += voices.hits(frame.events, tick_rate, width, frame.world_time)
         # The buttons went down when the frame began: what they do is due within it.
         notes += [note._replace(ago=dt) for note in voices.buttons(*frame.buttons)]
-        notes += voices.pass_time(dt) + voices.menu(frame.menu)
+        notes += voices.update(dt) + voices.menu(frame.menu)
         for note in notes:
             _add_note(total, bank, note, frame.time - min(note.ago, dt))
         following = rolling.update(frame.balls, dt, width)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from silverball.app.sound.panning import pan
+from silverball.app.sound.levels import pan
 from silverball.app.sound.synth import RATE, Wave
 
 _RATIO = 1.55

@@ -116,7 +116,7 @@ class Sounds:
         """Where the balls are: (id, x [u], z [u], speed [u/s]) each, so many seconds after the last time."""
         if self._is_paused:
             return
-        self._play(self._voices.pass_time(dt))
+        self._play(self._voices.update(dt))
         gains = self._rolling.update(balls, dt, width)
         self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, self._volume))
 

@@ -4,8 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from silverball.app.sound.scale import BAR, BELL, TUNED_BAR, pitch_of
-from silverball.app.sound.synth import RATE, Wave, envelope, glide, mix, ring, single, struck
+from silverball.app.sound.synth import (
+    BAR,
+    BELL,
+    RATE,
+    TUNED_BAR,
+    Wave,
+    envelope,
+    glide,
+    mix,
+    pitch_of,
+    ring,
+    single,
+    struck,
+)
 
 
 def _bells(

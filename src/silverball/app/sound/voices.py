@@ -10,20 +10,19 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from silverball.app.sound.bank import Key
-from silverball.app.sound.panning import pan, strength_of
-from silverball.app.sound.recipes import RECIPES
-from silverball.app.sound.scale import BELL_STEPS, SCALE
+from silverball.app.sound.bank import RECIPES, Key
+from silverball.app.sound.levels import pan, strength_of
+from silverball.app.sound.synth import BELL_STEPS, SCALE
 from silverball.game.view import GameEvent, GameEventKind
 
 if TYPE_CHECKING:  # the window opens before the physics is loaded
     from silverball.table import Table
     from silverball.world import Event
 
-MOST_NEW = 4
+MAX_NEW = 4
 """Hits that begin to sound in one frame; the loudest are taken."""
 
-MOST_AT_ONCE = 1.6
+MAX_AT_ONCE = 1.6
 """All strengths of one frame added up; what is more is made softer, so that nothing has to be cut off."""
 
 HARD = 6.0
@@ -131,9 +130,9 @@ class Voices:
                 heard.append((strength, time, name, layer, event.position[2]))
         self._told.clear()
         heard.sort(key=lambda one: (-one[0], one[1]))
-        del heard[MOST_NEW:]
+        del heard[MAX_NEW:]
         total = sum(one[0] for one in heard)
-        less = min(1.0, MOST_AT_ONCE / total) if total else 1.0
+        less = min(1.0, MAX_AT_ONCE / total) if total else 1.0
         return [
             self._note(name, layer, less * strength, pan(z, width), max(end - time, 0.0))
             for strength, time, name, layer, z in heard
@@ -213,7 +212,7 @@ class Voices:
             paddle.is_down = is_down
         return notes
 
-    def pass_time(self, seconds: float) -> list[Note]:
+    def update(self, seconds: float) -> list[Note]:
         """The notes of the next seconds: paddles that reach their stops, more softly when they fall back."""
         notes = []
         for paddle, side in zip(self._paddles, (-1.0, 1.0), strict=True):

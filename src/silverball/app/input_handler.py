@@ -15,24 +15,24 @@ from silverball.app.controls import (
     MENU_KEYS,
     PADDLES,
     Action,
-    Buttons,
     Controls,
+    PaddleButtons,
     is_command,
     says_something,
 )
 from silverball.app.gamepad import REMOVED, Gamepads, PadButton
-from silverball.app.keyboard import Keyboard, bears
+from silverball.app.keyboard import Keyboard, key_label
 from silverball.app.menus import Button, capital
 from silverball.app.overlay import HELP_PAGES
 from silverball.drawing.text import can_show
 
 if TYPE_CHECKING:
-    from silverball.app.latency import LatencyMeter
-    from silverball.app.messages import Messages
+    from silverball.app.overlay import Messages
     from silverball.app.program import Program
     from silverball.app.screen import Screen
     from silverball.app.settings import Settings
     from silverball.app.sound import Sounds
+    from silverball.app.timing import LatencyMeter
 
 
 _SHIFTS = ("left shift", "right shift")
@@ -46,12 +46,12 @@ class _Pressed(NamedTuple):
     menu: Button | None = None
 
 
-class Listener:
+class InputHandler:
     """Answers the events of a window.
 
     Attributes:
         buttons: The paddle buttons that are held.
-        pads: The gamepads and joysticks.
+        gamepads: The gamepads and joysticks.
         keyboard: The keyboard.
         controls: Which key does what.
         shows_help: Whether the help is shown; the game waits meanwhile.
@@ -69,8 +69,8 @@ class Listener:
     ) -> None:
         self._program, self._screen, self._sounds = program, screen, sounds
         self._messages, self._latency = messages, latency
-        self.buttons = Buttons()
-        self.pads = Gamepads()
+        self.buttons = PaddleButtons()
+        self.gamepads = Gamepads()
         self.keyboard = Keyboard()
         self._keys: dict[int, _Pressed] = {}  # that are down, by their places
         self._played_with: set[int] = set()  # gamepads used since the last paddle key
@@ -85,7 +85,7 @@ class Listener:
 
     def close(self) -> None:
         """Listen no more."""
-        self.pads.close()
+        self.gamepads.close()
 
     def answer(self, event: pygame.Event) -> None:
         """Answer an event."""
@@ -103,7 +103,7 @@ class Listener:
             self._program.lose_focus()
         elif event.type in (pygame.QUIT, pygame.WINDOWCLOSE):
             self._program.is_over = True
-        for button in self.pads.read(event):
+        for button in self.gamepads.read(event):
             self._pad(button)
         if event.type in REMOVED or event.type == pygame.JOYDEVICEADDED:
             self._devices_changed(event)
@@ -135,7 +135,7 @@ class Listener:
             self._keys[place] = _Pressed(name, menu=MENU_KEYS[name])
             self._program.press_menu(MENU_KEYS[name])
         elif says_something(event.key) and not is_command(event.mod):
-            label = bears(event.key, event.scancode)
+            label = key_label(event.key, event.scancode)
             self._say_nothing_done(capital(label) if can_show(label) else "this key")
 
     def _key_up(self, event: pygame.Event) -> None:
@@ -172,7 +172,7 @@ class Listener:
 
     def _devices_changed(self, event: pygame.Event) -> None:
         """A gamepad or joystick has come or gone."""
-        self._program.menus.know(joysticks=self.pads.joysticks)
+        self._program.menus.know(joysticks=self.gamepads.joysticks)
         if event.type in REMOVED and event.instance_id in self._played_with:
             self._played_with.discard(event.instance_id)
             self._program.lose_gamepad("the gamepad")
@@ -186,7 +186,7 @@ class Listener:
         elif action is Action.DEBUG:
             self.shows_debug = not self.shows_debug
         elif action is Action.FULL_SCREEN:
-            self._screen.toggle_full()
+            self._screen.toggle_fullscreen()
         elif action is Action.MUTE:
             program.set(muted=not program.settings.muted)
             self._messages.say("sounds are off" if program.settings.muted else "sounds are on")

@@ -6,9 +6,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from silverball.app.bindings import ActionLine, keys_of, shown
-from silverball.app.demo_players import Performer
-from silverball.app.menus import page as layout
+from silverball.app.bindings import ActionBinding, keys_for, shown
+from silverball.app.demo_players import DemoPlayer
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Change, Command
 from silverball.app.settings import Settings
 from silverball.drawing.dotmatrix.canvas import Dots
@@ -81,14 +81,14 @@ class Page(ABC):
     """Since when it is shown as it is [s]: texts begin to scroll then."""
 
     @abstractmethod
-    def press(self, button: Button, desk: Desk) -> Command | None:
+    def press(self, button: Button, context: MenuContext) -> Command | None:
         """Answer a button."""
 
     @abstractmethod
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
-        """The page at a time, the clock being that of `desk.now`; `below` is what the game shows."""
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
+        """The page at a time, the clock being that of `context.now`; `below` is what the game shows."""
 
-    def tick(self, desk: Desk) -> Command | None:
+    def tick(self, context: MenuContext) -> Command | None:
         """Time has gone on."""
         return None
 
@@ -97,7 +97,7 @@ class Page(ABC):
         return ()
 
 
-class Desk:
+class MenuContext:
     """The shared state of all pages.
 
     Attributes:
@@ -109,7 +109,7 @@ class Desk:
         seed: Of the next random board; None for a new one.
         last_seed: Of the board that was played last; None if there was none.
         has_last_game: Whether there is a last game to watch.
-        performer: Who plays while the program plays by itself; None if it has not done so yet.
+        demo_player: Who plays while the program plays by itself; None if it has not done so yet.
         joysticks: Those that are plugged in.
         labels: What stands on keys on the layout in use, by their names, where it is something else.
         now: The time of the last tick [s].
@@ -122,7 +122,7 @@ class Desk:
         settings: Settings,
         tables: Sequence[TableEntry],
         scores: Callable[[str, Mode], Sequence[ScoreRow]],
-        actions: Sequence[ActionLine],
+        actions: Sequence[ActionBinding],
         themes: Sequence[str],
     ) -> None:
         self.settings = settings
@@ -133,7 +133,7 @@ class Desk:
         self.seed: int | None = None
         self.last_seed: int | None = None
         self.has_last_game = False
-        self.performer: Performer | None = None
+        self.demo_player: DemoPlayer | None = None
         self.joysticks: Sequence[JoystickEntry] = ()
         self.labels: Mapping[str, str] = {}
         self.now = self.idle = 0.0
@@ -183,7 +183,7 @@ class Desk:
     def message(self, seconds: float) -> tuple[str, float]:
         """What is to be said at a time, and for how long it has been said [s]; empty if nothing."""
         text, since = self._message
-        length = max(MESSAGE_TIME, layout.scroll_time(NORMAL.width(text)))
+        length = max(MESSAGE_TIME, page_layout.scroll_time(NORMAL.width(text)))
         return (text, seconds - since) if since <= seconds < since + length else ("", 0.0)
 
     def table(self) -> TableEntry:
@@ -198,8 +198,8 @@ class Desk:
     def key(self, action: str) -> str:
         """The first key of an action as the display writes it."""
         for line in self.actions:
-            if line.action == action and keys_of(self.settings, line):
-                return self.shown(keys_of(self.settings, line)[0])
+            if line.action == action and keys_for(self.settings, line):
+                return self.shown(keys_for(self.settings, line)[0])
         return "?"
 
     def shown(self, name: str) -> str:

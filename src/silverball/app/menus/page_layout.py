@@ -9,7 +9,7 @@ from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, Font
 
 TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 24
 FAINT, HALF = 70, 145  # brightness of what is less important
-MOST_MARKS = 15  # for more choices there is no room
+MAX_MARKS = 15  # for more choices there is no room
 MARGIN = 13  # [dot] on both sides of the middle, for the arrows
 
 SCROLL_SPEED = 40.0  # [dot/s] of texts that are too long; a letter in 0.15 s
@@ -20,7 +20,7 @@ FOOT_TURN = 3.0  # [s] after which the line of help says the next thing
 
 def title(dots: Dots, text: str, index: int = 0, count: int = 0, seconds: float = 0.0) -> None:
     """The title, and which of how many choices is shown: by a mark for each, or by numbers."""
-    place = f"{index + 1}/{count}" if count > MOST_MARKS else ""
+    place = f"{index + 1}/{count}" if count > MAX_MARKS else ""
     marks = NORMAL.width(place) if place else 4 * count if count > 1 else 0
     marquee(dots, text, TITLE_Y, 0, WIDTH - marks - 2, NORMAL, seconds, "left", HALF)
     if place:
