@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from silverball.app.button_handlers import press, release
 from silverball.app.catalog import Catalog
 from silverball.app.controls import Action, Held
 from silverball.app.program import Program
@@ -26,20 +27,29 @@ class Evening:
         self.store = Store(folder, at_once=True)  # as a window has it
         self.catalog = Catalog(self.store, folder, {table.name: table})
         chosen = settings or Settings(table=table.name)
-        self.program = Program(self.store, chosen, self.catalog, seed=3, say=self.said.append)
+        self.program = Program(self.store, chosen, self.catalog, seed=3, show_message=self.said.append)
         self.seconds = 0.0
 
     def go(self, seconds: float) -> None:
         for _ in range(round(seconds * 30)):
             self.seconds += 1 / 30
             self.program.update(self.seconds)
-            self.program.advance(NOTHING, 8)
+            self.advance(8)
             self.program.dots(self.seconds)
+
+    def advance(self, ticks: int) -> None:
+        """Advance the session, as the window does."""
+        if self.program.session is not None and self.program.is_moving:
+            with self.program.stopping_on_error():
+                self.program.session.advance(NOTHING, ticks)
+
+    def press(self, action: Action) -> None:
+        press(self.program, action)
 
     def tap(self, *actions: Action) -> None:
         for action in actions:
-            self.program.press(action)
-            self.program.release(action)
+            self.press(action)
+            release(self.program, action)
             self.go(1 / 30)
 
     def play_to_the_end(self) -> None:

@@ -77,7 +77,7 @@ class Player:
 
     @property
     def says(self) -> str:
-        return self.window.messages.text if self.window.messages.strength > 0 else ""
+        return self.window.messages.text if self.window.messages.opacity > 0 else ""
 
 
 @pytest.fixture(autouse=True)

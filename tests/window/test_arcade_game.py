@@ -70,7 +70,7 @@ def test_a_game_from_the_menu_to_the_score_table(open_window, tmp_path, hands):
         do["right"]()
     do["start"]()  # scores
     assert player.menus.page == "scores"
-    shown = player.program._catalog.scores(player.program.settings.table, Mode.ARCADE)
+    shown = player.program._catalog.scores(player.program.settings.current.table, Mode.ARCADE)
     assert [(row.initials, row.score) for row in shown] == [("BAC", score)]
     with Store(tmp_path / "data") as other:
         (row,) = other.scores()
@@ -143,7 +143,7 @@ def test_a_remapped_key_works_at_once_and_at_the_next_start(open_window):
     player.until(lambda: player.menus.wants_key or not player.tap(pygame.K_SPACE), 5.0)
     player.tap(pygame.K_q)
     player.frames(2)
-    assert "q" in player.program.settings.keys["left"]
+    assert "q" in player.program.settings.current.keys["left"]
     player.window.close()
     again = open_window()
     rest = again.world.paddles[0].angle
@@ -237,7 +237,7 @@ def test_initials_are_typed_and_letters_that_are_keys_of_the_game_do_nothing_els
     player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
     play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
     player.until(lambda: player.menus.page == "initials")
-    before = player.program.settings
+    before = player.program.settings.current
     for letter in "mpr":  # mute, pause, new board
         key(player, ord(letter), letter if writes else "")
     assert player.menus.page == "initials"
@@ -246,7 +246,7 @@ def test_initials_are_typed_and_letters_that_are_keys_of_the_game_do_nothing_els
         key(player, ord(letter), letter if writes else "")
     key(player, done, "")
     assert player.menus.page == "over"
-    assert player.program.settings == before.changed(initials="MPD")
+    assert player.program.settings.current == before.changed(initials="MPD")
     with Store(tmp_path / "data") as other:
         assert [row.initials for row in other.scores()] == ["MPD"]
 

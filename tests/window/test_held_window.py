@@ -7,7 +7,7 @@ from machines import leaky
 from test_arcade_game import play_all_balls
 
 from holder import held
-from silverball.app.game_archive import SAVED, WAITS
+from silverball.app.game_archive import PENDING, SAVED
 from silverball.game.scores.store import FILE, Store
 from silverball.game.view import Mode
 
@@ -18,7 +18,7 @@ def test_a_score_that_waits_is_saved_while_the_window_is_open(open_window, tmp_p
         play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
         score = player.game.score
         player.frames(1)
-        assert player.window.messages.text == f"{WAITS[0].upper()}{WAITS[1:]}."
+        assert player.window.messages.text == f"{PENDING[0].upper()}{PENDING[1:]}."
         player.until(lambda: player.menus.page == "initials")
     player.seconds(1.5)
     assert player.window.messages.text == f"{SAVED[0].upper()}{SAVED[1:]}."

@@ -7,7 +7,7 @@ import pytest
 from joysticks import GAMEPAD, UNKNOWN, VirtualJoystick
 
 from reading import reads
-from silverball.app.menus import ACTIONS
+from silverball.app.bindings import ACTIONS
 from silverball.app.settings import Settings
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 from silverball.game.view import Mode
@@ -133,7 +133,7 @@ def test_any_button_of_an_unknown_joystick_can_be_chosen_and_is_kept_for_this_ma
     choose(player, "JITTER")
     choose(player, "NEW BUTTON")
     tap(player, one, 98)
-    settings = player.program.settings
+    settings = player.program.settings.current
     guid = next(
         entry.guid for entry in player.window.input_handler.gamepads.joysticks if entry.title == "One make"
     )
@@ -168,7 +168,7 @@ def test_an_axis_or_a_hat_can_be_chosen_too(player, plug_in, name, move, back):
     for do in (move, back):
         do(device)
         player.frames(2)
-    assert [*player.program.settings.joysticks.values()] == [{"jitter": (name,)}]
+    assert [*player.program.settings.current.joysticks.values()] == [{"jitter": (name,)}]
 
 
 @pytest.mark.parametrize(

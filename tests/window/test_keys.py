@@ -28,7 +28,7 @@ def angles(player):
     ],
 )
 def test_a_paddle_key_lifts_its_paddle_within_the_stroke_and_release_brings_it_back(player, key, side):
-    paddle = player.program.table.paddle[side]
+    paddle = player.program.board.table.paddle[side]
     rest, up = paddle.rest_angle, paddle.up_angle
     assert angles(player) == pytest.approx([rest, rest])
     player.press(key)
@@ -41,7 +41,7 @@ def test_a_paddle_key_lifts_its_paddle_within_the_stroke_and_release_brings_it_b
 
 
 def test_a_paddle_stays_up_while_one_of_its_two_pressed_keys_is_held(player):
-    up = player.program.table.paddle[0].up_angle
+    up = player.program.board.table.paddle[0].up_angle
     player.press(pygame.K_a)
     player.press(pygame.K_LEFT)
     player.seconds(0.2)
@@ -51,7 +51,7 @@ def test_a_paddle_stays_up_while_one_of_its_two_pressed_keys_is_held(player):
 
 
 def test_a_tap_between_two_frames_lifts_the_paddle_for_one_tick(player):
-    paddle = player.program.table.paddle[0]
+    paddle = player.program.board.table.paddle[0]
     per_tick = (paddle.up_angle - paddle.rest_angle) / paddle.stroke * TICK
     player.press(pygame.K_a)
     player.release(pygame.K_a)
@@ -60,7 +60,7 @@ def test_a_tap_between_two_frames_lifts_the_paddle_for_one_tick(player):
 
 
 def test_a_tap_is_not_lost_in_a_beat_too_short_for_a_tick(player):
-    rest = player.program.table.paddle[0].rest_angle
+    rest = player.program.board.table.paddle[0].rest_angle
     player.press(pygame.K_a)
     player.release(pygame.K_a)
     player.window.poll_input(0.1 * TICK)
@@ -96,7 +96,9 @@ def test_losing_focus_pauses_the_game_and_releases_the_keys(player):
     player.tap(pygame.K_SPACE)  # "go on"
     assert not player.program.is_paused
     player.seconds(0.3)
-    assert angles(player) == pytest.approx([paddle.rest_angle for paddle in player.program.table.paddle])
+    assert angles(player) == pytest.approx(
+        [paddle.rest_angle for paddle in player.program.board.table.paddle]
+    )
 
 
 def test_space_brings_two_balls_at_most_and_says_why_no_third(player):
@@ -167,7 +169,7 @@ def test_a_key_that_comes_up_as_another_letter_lets_go_of_what_it_held(player):
 def test_a_key_that_loses_its_use_while_it_is_held_lets_go(player):
     player.press(pygame.K_a)
     player.frames(1)
-    player.program.set(keys={"left": ("left",)})
+    player.program.settings.change(keys={"left": ("left",)})
     player.frames(1)
     player.release(pygame.K_a)
     player.frames(1)
@@ -212,7 +214,7 @@ def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window
     player.tap(pygame.K_F1)
     player.tap(pygame.K_d)
     text = " ".join(written)
-    arcade = player.program.table.arcade
+    arcade = player.program.board.table.arcade
     for word in ("HOW TO SCORE", f"×{arcade.double}", f"{arcade.ball_save:g} s", "paddles are dead"):
         assert word in text
 
@@ -227,7 +229,7 @@ def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
 
     placed = []
     monkeypatch.setattr(overlay, "_place", lambda target, image, *rest: placed.append(image.get_size()))
-    rules = how_to_score(player.program.table, Mode.ARCADE)
+    rules = how_to_score(player.program.board.table, Mode.ARCADE)
     overlay.draw_help(
         pygame.Surface(size), size[0] / 11.0, 7, player.window.input_handler.controls, page, rules
     )
@@ -238,14 +240,18 @@ def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
 
 def test_r_makes_a_new_board_and_shift_r_the_same_again(open_window):
     player = open_window("random", seed=11)
-    first = player.program.table
+    first = player.program.board.table
     player.tap(pygame.K_SPACE)
     player.tap(pygame.K_r, pygame.KMOD_LSHIFT)
-    assert (player.program.seed, player.program.table, player.world.tick > 4) == (11, first, False)
+    assert (player.program.board.seed, player.program.board.table, player.world.tick > 4) == (
+        11,
+        first,
+        False,
+    )
     player.tap(pygame.K_r)
-    assert player.program.seed != 11
-    assert player.program.table != first
-    assert player.world.seed == player.program.seed
+    assert player.program.board.seed != 11
+    assert player.program.board.table != first
+    assert player.world.seed == player.program.board.seed
     assert not player.world.balls
 
 
@@ -256,7 +262,9 @@ def test_shift_r_lifts_no_paddle(open_window):
     player.press(pygame.K_r, pygame.KMOD_LSHIFT)
     player.frames(1)
     player.seconds(0.3)
-    assert angles(player) == pytest.approx([paddle.rest_angle for paddle in player.program.table.paddle])
+    assert angles(player) == pytest.approx(
+        [paddle.rest_angle for paddle in player.program.board.table.paddle]
+    )
 
 
 def test_the_same_seed_and_keys_give_the_same_game(open_window):
@@ -266,7 +274,7 @@ def test_the_same_seed_and_keys_give_the_same_game(open_window):
         player.tap(pygame.K_SPACE)
         player.press(pygame.K_d)
         player.seconds(1.0)
-        digests.append((player.world.digest(), player.program.table))
+        digests.append((player.world.digest(), player.program.board.table))
         player.release(pygame.K_d)
         player.frames(1)
     assert digests[0] == digests[1]
@@ -303,7 +311,7 @@ def test_a_message_goes_away(player):
 def test_shortcuts_of_the_desktop_are_left_alone(player):
     player.tap(pygame.K_r, pygame.KMOD_LCTRL)
     player.tap(pygame.K_g, pygame.KMOD_LALT)
-    assert (player.program.seed, player.says) == (7, "")
+    assert (player.program.board.seed, player.says) == (7, "")
 
 
 @pytest.mark.parametrize("event", [pygame.QUIT, pygame.WINDOWCLOSE])
@@ -326,7 +334,7 @@ def test_escape_goes_back_step_by_step_and_never_ends_a_game_at_once(player):
 
 @pytest.mark.parametrize("key", [pygame.K_p, pygame.K_F1])
 def test_taps_on_a_paddle_while_the_game_waits_are_forgotten_but_a_held_key_counts(player, key):
-    rest = player.program.table.paddle[0].rest_angle
+    rest = player.program.board.table.paddle[0].rest_angle
     player.tap(key)
     player.tap(pygame.K_a)
     player.tap(pygame.K_LEFT)
@@ -355,7 +363,7 @@ def test_the_same_message_again_and_again_does_not_stay_for_ever(player):
     for _ in range(30):
         player.tap(pygame.K_SPACE)
         player.seconds(0.1)
-        gone |= player.window.messages.strength < 0.5
+        gone |= player.window.messages.opacity < 0.5
     assert gone
 
 

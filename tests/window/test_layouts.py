@@ -17,8 +17,8 @@ import pytest
 from xserver import all_layouts, choose_layout, signs, x_server
 
 from silverball.app import sdl
+from silverball.app.bindings import ACTIONS
 from silverball.app.controls import Action
-from silverball.app.menus import ACTIONS
 from silverball.app.window import Window
 from silverball.drawing.text import can_show
 from silverball.game.view import Mode
@@ -115,7 +115,7 @@ def keys_that_the_help_names(typist: Typist) -> list[tuple[int, Action]]:
     controls = typist.input_handler.controls
     found = []
     for action in (Action(line.action) for line in ACTIONS):
-        for name, label in zip(controls.keys(action), controls.shown_keys(action), strict=True):
+        for name, label in zip(controls.keys(action), controls.key_labels(action), strict=True):
             keys = [key for key, sign in bears.items() if sign == label]
             if name in SPECIAL:
                 keys = [SPECIAL[name]]
@@ -181,8 +181,8 @@ def test_a_key_that_is_held_while_the_layout_changes_is_let_go(typist, after):
 def test_help_and_settings_follow_the_layout_without_a_key_being_pressed(typist):
     for layout, sign in (("ru", "ф"), ("gr", "α"), ("us", "a")):
         typist.use(layout)
-        typist.until(lambda sign=sign: typist.input_handler.controls.shown_keys(Action.LEFT)[0] == sign)
-        assert typist.window.program.menus.key("left") == sign.upper()
+        typist.until(lambda sign=sign: typist.input_handler.controls.key_labels(Action.LEFT)[0] == sign)
+        assert typist.window.program.menus.context.key_label("left") == sign.upper()
 
 
 def test_no_input_method_gets_the_letters_whatever_is_done_to_the_window(typist):

@@ -18,7 +18,7 @@ import pytest
 from machines import leaky
 from xserver import x_server
 
-from silverball.app.program import OVER_SECONDS
+from silverball.app.program import GAME_OVER_SECONDS
 from silverball.game.replay.format import Replay
 from silverball.game.replay.verify import verify
 from silverball.game.scores.store import Store
@@ -127,7 +127,7 @@ def test_a_whole_arcade_game_with_real_keys_from_the_menu_to_the_score_table(sta
     (score,) = scores(machine.data)
     assert score.score > 0
     assert score.initials == "AAA"
-    time.sleep(OVER_SECONDS + 1.0)  # the end is looked at first
+    time.sleep(GAME_OVER_SECONDS + 1.0)  # the end is looked at first
     machine.tap("d")  # A → B
     for _ in range(4):
         machine.tap("space")

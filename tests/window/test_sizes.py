@@ -8,8 +8,8 @@ import pygame
 import pytest
 
 from silverball.app import sdl
-from silverball.app.picture import MAX_DRAWN, SETTLED, Picture, fitted
-from silverball.app.screen import DECORATION, FRAME_RATES, MIN_SIZE, REST, TITLE_BAR, Screen
+from silverball.app.picture import MAX_DRAWN, SETTLE_TIME, Picture, fitted
+from silverball.app.screen import DECORATION, FRAME_RATES, HIDE_AFTER, MIN_SIZE, TITLE_BAR, Screen
 from silverball.app.settings import Settings
 from silverball.drawing import Moment
 from silverball.table import Board, load_table
@@ -42,7 +42,7 @@ def test_a_window_survives_every_shape_with_all_that_can_be_shown_on_it(player, 
         player.tap(extra)
     for shape in SHAPES:
         screen.resize(shape)
-        player.window.messages.say(f"a message on a window of {shape}")
+        player.window.messages.show(f"a message on a window of {shape}")
         player.frames(2)
         assert player.window.size == shape
         assert pygame.Rect((0, 0), shape).contains(player.window._picture.area)
@@ -63,7 +63,7 @@ def test_a_tiny_window_is_drawn_anew_when_its_size_has_stood_and_comes_back_well
         player.frames(1)
         while player.window._picture.renderer.camera.size != player.window._picture.area.size:
             assert time.monotonic() < limit
-            time.sleep(SETTLED / 5)
+            time.sleep(SETTLE_TIME / 5)
             player.frames(1, 0.0)
     player.tap(pygame.K_p)
     player.tap(pygame.K_p)
@@ -162,7 +162,7 @@ def move(player) -> None:
 def test_the_pointer_hides_after_two_seconds_and_comes_back_when_it_is_moved(player):
     move(player)
     for _ in range(2):
-        player.frames(round(10 * (REST - 0.2)), 0.1)
+        player.frames(round(10 * (HIDE_AFTER - 0.2)), 0.1)
         assert pygame.mouse.get_visible()
         player.frames(4, 0.1)
         assert not pygame.mouse.get_visible()
@@ -174,22 +174,22 @@ def test_the_pointer_hides_after_two_seconds_and_comes_back_when_it_is_moved(pla
 def test_the_pointer_comes_back_for_a_pause_and_stays_while_the_window_has_no_focus(player, full):
     if full:
         player.tap(pygame.K_F11)
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     assert not pygame.mouse.get_visible()
     player.tap(pygame.K_p)
     assert pygame.mouse.get_visible()
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     assert not pygame.mouse.get_visible()
     pygame.event.post(pygame.Event(pygame.WINDOWFOCUSLOST))
-    player.seconds(REST + 1.0)
+    player.seconds(HIDE_AFTER + 1.0)
     assert pygame.mouse.get_visible()
     pygame.event.post(pygame.Event(pygame.WINDOWFOCUSGAINED))
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     assert not pygame.mouse.get_visible()
 
 
 def test_keys_alone_do_not_bring_the_pointer_back(player):
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     player.tap(pygame.K_a)
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=(5, 5), rel=(0, 0), buttons=(0, 0, 0)))
     player.frames(2)

@@ -1,4 +1,4 @@
-"""What does a command of the menus bring about? One function for each kind of command."""
+"""Handlers for the commands of the menus: one function per kind of command."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from silverball.app.catalog import table_problem_text
 from silverball.app.menus import commands
 from silverball.app.sessions import GameSession
+from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
     from silverball.app.program import Program
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 @singledispatch
 def execute(command: object, program: Program) -> None:
-    """Do what a command says; None says nothing."""
+    """Execute a command; None does nothing."""
     if command is not None:
         raise TypeError(f"expected a command of the menus, got {command!r}")
 
@@ -27,12 +28,18 @@ def _(command: commands.Play, program: Program) -> None:
 
 @execute.register(commands.WatchLast)
 def _(command: commands.WatchLast, program: Program) -> None:
-    program.watch_text(program.store.last_game() or "", "the last game")
+    watch_text(program, program.store.last_game() or "", "the last game")
 
 
 @execute.register(commands.WatchScore)
 def _(command: commands.WatchScore, program: Program) -> None:
-    program.watch_score(int(command.key))
+    number = int(command.key)
+    try:
+        text = program.store.replay(number)
+    except SilverballError as error:
+        _reject_replay(program, error)
+    else:
+        watch_text(program, text, f"score {number}")
 
 
 @execute.register(commands.WatchDemo)
@@ -46,11 +53,6 @@ def _(command: commands.Attract, program: Program) -> None:
         program.start_demo(is_attract=True)
 
 
-@execute.register(commands.Change)
-def _(command: commands.Change, program: Program) -> None:
-    program.use(command.settings)
-
-
 @execute.register(commands.ShowBoard)
 def _(command: commands.ShowBoard, program: Program) -> None:
     program.show_board(command.seed)
@@ -58,7 +60,7 @@ def _(command: commands.ShowBoard, program: Program) -> None:
 
 @execute.register(commands.ShowTableProblem)
 def _(command: commands.ShowTableProblem, program: Program) -> None:
-    program.say(table_problem_text(command.table, command.problem))
+    program.show_message(table_problem_text(command.table, command.problem))
 
 
 @execute.register(commands.Quit)
@@ -68,7 +70,7 @@ def _(command: commands.Quit, program: Program) -> None:
 
 @execute.register(commands.Resume)
 def _(command: commands.Resume, program: Program) -> None:
-    """The menu has closed: the game goes on."""
+    """Nothing to do: the menu has closed itself, so the game continues."""
 
 
 @execute.register(commands.Restart)
@@ -79,22 +81,19 @@ def _(command: commands.Restart, program: Program) -> None:
 
 @execute.register(commands.EndGame)
 def _(command: commands.EndGame, program: Program) -> None:
-    if isinstance(program.session, GameSession) and not program.session.has_ended:
-        program.give_up(program.session)
-    program.session = None
+    program.end_game()
 
 
 @execute.register(commands.SaveReplay)
 def _(command: commands.SaveReplay, program: Program) -> None:
-    path = program.keep_file("game")
-    program.menus.say("saved" if path else "could not be saved")
-    program.say(f"the replay is at {path}" if path else "the data folder cannot be written")
+    path = program.save_replay_file("game")
+    program.menus.show_message("saved" if path else "could not be saved")
+    program.show_message(f"the replay is at {path}" if path else "the data folder cannot be written")
 
 
 @execute.register(commands.Initials)
 def _(command: commands.Initials, program: Program) -> None:
-    program.archive.rename(program.ended, command.text)
-    program.use(program.settings.changed(initials=command.text))
+    program.archive.rename(program.result, command.text)
 
 
 @execute.register(commands.ReplaySpeed)
@@ -115,3 +114,18 @@ def _(command: commands.ReplayJump, program: Program) -> None:
 @execute.register(commands.EndReplay)
 def _(command: commands.EndReplay, program: Program) -> None:
     program.end_watching()
+
+
+def watch_text(program: Program, text: str, source: str) -> None:
+    """Show a replay given as text, or tell why it cannot be played."""
+    from silverball.game.replay.format import Replay
+
+    try:
+        program.watch(Replay.from_text(text, source))
+    except SilverballError as error:
+        _reject_replay(program, error)
+
+
+def _reject_replay(program: Program, error: SilverballError) -> None:
+    program.show_message(str(error))
+    program.menus.reopen()

@@ -1,8 +1,7 @@
-"""Who can be watched while the program plays by itself, and who plays until that one is ready?
+"""The players of a demo, and the one that stands in until the requested one is compiled.
 
-`DEMO_PLAYERS` is the one list: the menu offers it, the window makes its players ready (`player_warmup.py`),
-and the
-first of it plays when nobody is there. To add one, add its line.
+`DEMO_PLAYERS` is the only list: the menu offers its entries, `player_warmup.py` compiles them, and the first
+one plays in the attract mode.
 """
 
 from __future__ import annotations
@@ -16,21 +15,21 @@ if TYPE_CHECKING:
 
 
 class DemoPlayer(NamedTuple):
-    """A player that can be watched.
+    """A player for demos.
 
     Attributes:
         name: For `make_player`.
-        label: As the score display writes it.
-        hint: What it does, as the score display writes it.
-        kernel: What must be compiled for it besides the physics; empty if nothing.
-        fastest: At most so many seconds of play for a second of real time, since it has to think.
+        label: Its name on the score display.
+        hint: A short description on the score display.
+        kernel: The kernel that must be compiled for it in addition to the physics; empty if none.
+        max_speed: Seconds of play per second of real time that it can compute.
     """
 
     name: str
     label: str
     hint: str
     kernel: str = ""
-    fastest: float = 16.0
+    max_speed: float = 16.0
 
 
 DEMO_PLAYERS = (
@@ -39,40 +38,38 @@ DEMO_PLAYERS = (
     DemoPlayer("reflex", "REFLEX", "HITS WHAT COMES"),
 )
 BEST_PLAYER = DEMO_PLAYERS[0]
-STAND_IN = next(
-    demo_player for demo_player in DEMO_PLAYERS if demo_player.name == "reflex"
-)  # ready with the physics
+STAND_IN = next(one for one in DEMO_PLAYERS if one.name == "reflex")  # needs no kernel of its own
 
 
 class DemoPlayerSelector:
-    """Who plays: whoever was asked for, or the stand-in until that one is ready.
+    """Selects who plays: the requested player, or the stand-in until that one is ready.
 
     Args:
-        is_ready: Whether the player of a name can play without a wait.
+        is_ready: Returns whether a player, by name, can play without a delay.
 
     Attributes:
-        asked: Who was asked for.
-        playing: Who plays.
+        requested: The requested player.
+        playing: The current player.
     """
 
     def __init__(self, is_ready: Callable[[str], bool] = lambda name: name == STAND_IN.name) -> None:
         self.is_ready = is_ready
-        self.asked = self.playing = STAND_IN
+        self.requested = self.playing = STAND_IN
 
-    def begin(self, name: str) -> Player:
-        """Ask for a player, and have one that plays at once."""
-        self.asked = next(demo_player for demo_player in DEMO_PLAYERS if demo_player.name == name)
-        return self._enter()
+    def select(self, name: str) -> Player:
+        """Request a player; return it, or the stand-in if it is not ready."""
+        self.requested = next(one for one in DEMO_PLAYERS if one.name == name)
+        return self._make()
 
-    def follow(self, session: DemoSession) -> bool:
-        """Let the one who was asked for take over as soon as it is ready; whether it has just done so."""
-        if self.playing is self.asked or not self.is_ready(self.asked.name):
+    def switch_when_ready(self, session: DemoSession) -> bool:
+        """Let the requested player take over once it is ready; return whether it has just done so."""
+        if self.playing is self.requested or not self.is_ready(self.requested.name):
             return False
-        session.player = self._enter()
+        session.player = self._make()
         return True
 
-    def _enter(self) -> Player:
+    def _make(self) -> Player:
         from silverball.players import make_player
 
-        self.playing = self.asked if self.is_ready(self.asked.name) else STAND_IN
+        self.playing = self.requested if self.is_ready(self.requested.name) else STAND_IN
         return make_player(self.playing.name)

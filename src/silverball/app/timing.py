@@ -5,13 +5,13 @@ from __future__ import annotations
 import time
 from collections import deque
 
-MAX_SECONDS = 0.05
-"""Real time [s] that one frame may make up for. Below 20 frames a second the game slows down; larger values
-make it jump after a stall, and a machine too slow for its ticks would hang."""
+MAX_CATCH_UP = 0.05
+"""Real time [s] that one frame may catch up. Below 20 frames a second the game slows down; a larger limit
+would make it jump after a stall, and a machine too slow for its ticks would hang."""
 
 
 class TickClock:
-    """Turns real time into ticks.
+    """Converts real time into whole ticks; the remainder is carried over, a stall is not caught up.
 
     Args:
         tick_rate: Ticks per second of play.
@@ -23,31 +23,31 @@ class TickClock:
     def __init__(self, tick_rate: int) -> None:
         self.tick_rate = tick_rate
         self.speed = 1.0
-        self._owed = 0.0  # [tick]
+        self._due = 0.0  # [tick]
 
     @property
-    def most_ticks(self) -> int:
-        """Ticks at once at most."""
-        return max(1, round(MAX_SECONDS * self.tick_rate * max(self.speed, 1.0)))
+    def max_ticks(self) -> int:
+        """The greatest number of ticks at once."""
+        return max(1, round(MAX_CATCH_UP * self.tick_rate * max(self.speed, 1.0)))
 
     @property
-    def share(self) -> float:
-        """How much of the next tick has passed, 0 to 1: what a picture between two ticks shows."""
-        return min(self._owed, 1.0)
+    def fraction(self) -> float:
+        """The fraction of the next tick that has passed, 0 to 1, for drawing between two ticks."""
+        return min(self._due, 1.0)
 
     def advance(self, seconds: float) -> int:
-        """The ticks that are due after so much more real time."""
-        self._owed += max(seconds, 0.0) * self.tick_rate * self.speed
-        if self._owed >= self.most_ticks:
-            self._owed = 0.0
-            return self.most_ticks
-        ticks = int(self._owed)
-        self._owed -= ticks
+        """Return the ticks that are due after more real time [s]."""
+        self._due += max(seconds, 0.0) * self.tick_rate * self.speed
+        if self._due >= self.max_ticks:
+            self._due = 0.0
+            return self.max_ticks
+        ticks = int(self._due)
+        self._due -= ticks
         return ticks
 
 
 class FrameTimes:
-    """Remembers the frames of the last second."""
+    """Statistics of the frames of the last second."""
 
     def __init__(self) -> None:
         self._times: deque[float] = deque()
@@ -55,7 +55,7 @@ class FrameTimes:
         self._last: float | None = None
 
     def add(self, now: float) -> None:
-        """There is a frame at this time [s]."""
+        """Record a frame at a time [s]."""
         if self._last is not None:
             self._times.append(now - self._last)
             self._sum += now - self._last
@@ -74,55 +74,58 @@ class FrameTimes:
         return max(self._times, default=0.0)
 
 
-KEPT = 64  # presses that the percentiles are taken from
+KEPT_PRESSES = 64
 
 
 class LatencyMeter:
-    """Remembers the last presses.
+    """Latency of the last presses of a paddle button.
+
+    Measurement begins when the program receives the event: the path from the key to the program, and from the
+    program to the light of the screen, cannot be measured here.
 
     Attributes:
-        to_tick: From hearing a button to the end of the tick that moved its paddle [s].
-        to_picture: From hearing it to the picture that shows it handed to the screen [s].
+        to_tick: From the event to the end of the tick that moved the paddle [s].
+        to_picture: From the event to the moment its frame was passed to the screen [s].
     """
 
     def __init__(self) -> None:
-        self.to_tick: deque[float] = deque(maxlen=KEPT)
-        self.to_picture: deque[float] = deque(maxlen=KEPT)
-        self._heard: list[float] = []
+        self.to_tick: deque[float] = deque(maxlen=KEPT_PRESSES)
+        self.to_picture: deque[float] = deque(maxlen=KEPT_PRESSES)
+        self._pressed: list[float] = []
         self._moved: list[float] = []
         self._drawn: list[float] = []
 
-    def heard(self) -> None:
+    def record_press(self) -> None:
         """A paddle button went down."""
-        self._heard.append(time.perf_counter())
+        self._pressed.append(time.perf_counter())
 
-    def ticked(self) -> None:
-        """The world has moved on, with all buttons heard so far."""
-        if self._heard:
+    def record_tick(self) -> None:
+        """The world has advanced, with all buttons pressed so far."""
+        if self._pressed:
             now = time.perf_counter()
-            self.to_tick.extend(now - heard for heard in self._heard)
-            self._moved += self._heard
-            self._heard.clear()
+            self.to_tick.extend(now - pressed for pressed in self._pressed)
+            self._moved += self._pressed
+            self._pressed.clear()
 
-    def drawn(self) -> None:
-        """A picture of the world as it is was made."""
+    def record_draw(self) -> None:
+        """A frame of the current world was drawn."""
         self._drawn += self._moved
         self._moved.clear()
 
-    def shown(self) -> None:
-        """That picture was handed to the screen."""
+    def record_flip(self) -> None:
+        """That frame was passed to the screen."""
         if self._drawn:
             now = time.perf_counter()
-            self.to_picture.extend(now - heard for heard in self._drawn)
+            self.to_picture.extend(now - pressed for pressed in self._drawn)
             self._drawn.clear()
 
-    def forget(self) -> None:
-        """No play is going on: what is held now moves no paddle."""
-        for presses in (self._heard, self._moved, self._drawn):
+    def reset(self) -> None:
+        """Drop open measurements: no game is running, so buttons move no paddle."""
+        for presses in (self._pressed, self._moved, self._drawn):
             presses.clear()
 
 
-def middle(values: deque[float]) -> float:
-    """The median [s]; 0 if nothing was measured yet."""
+def median(values: deque[float]) -> float:
+    """Return the median [s]; 0 without values."""
     ordered = sorted(values)
     return ordered[len(ordered) // 2] if ordered else 0.0

@@ -1,8 +1,8 @@
-"""The game in a window: buttons in, ticks, picture and sounds out, until the player ends it.
+"""The game in a window: buttons in; ticks, picture and sounds out.
 
-A *beat* is: buttons → as many ticks as real time asks for. A *frame* is a beat, and then: the table → what is
-written on top → the screen. Between two frames the window goes on beating, a thousand times a second, so that
-a button reaches the simulation within a tick and not only with the next picture.
+An *input poll* handles the events and runs the ticks that real time asks for. A *frame* polls, draws the
+table and the text on top, and shows the result. Between two frames the window polls a thousand times a
+second, so that a button reaches the simulation within a tick and not only with the next frame.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING
 import pygame
 
 from silverball.app import overlay
+from silverball.app.bindings import upper_label
 from silverball.app.catalog import Catalog
 from silverball.app.controls import Action
 from silverball.app.debug import DebugView
 from silverball.app.input_handler import InputHandler
-from silverball.app.menus import capital
 from silverball.app.overlay import Messages
 from silverball.app.picture import Picture, fitted
 from silverball.app.player_warmup import PlayerWarmup
@@ -30,7 +30,7 @@ from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
-from silverball.app.startup import Startup, compiling_words
+from silverball.app.startup import Startup, compiling_message
 from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
 from silverball.drawing.themes import THEMES
@@ -46,29 +46,30 @@ if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
 
 TICK_RATE = 240
-LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor more
-POLL_INTERVAL = 0.001  # [s] between two looks at the buttons
+LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor
+POLL_INTERVAL = 0.001  # [s]
 PAGE_SOUNDS = {"initials": "high_score", "attract": "attract"}
-RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles with full strength
+RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles at full strength
+RUMBLE_SECONDS = 0.08
 
 
 class Window:
     """A window to play in.
 
     Args:
-        table: A table, a built-in name, or a path to a file; None: as chosen last. A recipe makes a new board
-            for every seed.
+        table: A table, a built-in name, or a path to a file; None: the one chosen last. A table with random
+            parts makes a new board for every seed.
         seed: Of the first board; None draws one.
         mode: Begin this game at once; None: begin in the menu.
-        replay: Begin by showing this replay.
+        replay: Begin with this replay.
         height: Of the window [pixel]; None: as high as fits the screen.
-        without_display: Whether SDL's drivers that show nothing will do, as in tests.
-        folder: Where scores, settings and replays are; None: the user's data folder.
-        on_compile: Called (from a thread) if the physics has to be compiled first.
+        without_display: Whether SDL drivers without output are accepted, as in tests.
+        folder: For scores, settings and replays; None: the user's data folder.
+        on_compile: Called (from a thread) if the physics must be compiled first.
         on_ready: Called when a game can begin.
 
     Raises:
-        NoDisplay: There is no screen.
+        NoDisplay: There is no display.
         TableError: The table has problems.
     """
 
@@ -94,11 +95,11 @@ class Window:
         except SilverballError:
             self.store.close()
             raise
-        settings = self.program.settings
+        settings = self.program.settings.current
         self._on_ready = on_ready
-        self._startup: Startup | None = Startup(self.program.table, on_compile)
-        self.player_warmup: PlayerWarmup | None = None  # of the players that can be watched
-        board = self.program.table.board
+        self._startup: Startup | None = Startup(self.program.board.table, on_compile)
+        self.player_warmup: PlayerWarmup | None = None
+        board = self.program.board.table.board
         self._screen.open(
             best_size(board, height) if height else fitted(board, self._screen.max_initial_size).size
         )
@@ -114,44 +115,44 @@ class Window:
         self.input_handler = InputHandler(
             self.program, self._screen, self.sounds, self.messages, self.latency
         )
-        self._settings = settings
+        self.program.settings.subscribe(self._apply_settings)
         self._session: Session | None = None
         self._before: Moment | None = None  # one tick before the present one
-        self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
-        self._moved_at = 0.0  # at the last picture of a session that had not ended
-        for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
-            self.messages.say(trouble)
+        self._seconds = self._drawn_at = 0.0  # real time so far, and at the last frame
+        self._moved_at = 0.0  # real time at the last frame in which the session had not ended
+        for warning in filter(None, (self.store.trouble, self.sounds.warning)):
+            self.messages.show(warning)
         if replay is not None:
             self.program.watch(replay)
         elif mode is not None:
-            self.program.play(mode, settings.table, self.program.seed)
+            self.program.play(mode, settings.table, self.program.board.seed)
 
     def _new_program(self, table: Table | str | None, seed: int | None, mode: Mode | None) -> Program:
-        """The program on a table; on the default one if a table chosen long ago is no longer there."""
+        """Create the program on a table, or on the default one if the stored table no longer exists."""
         settings = Settings.of(self.store.settings())
         given = {}
         if table is not None:
             name = table if isinstance(table, str) else table.name
             given = {} if isinstance(table, str) else {name: table}
-            # Without a mode, the player chooses one in the menu, and it is to be on this table.
+            # Without a mode, the player chooses one in the menu; it should be played on this table.
             modes = (Mode.ARCADE, Mode.FREE) if mode is None else (mode,)
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
             settings = settings.changed(mode=mode)
         catalog = Catalog(self.store, self._folder, given)
         try:
-            return Program(self.store, settings, catalog, seed, self.messages.say, tuple(THEMES))
+            return Program(self.store, settings, catalog, seed, self.messages.show, tuple(THEMES))
         except TableError as error:
             if table is not None:
                 raise
-            self.messages.say(str(error))
+            self.messages.show(str(error))
             settings = settings.changed(table=Settings(mode=settings.mode).table)
-            return Program(self.store, settings, catalog, seed, self.messages.say, tuple(THEMES))
+            return Program(self.store, settings, catalog, seed, self.messages.show, tuple(THEMES))
 
     # --- the loop ---------------------------------------------------------------------------------
 
     def run(self, seconds: float | None = None) -> None:
-        """Play until the player ends it, or for some seconds."""
+        """Run until the player quits, or for some seconds."""
         before = start = time.perf_counter()
         try:
             while not self.is_over and (seconds is None or before - start < seconds):
@@ -164,27 +165,27 @@ class Window:
             self.close()
 
     def poll_input(self, elapsed: float) -> None:
-        """Answer the buttons and play on, so many seconds after the last beat or frame."""
+        """Handle events and advance the session by the real time [s] since the last poll."""
         self._seconds += elapsed
         self._finish_startup()
         for event in pygame.event.get():
-            self.input_handler.answer(event)
-        self._play(elapsed)
+            self.input_handler.handle(event)
+        self._advance_session(elapsed)
 
     def frame(self, elapsed: float) -> None:
-        """One frame, so many seconds after the last beat or frame."""
+        """Poll, draw and show, some seconds after the last poll."""
         self.poll_input(elapsed)
         self.draw()
         self.show()
 
     def render_frame(self, before: float) -> float:
-        """One picture in real time; buttons are heard before it is made and before it is shown.
+        """Render a frame in real time; buttons are polled before it is drawn and before it is shown.
 
         Args:
-            before: When the last beat was, by `time.perf_counter` [s].
+            before: Time of the last poll, by `time.perf_counter` [s].
 
         Returns:
-            When the last beat was now.
+            The new time of the last poll.
         """
         before = self._poll_since(before)
         self.draw()
@@ -193,30 +194,29 @@ class Window:
         return before
 
     def draw(self) -> None:
-        """Make the picture and the sounds of this moment."""
+        """Draw the current moment and play its sounds."""
         elapsed, self._drawn_at = self._seconds - self._drawn_at, self._seconds
         page = self.program.menus.page
         self.program.update(self._seconds)
         if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
-            self.sounds.menu(PAGE_SOUNDS[self.program.menus.page])
-            self.input_handler.shows_help = False  # whoever asked for it has gone, or wants to sign a score
-        self._follow_settings()
+            self.sounds.play_menu(PAGE_SOUNDS[self.program.menus.page])
+            self.input_handler.shows_help = False  # it must not cover the attract mode or the initials
         self._frame_times.add(self._seconds)
-        is_watched = self.program.is_playing and bool(self._session and self._session.game.world.balls)
-        self.messages.update(elapsed, in_play=is_watched)
-        self._screen.update(elapsed, waits=self.program.is_paused)
-        self._sound(elapsed)
+        is_in_play = self.program.is_playing and bool(self._session and self._session.game.world.balls)
+        self.messages.update(elapsed, in_play=is_in_play)
+        self._screen.update(elapsed, is_paused=self.program.is_paused)
+        self._update_sounds(elapsed)
         self._draw()
-        self.latency.drawn()
+        self.latency.record_draw()
 
     def show(self) -> None:
-        """Hand the picture to the screen."""
+        """Show the drawn frame on screen."""
         self._screen.flip()
-        self.latency.shown()
+        self.latency.record_flip()
 
     def close(self) -> None:
-        """Keep the game that is played and close the window."""
-        self.program.keep_last_game()
+        """Save the current game and close the window."""
+        self.program.save_last_game()
         self.program.session = self._session = None
         self._picture.close()
         if self.player_warmup is not None:
@@ -232,7 +232,7 @@ class Window:
 
     @property
     def is_over(self) -> bool:
-        """Whether the player wants to end."""
+        """Whether the player has quit."""
         return self.program.is_over
 
     @property
@@ -247,26 +247,26 @@ class Window:
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn in full quality."""
+        """Whether the picture has its full quality."""
         return self._picture.is_sharp
 
     @property
     def frame_rate(self) -> int:
-        """Frames per second to aim at."""
+        """The target number of frames per second."""
         if not self.is_ready:
             return LOADING_FRAME_RATE
-        wanted = self.program.settings.frame_rate
-        return self._screen.refresh_rate if wanted == "screen" else int(wanted)
+        rate = self.program.settings.current.frame_rate
+        return self._screen.refresh_rate if rate == "screen" else int(rate)
 
     def poll_until(self, due: float, before: float) -> float:
-        """Go on beating until the next picture is due.
+        """Poll repeatedly until the next frame is due.
 
         Args:
-            due: When, by `time.perf_counter` [s].
-            before: When the last beat was.
+            due: Time of the frame, by `time.perf_counter` [s].
+            before: Time of the last poll.
 
         Returns:
-            When the last beat was now.
+            The new time of the last poll.
         """
         while not self.is_over:
             before = self._poll_since(before)
@@ -277,7 +277,7 @@ class Window:
         return before
 
     def _poll_since(self, before: float) -> float:
-        """A beat, when the last one was at this time; the time now."""
+        """Poll, given the time of the last poll; return the time now."""
         now = time.perf_counter()
         self.poll_input(now - before)
         return now
@@ -290,107 +290,100 @@ class Window:
             self.program.progress = None
             self.messages.clear()
             self._on_ready()
-            self.player_warmup = PlayerWarmup(self.program.table)
+            self.player_warmup = PlayerWarmup(self.program.board.table)
             self.program.demo_players.is_ready = self.player_warmup.is_ready
-            self.program.get_ready()
+            self.program.finish_loading()
         elif self._startup is not None:
             self.program.progress = self._startup.progress
-            if self.program.progress is not None and self.messages.strength < 1.0:
-                self.messages.say(compiling_words())
+            if self.program.progress is not None and self.messages.opacity < 1.0:
+                self.messages.show(compiling_message())
 
-    def _play(self, elapsed: float) -> None:
-        program = self.program
+    def _advance_session(self, elapsed: float) -> None:
         self._follow_session()
-        if not program.is_moving or self.input_handler.shows_help:
+        program, session = self.program, self._session
+        if session is None or not program.is_moving or self.input_handler.shows_help:
             self.input_handler.buttons.forget_taps()
-            self.latency.forget()
-            self._note_events()  # single ticks have some too
+            self.latency.reset()
+            self._collect_events()  # of single ticks
             return
         self._clock.speed = program.speed
         ticks = self._clock.advance(elapsed)
-        if ticks == 0 or self._session is None:
+        if ticks == 0:
             return
-        held = self.input_handler.buttons.take()
-        if ticks > 1:
-            program.advance(held, ticks - 1)
-            held = held._replace(first=held.rest)
-        self._before = Moment.of(self._session.game.world)
-        program.advance(held, 1)
-        self.latency.ticked()
-        self._note_events()
+        held = self.input_handler.buttons.poll()
+        with program.stopping_on_error():
+            if ticks > 1:
+                session.advance(held, ticks - 1)
+                held = held._replace(first=held.rest)
+            self._before = Moment.of(session.game.world)
+            session.advance(held, 1)
+        self.latency.record_tick()
+        self._collect_events()
 
-    def _note_events(self) -> None:
+    def _collect_events(self) -> None:
         session, program = self._session, self.program
         if session is None:
             return
         world = session.game.world
-        news, events = session.take_news(), session.take_events()
-        program.display.tell(news)
-        self._picture.note(events, world.tick_rate)
-        self.debug.note(events, world.tick_rate)
+        game_events, events = session.game.take_news(), session.game.take_events()
+        program.display.add_events(game_events)
+        self._picture.add_events(events, world.tick_rate)
+        self.debug.add_events(events, world.tick_rate)
         if program.is_audible:
-            self.sounds.tell(news)
-            self.sounds.note(events, world.tick_rate, world.table.board.width)
+            self.sounds.play_game_events(game_events)
+            self.sounds.play_events(events, world.tick_rate, world.table.board.width)
         if session.is_played:
             for event in events:
                 if event.kind == "hit" and event.part.startswith("cylinder"):
-                    self.input_handler.gamepads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
+                    strength = min(event.speed / RUMBLE_SPEED, 1.0)
+                    self.input_handler.gamepads.rumble(strength, RUMBLE_SECONDS)
 
     def _follow_session(self) -> None:
-        """Another game, replay or show has begun."""
+        """Reset everything that belongs to a session when another one has begun."""
         session = self.program.session
         if session is self._session:
             return
         self._session, self._before = session, None
-        self._picture.forget()
-        self.debug.forget()
+        self._picture.reset()
+        self.debug.reset()
         self._clock = TickClock(session.game.tick_rate if session is not None else TICK_RATE)
         if session is not None:
-            self.sounds.begin(session.game.world.table)
+            self.sounds.begin_game(session.game.world.table)
 
-    def _follow_settings(self) -> None:
-        settings = self.program.settings
-        if settings is self._settings:
-            return
-        before, self._settings = self._settings, settings
-        self.input_handler.use(settings)
-        self.sounds.change(settings)
+    def _apply_settings(self, before: Settings, settings: Settings) -> None:
+        self.input_handler.update_controls()
+        self.sounds.apply_settings(settings)
         if settings.full_screen not in (before.full_screen, self._screen.is_fullscreen):
             self._screen.toggle_fullscreen()
 
-    def _sound(self, elapsed: float) -> None:
-        program, sounds = self.program, self.sounds
-        if (
-            not program.is_moving
-            or self.input_handler.shows_help
-            or self._session is None
-            or not program.is_audible
-        ):
+    def _update_sounds(self, elapsed: float) -> None:
+        program, sounds, session = self.program, self.sounds, self._session
+        is_silent = self.input_handler.shows_help or not program.is_audible
+        if session is None or not program.is_moving or is_silent:
             sounds.pause()
-            sounds.rolling((), elapsed, self.program.table.board.width)
+            sounds.set_rolling((), elapsed, program.board.table.board.width)
             return
         sounds.resume()
-        world = self._session.game.world
-        game = self._session.game
-        sounds.buttons(*((False, False) if game.face.tilted else game.held))
-        balls = rolling_balls(world)
-        sounds.rolling(balls, elapsed * program.speed, world.table.board.width)
+        game = session.game
+        sounds.set_buttons(*((False, False) if game.face.tilted else game.held))
+        width = game.world.table.board.width
+        sounds.set_rolling(rolling_balls(game.world), elapsed * program.speed, width)
 
     # --- drawing ----------------------------------------------------------------------------------
 
     def _draw(self) -> None:
         program, session = self.program, self._session
-        moment = Moment.before(program.table)
+        moment = Moment.before(program.board.table)
         if session is not None:
             moment = Moment.of(session.game.world)
             if session.has_ended:
-                # Nothing moves any more, but what was on its way is gone soon: a lost ball, sparks, lights.
+                # The board stands still, but let the last animations end: a lost ball, sparks, lights.
                 moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
             else:
                 self._moved_at = self._seconds
             if self._before is not None and program.is_moving:
-                moment = Moment.between(self._before, moment, self._clock.share)
-        self._picture.show(program.table, program.board_seed, program.settings)
+                moment = Moment.between(self._before, moment, self._clock.fraction)
+        self._picture.show(program.board.table, program.board.random_seed, program.settings.current)
         target = self._picture.draw(moment, self._screen.surface, program.dots(self._seconds))
         renderer = self._picture.renderer
         scale, apron = self._picture.scale, self._picture.apron
@@ -401,19 +394,25 @@ class Window:
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
         if self.input_handler.shows_help:
-            shoves = self.input_handler.controls.shown_keys(Action.JITTER)
-            rules = how_to_score(program.table, program.mode, capital(shoves[0]) if shoves else "")
+            jitter_keys = self.input_handler.controls.key_labels(Action.JITTER)
+            jitter_key = upper_label(jitter_keys[0]) if jitter_keys else ""
+            rules = how_to_score(program.board.table, program.mode, jitter_key)
             overlay.draw_help(
-                target, scale, program.seed, self.input_handler.controls, self.input_handler.help_page, rules
+                target,
+                scale,
+                program.board.seed,
+                self.input_handler.controls,
+                self.input_handler.help_page,
+                rules,
             )
-        if self.messages.strength > 0.0:
-            overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
+        if self.messages.opacity > 0.0:
+            overlay.draw_message(target, apron, scale, self.messages.text, self.messages.opacity)
 
-    # --- what is left behind ----------------------------------------------------------------------
+    # --- after a crash ----------------------------------------------------------------------------
 
     def _save_crash_replay(self) -> None:
         session = self._session
         if session is not None and session.is_played:
-            path = self.program.keep_file("crash")
+            path = self.program.save_replay_file("crash")
             where = f"A replay for a report is at {plain(str(path))}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)

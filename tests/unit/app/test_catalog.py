@@ -8,11 +8,13 @@ import time
 
 import pytest
 
-from evenings import LEAKY, NOTHING, Evening
+from evenings import LEAKY, Evening
 from silverball.app.catalog import Catalog
+from silverball.app.command_handlers import execute
 from silverball.app.controls import Action
 from silverball.app.menus import Button
-from silverball.app.program import LOOK_EVERY
+from silverball.app.menus.commands import WatchScore
+from silverball.app.program import FILE_CHECK_INTERVAL
 from silverball.app.settings import Settings
 from silverball.game.scores.store import Store
 from silverball.game.view import Mode, Phase
@@ -98,7 +100,7 @@ def mine(tmp_path):
     """An evening at a table of one's own, which has a file."""
     path = write(tmp_path)
     evening = Evening(tmp_path, Settings(table=str(path), mode="free"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.path = path
     yield evening
     evening.store.close()
@@ -111,7 +113,7 @@ def entry_of(catalog, path):
 def center(evening) -> float:
     """Across, the cylinder of the board that is seen; that of the game, if there is one, is the same."""
     program = evening.program
-    z = program.table.cylinder[0].center[1]
+    z = program.board.table.cylinder[0].center[1]
     if program.session is not None:
         assert program.session.game.table.cylinder[0].center[1] == z
     return z
@@ -120,10 +122,10 @@ def center(evening) -> float:
 def settle(evening, words: str | None = None) -> None:
     """Let the program look at the files until it has said something, or for three looks."""
     limit = time.monotonic() + 20.0
-    evening.go(3.5 * LOOK_EVERY)
+    evening.go(3.5 * FILE_CHECK_INTERVAL)
     while words is not None and not any(words in said for said in evening.said):
         assert time.monotonic() < limit, evening.said
-        evening.go(LOOK_EVERY)
+        evening.go(FILE_CHECK_INTERVAL)
 
 
 @pytest.mark.parametrize("kind", BROKEN)
@@ -145,16 +147,16 @@ def test_choosing_such_a_file_tells_what_is_wrong_and_the_command_that_tells_all
     path = write(tmp_path)
     BROKEN[kind](path)
     evening = Evening(tmp_path)
-    evening.program.get_ready()
-    before = evening.program.table
+    evening.program.finish_loading()
+    before = evening.program.board.table
     press(evening, Button.RIGHT, Button.RIGHT, Button.START)
-    while shown(evening) != str(path):
+    while display_name(evening) != str(path):
         press(evening, Button.RIGHT)
     assert evening.said == []
     press(evening, Button.START)
     assert f"silverball check {path}" in evening.said[-1]
     assert entry_of(evening.catalog, path).problem in evening.said[-1]
-    assert evening.program.table == before
+    assert evening.program.board.table == before
     assert evening.program.session is None
     assert evening.program.menus.page == "table"
     evening.store.close()
@@ -166,10 +168,10 @@ def press(evening, *buttons):
         evening.program.menus.release(button)
 
 
-def shown(evening):
+def display_name(evening):
     """The item that the open page shows."""
     page = evening.program.menus.context.pages[-1]
-    return page._listed()[page.index].key
+    return page._current_items()[page.index].key
 
 
 @pytest.mark.parametrize("kind", BROKEN)
@@ -299,7 +301,7 @@ def test_an_edited_file_is_seen_at_once_while_nobody_plays(mine, edit):
     limit = time.monotonic() + 20.0
     while center(mine) != 2.0:
         assert time.monotonic() < limit
-        mine.go(LOOK_EVERY)
+        mine.go(FILE_CHECK_INTERVAL)
     assert mine.program.session is None
 
 
@@ -317,7 +319,7 @@ def test_half_a_file_that_becomes_whole_within_a_look_is_not_called_broken(mine)
     mine.program.play(Mode.FREE, str(mine.path))
     text = GOOD.format("Mine", 2.0)
     mine.path.write_text(text[:-9], encoding="utf-8")
-    mine.go(1.2 * LOOK_EVERY)
+    mine.go(1.2 * FILE_CHECK_INTERVAL)
     mine.path.write_text(text, encoding="utf-8")
     settle(mine, "has changed")
     assert not any("cannot be played" in said for said in mine.said)
@@ -334,13 +336,13 @@ def test_a_mesh_that_has_changed_is_a_change_of_the_table(tmp_path):
     path = write(tmp_path, text='format = 1\n[[cylinder]]\nmesh = "post.obj"\n')
     post(0.6)
     evening = Evening(tmp_path, Settings(table=str(path)))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
-    before = evening.program.table.cylinder[0].radius
+    before = evening.program.board.table.cylinder[0].radius
     post(0.9)
     settle(evening, "mine.toml has changed")
     evening.tap(Action.NEW_BOARD)
-    assert evening.program.table.cylinder[0].radius > before
+    assert evening.program.board.table.cylinder[0].radius > before
     evening.store.close()
 
 
@@ -350,7 +352,7 @@ def test_a_file_that_comes_into_the_folder_while_the_list_is_open_is_in_it_and_t
     write(tmp_path, "m.toml", title="Middle")
     evening = Evening(tmp_path)
     press(evening, Button.RIGHT, Button.RIGHT, Button.START)
-    while not shown(evening).endswith("m.toml"):
+    while not display_name(evening).endswith("m.toml"):
         press(evening, Button.RIGHT)
     for name in ("a.toml", "b.toml", "z.toml"):
         write(tmp_path, name, title=name)
@@ -358,9 +360,9 @@ def test_a_file_that_comes_into_the_folder_while_the_list_is_open_is_in_it_and_t
     settle(evening)
     names = [os.path.basename(entry.name) for entry in evening.program.menus.context.tables]
     assert names[-4:] == ["a.toml", "b.toml", "m.toml", "z.toml"]
-    assert shown(evening).endswith("m.toml")
+    assert display_name(evening).endswith("m.toml")
     press(evening, Button.START)
-    assert evening.program.table.name == "Middle"
+    assert evening.program.board.table.name == "Middle"
     (tmp_path / "tables" / "a.toml").unlink()
     settle(evening)
     assert not any(entry.title == "a.toml" for entry in evening.program.menus.context.tables)
@@ -392,7 +394,7 @@ def test_names_that_would_steer_a_terminal_are_shown_and_not_obeyed(tmp_path, na
         pytest.skip("this disk takes no such name")
     evening = Evening(tmp_path, Settings(table=str(path)) if text is None else None)
     (entry,) = [one for one in evening.catalog.entries() if one.name == str(path)]
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
     evening.tap(Action.NEW_BOARD)
     shown = "".join([entry.title, entry.problem, *evening.said])
@@ -437,9 +439,9 @@ def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monke
     monkeypatch.setattr("silverball.app.table_files.load_table", slow)
     with Store(tmp_path) as store:
         catalog = Catalog(store, tmp_path)
-        catalog.look(whole=True)  # one of the fifty is being read, and takes its time
-        catalog.choose(str(chosen))
-        catalog.look(whole=False)
+        catalog.refresh(whole=True)  # one of the fifty is being read, and takes its time
+        catalog.watch_file(str(chosen))
+        catalog.refresh(whole=False)
         gate.set()
         limit = time.monotonic() + 60.0
         while "zz.toml" not in read:
@@ -451,7 +453,7 @@ def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monke
 def test_a_file_with_a_space_in_its_name_is_told_apart_from_the_sentence(tmp_path):
     path = write(tmp_path, "a table.toml")
     evening = Evening(tmp_path, Settings(table=str(path), mode="free"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
     write(tmp_path, "a table.toml", z=2.0)
     settle(evening, "'a table.toml' has changed")
@@ -473,10 +475,10 @@ def test_a_file_that_breaks_the_reader_is_one_that_cannot_be_read(catalog, tmp_p
 def test_the_scores_follow_what_the_file_says_and_a_game_goes_by_what_it_was_played_on(tmp_path):
     path = write(tmp_path, text=dump_table(LEAKY))
     evening = Evening(tmp_path, Settings(table=str(path), mode="arcade"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     program, catalog = evening.program, evening.catalog
     program.play(Mode.ARCADE, str(path), 3)
-    old = catalog.key(program.recipe)
+    old = catalog.score_key(program.board.recipe)
     changed = LEAKY.model_copy(update={"cylinder": LEAKY.cylinder[:2]})
     path.write_text(dump_table(changed), encoding="utf-8")
     settle(evening, "has changed")
@@ -491,26 +493,26 @@ def test_the_scores_follow_what_the_file_says_and_a_game_goes_by_what_it_was_pla
     settle(evening)
     assert [one.score for one in catalog.scores(str(path), Mode.ARCADE)] == [score]
     path.write_text(dump_table(changed), encoding="utf-8")
-    program.watch_score(row.id)
-    assert program.table.cylinder == LEAKY.cylinder  # the replay has its own
+    execute(WatchScore(str(row.id)), program)
+    assert program.board.table.cylinder == LEAKY.cylinder  # the replay has its own
     program.end_watching()
-    assert program.table.cylinder == changed.cylinder
+    assert program.board.table.cylinder == changed.cylinder
     evening.store.close()
 
 
 def test_a_game_that_ends_as_r_is_pressed_is_listed_under_the_table_it_was_played_on(tmp_path):
     path = write(tmp_path, text=dump_table(LEAKY))
     evening = Evening(tmp_path, Settings(table=str(path), mode="arcade"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.ARCADE, str(path), 3)
-    old = evening.catalog.key(evening.program.recipe)
+    old = evening.catalog.score_key(evening.program.board.recipe)
     game = evening.program.session.game
     while not game.is_over:
         if game.phase is not Phase.PLAY:
-            evening.program.press(Action.CREATE)
-        evening.program.advance(NOTHING, 8)
+            evening.press(Action.CREATE)
+        evening.advance(8)
     path.write_text(dump_table(LEAKY.model_copy(update={"cylinder": LEAKY.cylinder[:2]})), encoding="utf-8")
-    evening.program.press(Action.NEW_BOARD)  # before any picture has shown the end
+    evening.press(Action.NEW_BOARD)  # before any picture has shown the end
     assert [row.score for row in evening.store.scores()] == [game.score]
     assert {row.table_digest for row in evening.store.scores()} == {old.digest}
     evening.store.close()

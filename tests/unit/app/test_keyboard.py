@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from silverball.app import sdl
+from silverball.app.bindings import ACTIONS
 from silverball.app.keyboard import US_LABELS, US_SCANCODES, Keyboard
-from silverball.app.menus import ACTIONS
 
 USED = {name for line in ACTIONS for name in line.keys}
 SIGNS = sorted(set(US_SCANCODES) - {"space"})
@@ -58,7 +58,7 @@ def test_on_any_layout_every_name_that_can_be_meant_has_one_key_which_bears_its_
     board = keyboard(bears)
     labels = board.labels(USED)
     signs = USED & set(SIGNS)
-    meant = {place: board.meant(press(bears, place), USED) for place in bears}
+    meant = {place: board.resolve(press(bears, place), USED) for place in bears}
     for name in signs:
         places = [place for place, one in meant.items() if one == name]
         assert len(places) <= 1
@@ -73,10 +73,10 @@ def test_on_any_layout_every_name_that_can_be_meant_has_one_key_which_bears_its_
 def test_a_key_that_is_chosen_is_that_key_ever_after(bears, place):
     board = keyboard(bears)
     event = press(bears, place)
-    if not board.meant(event, USED):
-        name = board.name_of(event)
+    if not board.resolve(event, USED):
+        name = board.new_name(event)
         assert name not in USED
-        assert board.meant(event, USED | {name}) == name
+        assert board.resolve(event, USED | {name}) == name
 
 
 def test_a_sign_without_a_font_is_never_called_by_the_sign_of_another_key(monkeypatch):
@@ -90,23 +90,23 @@ def test_a_sign_without_a_font_is_never_called_by_the_sign_of_another_key(monkey
 def test_on_a_us_keyboard_every_key_is_what_it_bears():
     board = keyboard({})
     for name in USED & set(SIGNS):
-        assert board.meant(press({}, US_SCANCODES[name]), USED) == name
+        assert board.resolve(press({}, US_SCANCODES[name]), USED) == name
     assert board.labels(USED) == {}
 
 
 def test_a_key_of_another_writing_is_kept_by_its_place_and_works_on_a_latin_keyboard():
     russian = {US_SCANCODES["q"]: "й", US_SCANCODES["a"]: "ф"}
-    name = keyboard(russian).name_of(press(russian, US_SCANCODES["q"]))
+    name = keyboard(russian).new_name(press(russian, US_SCANCODES["q"]))
     assert name == "q"
-    assert keyboard({}).meant(press({}, US_SCANCODES["q"]), {*USED, name}) == name
+    assert keyboard({}).resolve(press({}, US_SCANCODES["q"]), {*USED, name}) == name
 
 
 def test_names_that_were_kept_before_still_mean_their_keys():
     french = {US_SCANCODES["/"]: "!", US_SCANCODES["a"]: "q", US_SCANCODES["q"]: "a"}
     board = keyboard(french)
-    assert board.meant(press(french, US_SCANCODES["/"]), {*USED, "!"}) == "!"
-    assert board.meant(press(french, US_SCANCODES["q"]), USED) == "a"
-    assert board.meant(press(french, US_SCANCODES["a"]), USED) == ""
+    assert board.resolve(press(french, US_SCANCODES["/"]), {*USED, "!"}) == "!"
+    assert board.resolve(press(french, US_SCANCODES["q"]), USED) == "a"
+    assert board.resolve(press(french, US_SCANCODES["a"]), USED) == ""
 
 
 @pytest.mark.parametrize("key", [pygame.K_LSHIFT, pygame.K_LEFT, pygame.K_F1, pygame.K_SPACE, pygame.K_KP5])
@@ -115,30 +115,30 @@ def test_keys_that_bear_no_sign_are_the_same_on_every_layout(key):
     place = next(place for place in range(4, 232) if sdl.keycode_at(place) == key)
     for bears in ({}, {US_SCANCODES["a"]: "ф"}):
         event = Press(key, place)
-        assert keyboard(bears).meant(event, {name}) == name
-        assert keyboard(bears).name_of(event) == name
+        assert keyboard(bears).resolve(event, {name}) == name
+        assert keyboard(bears).new_name(event) == name
 
 
 @pytest.mark.parametrize("sign", ["\u200b", "\u0f0b", "\u00a0"])
 def test_the_space_bar_is_itself_whatever_a_layout_writes_with_it(sign):
     bears = {pygame.KSCAN_SPACE: sign}  # Khmer, Dzongkha, and those who like it so
     board = keyboard(bears)
-    assert board.meant(press(bears, pygame.KSCAN_SPACE), USED) == "space"
+    assert board.resolve(press(bears, pygame.KSCAN_SPACE), USED) == "space"
     assert "space" not in board.labels(USED)
 
 
 def test_a_layout_that_changes_without_a_word_is_noticed_at_the_next_press():
     board = keyboard({})
     event = Press(ord("q"), US_SCANCODES["a"])
-    assert board.hear(event)
-    assert not board.hear(event)
-    assert board.meant(event, USED | {"q"}) == "q"
+    assert board.learn(event)
+    assert not board.learn(event)
+    assert board.resolve(event, USED | {"q"}) == "q"
 
 
 def test_a_press_without_a_place_goes_by_its_sign():
     board = keyboard({})
-    assert board.meant(Press(ord("d"), 0), USED) == "d"
-    assert board.meant(Press(ord("я"), 0), USED) == ""
+    assert board.resolve(Press(ord("d"), 0), USED) == "d"
+    assert board.resolve(Press(ord("я"), 0), USED) == ""
 
 
 @pytest.mark.parametrize(("sign", "name"), [("a", "a"), ("q", ""), ("ф", "a")])
@@ -146,8 +146,8 @@ def test_where_sdl_cannot_be_asked_signs_count_and_places_only_for_other_writing
     monkeypatch.setattr(sdl, "keycode_at", lambda place: None)
     board = Keyboard()
     event = Press(ord(sign), US_SCANCODES["a"])
-    assert not board.hear(event)
-    assert board.meant(event, USED) == name
+    assert not board.learn(event)
+    assert board.resolve(event, USED) == name
     assert board.labels(USED) == {}
 
 
@@ -155,11 +155,11 @@ def test_shift_changes_nothing_but_a_sign_that_is_nowhere_else():
     french = {US_SCANCODES[","]: ";", US_SCANCODES["."]: ":", US_SCANCODES["m"]: ",", US_SCANCODES[";"]: "m"}
     board = keyboard(french)
     shift = pygame.KMOD_LSHIFT
-    assert board.meant(press(french, US_SCANCODES[","], shift), USED) == "."
-    assert board.meant(press(french, US_SCANCODES["."]), USED) == "."
+    assert board.resolve(press(french, US_SCANCODES[","], shift), USED) == "."
+    assert board.resolve(press(french, US_SCANCODES["."]), USED) == "."
     assert board.labels(USED) == {".": ":"}
     for place in {US_SCANCODES[sign] for sign in SIGNS} - {US_SCANCODES[","]}:
-        assert board.meant(press(french, place, shift), USED) == board.meant(press(french, place), USED)
+        assert board.resolve(press(french, place, shift), USED) == board.resolve(press(french, place), USED)
 
 
 def test_the_letters_of_initials_are_typed_on_every_keyboard():

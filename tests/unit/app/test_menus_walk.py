@@ -20,7 +20,7 @@ from silverball.app.menus.commands import (
     WatchLast,
     WatchScore,
 )
-from silverball.app.settings import Settings
+from silverball.app.settings import PlayerSettings, Settings
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH
 from silverball.game.view import Mode
 
@@ -40,9 +40,10 @@ def fresh(root: str, with_scores: bool = True) -> Menus:
     def scores(table: str, mode: Mode):
         return ROWS if with_scores and table in ("classic", "random") and mode is Mode.ARCADE else ()
 
-    menus = Menus(Settings(), TABLES, scores, themes=("neon", "night"))
+    menus = Menus(PlayerSettings(Settings()), TABLES, scores, themes=("neon", "night"))
     if with_scores:
-        menus.know(last_seed=77, has_last_game=True)
+        menus.context.last_seed = 77
+        menus.context.has_last_game = True
     {
         "main": menus.open_main,
         "attract": menus.open_attract,
@@ -50,7 +51,7 @@ def fresh(root: str, with_scores: bool = True) -> Menus:
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
         "transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
-        "held transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, paused=True)),
+        "held transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_held=True)),
         "ended transport": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     return menus
@@ -105,7 +106,7 @@ def test_every_page_of_the_main_menu_is_reached_and_left_with_three_buttons(main
     edges, _ = main_walk
     pages = {page for state in edges if state != "out" for page, _ in state}
     assert pages == {
-        "main", "table", "board", "seed", "watch", "champions", "scores", "settings",
+        "main", "table", "board", "seed", "watch", "high_scores", "scores", "settings",
         "keys", "keys of an action", "pad", "pad of an action", "capture",
     }  # fmt: skip
     back = leading_to(edges, lambda state: state != "out" and len(state) == 1 and state[0][0] == "main")

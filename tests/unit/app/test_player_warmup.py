@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from silverball.app import player_warmup as rehearsal_module
+from silverball.app import player_warmup as warmup_module
 from silverball.app.demo_players import BEST_PLAYER, DEMO_PLAYERS, STAND_IN, DemoPlayerSelector
 from silverball.app.player_warmup import PlayerWarmup
 from silverball.app.sessions import DemoSession
@@ -19,7 +19,7 @@ PATIENCE = 300.0  # [s], which only a fault takes
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch) -> None:
-    monkeypatch.setattr(rehearsal_module, "HEAD_START", 0.0)
+    monkeypatch.setattr(warmup_module, "HEAD_START", 0.0)
 
 
 class Compiler:
@@ -34,7 +34,7 @@ class Compiler:
 
 
 def test_every_performer_gets_ready():
-    rehearsal_module.compile_all()
+    warmup_module.compile_all()
     player_warmup = PlayerWarmup(TABLE)
     player_warmup.wait(PATIENCE)
     assert [player_warmup.is_ready(demo_player.name) for demo_player in DEMO_PLAYERS] == [True] * len(
@@ -44,7 +44,7 @@ def test_every_performer_gets_ready():
 
 
 def test_who_closes_the_window_at_once_waits_for_nobody(monkeypatch):
-    monkeypatch.setattr(rehearsal_module, "HEAD_START", PATIENCE)
+    monkeypatch.setattr(warmup_module, "HEAD_START", PATIENCE)
     player_warmup = PlayerWarmup(TABLE)
     player_warmup.close()
     start = time.monotonic()
@@ -56,11 +56,11 @@ def test_who_closes_the_window_at_once_waits_for_nobody(monkeypatch):
 @pytest.mark.parametrize("ends_well", [False, True])
 def test_without_compiled_code_the_stand_in_goes_on(monkeypatch, ends_well):
     compiler = Compiler(ends_well)
-    monkeypatch.setattr(rehearsal_module, "_compiler", compiler)
-    monkeypatch.setattr(rehearsal_module, "is_there", lambda demo_player: not demo_player.kernel)
+    monkeypatch.setattr(warmup_module, "_compiler", compiler)
+    monkeypatch.setattr(warmup_module, "is_compiled_on_disk", lambda demo_player: not demo_player.kernel)
     pressed = []
     monkeypatch.setattr(
-        rehearsal_module, "press_once", lambda demo_player, table: pressed.append(demo_player)
+        warmup_module, "warm_up_player", lambda demo_player, table: pressed.append(demo_player)
     )
     player_warmup = PlayerWarmup(TABLE)
     player_warmup.wait(PATIENCE)
@@ -73,13 +73,13 @@ def test_without_compiled_code_the_stand_in_goes_on(monkeypatch, ends_well):
 def test_a_player_that_fails_does_not_get_ready_and_stops_nobody_else(monkeypatch):
     pressed = []
 
-    def press_once(demo_player, table):
+    def warm_up_player(demo_player, table):
         pressed.append(demo_player)
         if demo_player is BEST_PLAYER:
             raise ValueError("a fault")
 
-    monkeypatch.setattr(rehearsal_module, "is_there", lambda demo_player: True)
-    monkeypatch.setattr(rehearsal_module, "press_once", press_once)
+    monkeypatch.setattr(warmup_module, "is_compiled_on_disk", lambda demo_player: True)
+    monkeypatch.setattr(warmup_module, "warm_up_player", warm_up_player)
     player_warmup = PlayerWarmup(TABLE)
     player_warmup.wait(PATIENCE)
     assert pressed == list(DEMO_PLAYERS)
@@ -88,15 +88,15 @@ def test_a_player_that_fails_does_not_get_ready_and_stops_nobody_else(monkeypatc
 
 def test_the_one_who_was_asked_for_takes_over_once():
     ready = {STAND_IN.name}
-    cast = DemoPlayerSelector(ready.__contains__)
-    session = DemoSession(TABLE, 1, cast.begin(BEST_PLAYER.name))
-    assert (session.player.kind, cast.playing) == (PlayerKind.REFLEX, STAND_IN)
-    assert not cast.follow(session)
+    selector = DemoPlayerSelector(ready.__contains__)
+    session = DemoSession(TABLE, 1, selector.select(BEST_PLAYER.name))
+    assert (session.player.kind, selector.playing) == (PlayerKind.REFLEX, STAND_IN)
+    assert not selector.switch_when_ready(session)
     ready.add(BEST_PLAYER.name)
-    assert cast.follow(session)
-    assert (session.player.kind, cast.playing) == (PlayerKind.PLANNER, BEST_PLAYER)
+    assert selector.switch_when_ready(session)
+    assert (session.player.kind, selector.playing) == (PlayerKind.PLANNER, BEST_PLAYER)
     planner = session.player
-    assert not cast.follow(session)
+    assert not selector.switch_when_ready(session)
     assert session.player is planner  # it keeps its plan
 
 

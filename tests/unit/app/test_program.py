@@ -6,8 +6,9 @@ import pytest
 
 from evenings import NOTHING, Evening
 from reading import reads
+from silverball.app.command_handlers import watch_text
 from silverball.app.controls import Action
-from silverball.app.program import OVER_SECONDS, SPEEDS
+from silverball.app.program import GAME_OVER_SECONDS, SPEEDS
 from silverball.app.sessions import DemoSession
 from silverball.app.settings import Settings
 from silverball.app.startup import Progress
@@ -21,7 +22,7 @@ from silverball.players import PlayerKind
 @pytest.fixture
 def evening(tmp_path):
     made = Evening(tmp_path)
-    made.program.get_ready()
+    made.program.finish_loading()
     yield made
     made.store.close()
 
@@ -33,7 +34,7 @@ def test_a_score_is_kept_before_anything_of_it_is_shown(evening):
     assert score > 0
     assert evening.program.menus.page == ""
     assert [row.score for row in evening.store.scores()] == [score]
-    evening.go(OVER_SECONDS + 0.1)
+    evening.go(GAME_OVER_SECONDS + 0.1)
     assert evening.program.menus.page == "initials"
     (row,) = evening.store.scores()
     verdict = verify(Replay.from_text(evening.store.replay(row.id)))
@@ -47,7 +48,7 @@ def test_what_is_asked_for_before_the_physics_is_ready_is_done_when_it_is(tmp_pa
     assert "one moment" in evening.said[-1]
     evening.tap(Action.CREATE, Action.LEFT, Action.PAUSE)  # impatience changes nothing
     assert not evening.program.menus.is_open
-    evening.program.get_ready()
+    evening.program.finish_loading()
     assert evening.program.is_playing
     evening.store.close()
 
@@ -63,7 +64,7 @@ def test_before_the_physics_is_ready_the_display_is_never_empty_and_tells_the_ti
     assert reads(program.dots(0.0), "4/20 S")
     program.progress = None
     assert program.dots(0.0).pixels.any()
-    program.get_ready()
+    program.finish_loading()
     assert program.is_playing
     assert not reads(program.dots(0.0), "4/20 S")
     evening.store.close()
@@ -74,7 +75,7 @@ def test_who_goes_back_before_the_physics_is_ready_is_in_the_menu_and_no_game_be
     evening.tap(Action.CREATE)
     evening.tap(Action.BACK)
     assert evening.program.menus.page == "main"
-    evening.program.get_ready()
+    evening.program.finish_loading()
     assert evening.program.session is None
     assert evening.program.menus.page == "main"
     evening.store.close()
@@ -84,12 +85,12 @@ def test_the_board_that_is_seen_in_the_menu_is_the_one_that_is_played_first(tmp_
     from silverball.table import load_table
 
     evening = Evening(tmp_path, Settings(table="Random"), load_table("random"))
-    evening.program.get_ready()
-    seen = evening.program.table
+    evening.program.finish_loading()
+    seen = evening.program.board.table
     evening.tap(Action.CREATE)
     assert evening.program.session.game.table == seen
     evening.tap(Action.NEW_BOARD)
-    assert evening.program.table != seen
+    assert evening.program.board.table != seen
     evening.store.close()
 
 
@@ -110,15 +111,15 @@ def test_a_replay_that_was_tampered_with_is_refused_in_one_sentence_and_the_menu
     evening.play_to_the_end()
     (row,) = evening.store.scores()
     text = evening.store.replay(row.id).replace("seed = 3", "seed = 4")
-    evening.program.watch_text(text, "score 1")
+    watch_text(evening.program, text, "score 1")
     assert "changed or damaged" in evening.said[-1]
     assert evening.program.menus.is_open
 
 
 def test_settings_are_kept_with_every_change(evening):
-    evening.program.set(volume=3)
+    evening.program.settings.change(volume=3)
     assert Settings.of(evening.store.settings()).volume == 3
-    assert evening.program.menus.settings.volume == 3
+    assert evening.program.menus.context.settings.current.volume == 3
 
 
 def test_losing_the_focus_pauses_play_and_nothing_else(evening):
@@ -132,10 +133,10 @@ def test_losing_the_focus_pauses_play_and_nothing_else(evening):
 def test_a_table_that_is_not_there_is_an_error_at_the_start_and_a_message_later(tmp_path, evening):
     with pytest.raises(TableError):
         Evening(tmp_path / "other", Settings(table="nowhere.toml"))
-    before = evening.program.table
+    before = evening.program.board.table
     evening.program.play(Mode.FREE, "nowhere.toml")
     assert "nowhere.toml" in evening.said[-1]
-    assert evening.program.table == before
+    assert evening.program.board.table == before
 
 
 def test_nobody_there_lets_the_program_play_and_a_button_brings_the_menu_back(evening):
@@ -155,14 +156,14 @@ def test_the_reflex_player_stands_in_until_the_planner_is_ready(evening):
     evening.go(31.0)
     session = evening.program.session
     assert session.player.kind == PlayerKind.REFLEX
-    assert evening.program.display.demo_player == "REFLEX"
+    assert evening.program.display.player_label == "REFLEX"
     tick = session.game.tick
     ready.add("planner")
     evening.go(0.1)
     assert evening.program.session is session
     assert session.player.kind == PlayerKind.PLANNER
     assert session.game.tick > tick
-    assert evening.program.display.demo_player == "PLANNER"
+    assert evening.program.display.player_label == "PLANNER"
 
 
 @pytest.mark.parametrize(
@@ -225,9 +226,9 @@ def test_a_space_in_the_very_moment_of_the_end_costs_no_score(evening):
     game = evening.program.session.game
     while not game.is_over:
         if game.phase is not Phase.PLAY:
-            evening.program.press(Action.CREATE)
-        evening.program.advance(NOTHING, 8)
-    evening.program.press(Action.CREATE)  # before any time has passed
+            evening.press(Action.CREATE)
+        evening.advance(8)
+    evening.press(Action.CREATE)  # before any time has passed
     assert game.score > 0
     evening.go(0.1)
     assert [row.score for row in evening.store.scores()] == [game.score]
@@ -238,9 +239,9 @@ def test_a_program_that_ends_in_the_very_moment_of_the_end_has_kept_the_score(ev
     game = evening.program.session.game
     while not game.is_over:
         if game.phase is not Phase.PLAY:
-            evening.program.press(Action.CREATE)
-        evening.program.advance(NOTHING, 8)
-    evening.program.keep_last_game()
+            evening.press(Action.CREATE)
+        evening.advance(8)
+    evening.program.save_last_game()
     assert [row.score for row in evening.store.scores()] == [game.score]
 
 
@@ -268,7 +269,7 @@ def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(eveni
 def test_a_game_that_is_over_gives_way_to_the_show_when_nobody_is_there(evening):
     evening.program.play(Mode.ARCADE, "Leaky", 3)
     evening.play_to_the_end()
-    evening.go(OVER_SECONDS + 40.0)
+    evening.go(GAME_OVER_SECONDS + 40.0)
     assert evening.program.menus.page == "attract"
     assert isinstance(evening.program.session, DemoSession)
     assert not evening.program.is_audible
@@ -279,7 +280,7 @@ def test_the_main_menu_after_a_game_shows_the_board_without_what_was_on_it(eveni
     evening.program.play(Mode.ARCADE, "Leaky", 3)
     evening.tap(Action.CREATE)
     evening.program.session.game.end()  # with a ball on the board
-    evening.go(OVER_SECONDS + 0.2)
+    evening.go(GAME_OVER_SECONDS + 0.2)
     assert evening.program.menus.page == "over"
     evening.tap(Action.LEFT, Action.CREATE)  # menu
     assert evening.program.menus.page == "main"
@@ -290,37 +291,37 @@ def test_a_table_chosen_after_a_game_is_seen_at_once(evening):
     evening.program.play(Mode.ARCADE, "Leaky", 3)
     evening.play_to_the_end()
     evening.program.menus.open_main()
-    evening.program.use(evening.program.settings.changed(table="classic"))
-    assert evening.program.table.name == "Classic"
+    evening.program.settings.change(table="classic")
+    assert evening.program.board.table.name == "Classic"
     assert evening.program.session is None
 
 
 def test_a_table_chosen_elsewhere_leaves_a_game_that_goes_on_alone(evening):
     evening.program.play(Mode.FREE, "Leaky", 3)
     session = evening.program.session
-    evening.program.set(table="classic")
+    evening.program.settings.change(table="classic")
     assert evening.program.session is session
-    assert evening.program.table.name == "Leaky"
+    assert evening.program.board.table.name == "Leaky"
 
 
 def test_a_seed_that_is_chosen_is_seen_at_once_and_played(tmp_path):
     from silverball.table import generate_table, load_table
 
     evening = Evening(tmp_path, Settings(table="random"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     # Table, board seed, new or the same or a number.
     evening.tap(*[Action.RIGHT] * 2, Action.CREATE)
     while evening.program.menus.page == "table":
         evening.tap(Action.RIGHT)
         page = evening.program.menus.context.pages[-1]
-        if page._listed()[page.index].label == "BOARD SEED":
+        if page._current_items()[page.index].label == "BOARD SEED":
             evening.tap(Action.CREATE)
     evening.tap(Action.LEFT, Action.LEFT, Action.CREATE)
     assert evening.program.menus.page == "seed"
     for digit in "42":
         evening.program.menus.type(digit, digit, is_button=False)
     evening.tap(Action.CREATE)
-    assert evening.program.table == generate_table(42, load_table("random"))
+    assert evening.program.board.table == generate_table(42, load_table("random"))
     evening.tap(Action.BACK, Action.LEFT, Action.LEFT, Action.CREATE)
     assert evening.program.session.game.table == generate_table(42, load_table("random"))
     evening.store.close()

@@ -7,7 +7,7 @@ import pytest
 from evenings import NOTHING, Evening
 from reading import reads
 from silverball.app.controls import Action
-from silverball.app.sessions import SURE_AFTER, SURE_WITHIN, GameSession
+from silverball.app.sessions import CONFIRM_WITHIN, NEW_BALL_LOCK, GameSession
 from silverball.app.settings import Settings
 from silverball.errors import BoardFull, SilverballError
 from silverball.game.game import Game
@@ -33,20 +33,20 @@ def balls(session: GameSession) -> int:
 
 def test_the_first_ball_comes_at_once():
     session = playing()
-    assert session.bring_ball("SPACE") == ""
+    assert session.create_ball("SPACE") == ""
     assert balls(session) == 1
 
 
 @pytest.mark.parametrize("tenths", range(0, 10, 3))
 def test_within_a_second_of_a_ball_no_press_brings_another_nor_asks_for_it(tenths):
     session = playing()
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
     wait(session, tenths / 10)
     for _ in range(5):
-        assert "IN PLAY" in session.bring_ball("SPACE")
+        assert "IN PLAY" in session.create_ball("SPACE")
     assert balls(session) == 1
-    wait(session, SURE_AFTER)
-    assert "AGAIN" in session.bring_ball("SPACE")  # those presses have asked nothing
+    wait(session, NEW_BALL_LOCK)
+    assert "AGAIN" in session.create_ball("SPACE")  # those presses have asked nothing
     assert balls(session) == 1
 
 
@@ -54,13 +54,13 @@ def test_within_a_second_of_a_ball_no_press_brings_another_nor_asks_for_it(tenth
 @pytest.mark.parametrize("second", [0.0, 0.1, 1.0, 2.9, 3.1, 7.0])
 def test_a_press_asks_and_another_one_within_some_seconds_is_the_answer(first, second):
     session = playing()
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
     wait(session, first)
-    assert session.bring_ball("SPACE") == "SPACE AGAIN: BALL 2 OF 3"
+    assert session.create_ball("SPACE") == "SPACE AGAIN: BALL 2 OF 3"
     assert balls(session) == 1
     wait(session, second)
-    words = session.bring_ball("SPACE")
-    assert balls(session) == (2 if second <= SURE_WITHIN else 1)
+    words = session.create_ball("SPACE")
+    assert balls(session) == (2 if second <= CONFIRM_WITHIN else 1)
     assert bool(words) == (balls(session) == 1)
 
 
@@ -68,56 +68,56 @@ def test_a_press_asks_and_another_one_within_some_seconds_is_the_answer(first, s
 def test_hammering_on_space_spends_no_ball_within_the_first_second(hertz):
     session = playing()
     for _ in range(hertz):
-        session.bring_ball("SPACE")
+        session.create_ball("SPACE")
         assert balls(session) == 1
         wait(session, 1.0 / hertz - 1.0 / RATE)
 
 
 def test_every_further_ball_is_asked_for_again():
     session = playing(table=LONG.model_copy(update={"board": Board(gravity=0.1, max_balls=2)}))
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
     wait(session, 2.0)
-    session.bring_ball("SPACE")
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
+    session.create_ball("SPACE")
     wait(session, 2.0)
     with pytest.raises(BoardFull):
-        session.bring_ball("SPACE")
+        session.create_ball("SPACE")
 
 
 def test_with_the_last_ball_in_play_there_is_nothing_to_ask():
     session = playing(table=LONG.model_copy(update={"arcade": Arcade(balls=1)}))
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
     with pytest.raises(SilverballError, match="no ball is left"):
-        session.bring_ball("SPACE")
+        session.create_ball("SPACE")
 
 
 def test_in_free_play_nothing_is_asked():
     session = playing(Mode.FREE)
-    assert [session.bring_ball("SPACE"), session.bring_ball("SPACE")] == ["", ""]
+    assert [session.create_ball("SPACE"), session.create_ball("SPACE")] == ["", ""]
     assert balls(session) == 2
 
 
 def test_a_tilted_table_says_so_and_asks_nothing():
     session = playing()
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
     wait(session, 2.0)
     for _ in range(5):
         session.game.jitter()
         wait(session, 0.1)
     assert session.game.face.tilted
     with pytest.raises(SilverballError, match="tilt"):
-        session.bring_ball("SPACE")
+        session.create_ball("SPACE")
 
 
 def test_a_game_with_questions_is_the_same_game_and_its_replay_is_whole():
     session = playing()
     plain = Game(LONG, 5, Mode.ARCADE)
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
     plain.create_ball()
     wait(session, 1.5)
     plain.advance(ticks=360)
-    session.bring_ball("SPACE")
-    session.bring_ball("SPACE")
+    session.create_ball("SPACE")
+    session.create_ball("SPACE")
     plain.create_ball()
     wait(session, 2.0)
     plain.advance(ticks=480)
@@ -128,7 +128,7 @@ def test_a_game_with_questions_is_the_same_game_and_its_replay_is_whole():
 def test_the_display_asks_with_the_key_that_was_chosen(tmp_path):
     settings = Settings(table="Long", keys={"create": ("return",)})
     evening = Evening(tmp_path, settings, LONG)
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.ARCADE, "Long", 3)
     evening.tap(Action.CREATE)
     evening.tap(Action.CREATE)

@@ -11,10 +11,10 @@ from silverball.app.sound.levels import FULL_SPEED, pan, strength_of
 from silverball.app.sound.rolling import _SILENT, LANES, ROLL_SPEEDS, Rolling
 from silverball.app.sound.synth import BELL_STEPS
 from silverball.app.sound.voices import (
-    AGAIN_SECONDS,
     MAX_AT_ONCE,
     MAX_NEW,
     MENU,
+    REPEAT_SECONDS,
     RUN_SECONDS,
     Voices,
     step_of,
@@ -32,7 +32,7 @@ def event(kind="hit", part="board.left", *, ball=1, tick=0, z=0.0, speed=10.0) -
 
 
 def notes_of(*events: Event, voices: Voices | None = None):
-    return (voices or Voices()).hits(events, RATE, WIDTH)
+    return (voices or Voices()).world_events(events, RATE, WIDTH)
 
 
 def strength(note) -> float:
@@ -71,12 +71,12 @@ def test_every_part_of_a_real_game_is_heard():
     for tick in range(240 * 20):
         if len(world.balls) < 2:
             world.create_ball()
-            voices.hits(world.events[-1:], RATE, WIDTH)
+            voices.world_events(world.events[-1:], RATE, WIDTH)
         world.step(left=tick % 100 < 40, right=tick % 130 < 50)
         for one in world.events:
             if one.kind in ("hit", "ball_hit") and one.speed > 3.0:
                 kinds.add(one.part.partition("[")[0].partition(".")[0])
-        heard |= {note.key.name for note in voices.hits(world.events, RATE, WIDTH)}
+        heard |= {note.key.name for note in voices.world_events(world.events, RATE, WIDTH)}
     sound = {"board": "wall", "triangular_prism": "prism", "paddle": "paddle_hit", "ball": "balls"}
     assert len(kinds) >= 5
     assert {sound.get(kind, kind) for kind in kinds} <= heard
@@ -159,7 +159,7 @@ def test_prisms_climb_too_but_walls_do_not():
 def test_the_game_knows_better_how_many_hits_were_in_a_row():
     voices = Voices()
     assert steps(voices, [0]) == [0]
-    voices.news([GameEvent(GameEventKind.COMBO, 100, 7)])
+    voices.game_events([GameEvent(GameEventKind.COMBO, 100, 7)])
     assert steps(voices, [100, 150]) == [6, 7]
 
 
@@ -171,7 +171,7 @@ def test_a_long_run_goes_round_the_upper_octave():
 def test_another_game_begins_at_the_bottom_of_the_scale():
     voices = Voices()
     assert steps(voices, [0, 100]) == [0, 1]
-    voices.begin(None)
+    voices.begin_game(None)
     assert steps(voices, [150]) == [0]
 
 
@@ -201,7 +201,7 @@ def test_a_ball_that_rattles_in_a_corner_gets_softer_and_makes_no_storm():
         ]
         frames.append(notes_of(*events, voices=voices))
     notes = [note for frame in frames for note in frame]
-    assert len(notes) <= 2 / AGAIN_SECONDS + 2  # two walls for a second
+    assert len(notes) <= 2 / REPEAT_SECONDS + 2  # two walls for a second
     assert strength(notes[-1]) < 0.3 * strength(notes[0])
 
 
@@ -225,22 +225,24 @@ def names(notes) -> list[str]:
 
 def test_a_button_pulls_the_coil_and_the_paddle_reaches_its_stop_after_its_stroke():
     voices = Voices()
-    voices.begin(Table.model_validate({"paddle": [{"side": "left", "pivot": [-7.0, -2.5], "stroke": 0.05}]}))
+    voices.begin_game(
+        Table.model_validate({"paddle": [{"side": "left", "pivot": [-7.0, -2.5], "stroke": 0.05}]})
+    )
     assert names(voices.buttons(True, False)) == ["coil left"]
     assert voices.buttons(True, False) == []
-    assert voices.update(0.04) == []
-    (stop,) = voices.update(0.04)
+    assert voices.advance(0.04) == []
+    (stop,) = voices.advance(0.04)
     assert names([stop]) == ["stop left"]
     assert stop.ago == pytest.approx(0.03)
-    assert voices.update(10.0) == []
+    assert voices.advance(10.0) == []
 
 
 def test_a_paddle_that_falls_back_stops_more_softly():
     voices = Voices()
     voices.buttons(False, True)
-    (up,) = voices.update(1.0)
+    (up,) = voices.advance(1.0)
     voices.buttons(False, False)
-    (back,) = voices.update(1.0)
+    (back,) = voices.advance(1.0)
     assert names([up, back]) == ["stop right", "stop right"]
     assert strength(back) < 0.7 * strength(up)
     assert (up.key.layer, back.key.layer) == (1, 0)
@@ -249,25 +251,25 @@ def test_a_paddle_that_falls_back_stops_more_softly():
 def test_a_button_let_go_halfway_makes_only_the_way_back():
     voices = Voices()
     voices.buttons(True, False)
-    voices.update(0.03)
+    voices.advance(0.03)
     voices.buttons(False, False)
-    (back,) = voices.update(0.05)
+    (back,) = voices.advance(0.05)
     assert back.ago == pytest.approx(0.02)
 
 
 def test_a_table_without_a_paddle_has_no_coil_on_that_side():
     voices = Voices()
-    voices.begin(load_table("classic").model_copy(update={"paddle": ()}))
+    voices.begin_game(load_table("classic").model_copy(update={"paddle": ()}))
     assert voices.buttons(True, True) == []
-    assert voices.update(1.0) == []
+    assert voices.advance(1.0) == []
 
 
 def test_dead_paddles_are_silent_until_the_next_ball():
     voices = Voices()
-    voices.news([GameEvent(GameEventKind.TILT, 5)])
+    voices.game_events([GameEvent(GameEventKind.TILT, 5)])
     assert voices.buttons(True, True) == []
     voices.buttons(False, False)
-    voices.news([GameEvent(GameEventKind.BALL_READY, 500, 2)])
+    voices.game_events([GameEvent(GameEventKind.BALL_READY, 500, 2)])
     assert names(voices.buttons(True, True)) == ["coil left", "coil right"]
 
 
@@ -286,7 +288,7 @@ def test_dead_paddles_are_silent_until_the_next_ball():
     ],
 )
 def test_news_has_its_sound(kind, name):
-    (note,) = Voices().news([GameEvent(kind, 1)])
+    (note,) = Voices().game_events([GameEvent(kind, 1)])
     assert note.key.name == name
     assert note.left == pytest.approx(note.right)
 
@@ -299,7 +301,7 @@ def test_points_alone_make_no_sound_of_their_own():
         GameEventKind.BALL_LOST,
         GameEventKind.DOUBLE_OFF,
     ]
-    assert Voices().news([GameEvent(kind, 1) for kind in quiet]) == []
+    assert Voices().game_events([GameEvent(kind, 1) for kind in quiet]) == []
 
 
 def test_menus_have_their_sounds_and_anything_else_is_silent():

@@ -1,4 +1,4 @@
-"""What does the display show when nobody is there? Name, best scores, how to begin, and tips, in turn."""
+"""The attract mode: title, best scores, how to begin, and tips take turns while nobody is active."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, scroll, wip
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 
 PAGE_TIME = 4.0  # [s]
-CHANGE_TIME = 0.5  # [s] of it, in which one page gives way to the next
+CHANGE_TIME = 0.5  # [s] of it for the transition to the next page
 NAME = "SILVERBALL"
 
 
 class AttractPage(Page):
-    """Pages that turn by themselves; any button leads to the main menu."""
+    """Pages that take turns; any button leads to the main menu."""
 
     name = "attract"
     repeats = False
-    quiet = False
+    allows_attract = False
 
     def press(self, button: Button, context: MenuContext) -> Command | None:
-        """Somebody is there."""
+        """Go back to the main menu."""
         context.back()
         return Attract(False)
 
     def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
-        """The page whose turn it is."""
+        """Draw the current page, or the transition to it."""
         pages = self._pages(context)
         turn, at = divmod(max(seconds - self.shown_at, 0.0), PAGE_TIME)
         now = pages[int(turn) % len(pages)](context, at)
@@ -46,8 +46,8 @@ class AttractPage(Page):
         pages: list[Callable[[MenuContext, float], Dots]] = [title_picture, _start_picture]
         if context.demo_player is not None:
             pages.append(_demo_player_picture)
-        for board in range(min(len(context.boards()), 3)):
-            pages.append(lambda context, at, board=board: _best_picture(context, at, board))  # type: ignore[misc]
+        for index in range(min(len(context.score_lists), 3)):
+            pages.append(lambda context, at, index=index: _best_picture(context, at, index))  # type: ignore[misc]
             pages.append(_start_picture)
         for tip in range(len(_tips(context))):
             pages.append(lambda context, at, tip=tip: _tip_picture(context, at, tip))  # type: ignore[misc]
@@ -55,7 +55,7 @@ class AttractPage(Page):
 
 
 def title_picture(context: MenuContext, at: float) -> Dots:
-    """The name; a ball rolls over it and leaves it behind."""
+    """Draw the title, uncovered by a ball that rolls across."""
     dots = Dots()
     width = BOLD.width(NAME)
     left = (WIDTH - width) // 2
@@ -63,7 +63,7 @@ def title_picture(context: MenuContext, at: float) -> Dots:
     dots.text(NAME, left, 8, BOLD, window=(0, max(ball + 5, 0)))
     if ball < WIDTH:
         draw_ball(dots, ball + 4, 13 - 5.0 * abs(math.sin(4.0 * at)))
-    # A light runs over the letters once they stand.
+    # A light sweeps over the letters once they are complete.
     shine = round((at - 2.2) * 130.0)
     if 0 <= shine < WIDTH + 12:
         for row in range(8, 19):
@@ -78,17 +78,17 @@ def title_picture(context: MenuContext, at: float) -> Dots:
 
 def _start_picture(context: MenuContext, at: float) -> Dots:
     dots = Dots()
-    key = context.key("create")
-    if page_layout.blinks(at, 1.0):
+    key = context.key_label("create")
+    if page_layout.is_blink_on(at, 1.0):
         dots.text(f"PRESS {key}", WIDTH // 2, 6, BOLD, "center")
-    entry = context.table()
-    text = f"{MODES[context.mode()]} · {entry.title.upper()}"
+    entry = context.table
+    text = f"{MODES[context.mode]} · {entry.title.upper()}"
     page_layout.marquee(dots, text, 23, 0, WIDTH, NORMAL, at, brightness=page_layout.HALF)
     return dots
 
 
 def _demo_player_picture(context: MenuContext, at: float) -> Dots:
-    """Who plays behind these pages."""
+    """Draw who plays the demo behind these pages."""
     dots = Dots()
     assert context.demo_player is not None
     page_layout.title(dots, "NOW PLAYING", seconds=at)
@@ -97,11 +97,11 @@ def _demo_player_picture(context: MenuContext, at: float) -> Dots:
     return dots
 
 
-def _best_picture(context: MenuContext, at: float, board: int) -> Dots:
-    """The three best of a score table, one after the other."""
+def _best_picture(context: MenuContext, at: float, index: int) -> Dots:
+    """Draw the three best scores of a list, one after the other."""
     dots = Dots()
-    boards = context.boards()
-    entry, mode, rows = boards[min(board, len(boards) - 1)]
+    score_lists = context.score_lists
+    entry, mode, rows = score_lists[min(index, len(score_lists) - 1)]
     page_layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", seconds=at)
     place = min(int(at / PAGE_TIME * 3.0), min(len(rows), 3) - 1)
     row = rows[place]
@@ -113,12 +113,12 @@ def _best_picture(context: MenuContext, at: float, board: int) -> Dots:
 
 
 def _tips(context: MenuContext) -> list[tuple[str, str]]:
-    """What a key does, and the key."""
+    """Return the labels of the main actions, each with its keys."""
     tips = []
-    for line in context.actions:
-        keys = keys_for(context.settings, line)
-        if keys and line.action in ("left", "right", "create", "jitter", "help"):
-            tips.append((line.label, "  ".join(context.shown(key) for key in keys[:2])))
+    for binding in context.actions:
+        keys = keys_for(context.settings.current, binding)
+        if keys and binding.action in ("left", "right", "create", "jitter", "help"):
+            tips.append((binding.label, "  ".join(context.button_label(key) for key in keys[:2])))
     return tips
 
 

@@ -1,31 +1,31 @@
-"""What do all pages share? The settings, the tables, the scores, the time, and the stack of open pages."""
+"""What all menu pages share: the settings, tables, scores, the time, and the stack of open pages."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from silverball.app.bindings import ActionBinding, keys_for, shown
+from silverball.app.bindings import ActionBinding, display_name, keys_for
 from silverball.app.demo_players import DemoPlayer
 from silverball.app.menus import page_layout
-from silverball.app.menus.commands import Button, Change, Command
-from silverball.app.settings import Settings
+from silverball.app.menus.commands import Button, Command
+from silverball.app.settings import PlayerSettings
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.dotmatrix.fonts import NORMAL
 from silverball.game.view import Mode
 
-MESSAGE_TIME = 2.5  # [s] for which a message is shown at least
+MIN_MESSAGE_TIME = 2.5  # [s]
 
 
 class TableEntry(NamedTuple):
-    """A table that can be chosen.
+    """A table in the list of tables.
 
     Attributes:
         name: As in the settings: a built-in name or a path.
-        title: What the player reads.
-        about: A few words more.
-        is_random: Whether every seed makes another board of it.
+        title: Its displayed name.
+        about: A short description.
+        is_random: Whether it makes a different board for every seed.
         problem: Why it cannot be played; empty if it can.
     """
 
@@ -37,13 +37,13 @@ class TableEntry(NamedTuple):
 
 
 class ScoreRow(NamedTuple):
-    """One line of a score table.
+    """A row of a high-score list.
 
     Attributes:
-        initials: Whose it is.
+        initials: Of the player.
         score: Points.
-        date: As it is to be read.
-        key: What names it for `WatchScore`; empty if its game was not kept.
+        date: As displayed.
+        key: Identifies its replay for `WatchScore`; empty if there is no replay.
     """
 
     initials: str
@@ -53,11 +53,11 @@ class ScoreRow(NamedTuple):
 
 
 class JoystickEntry(NamedTuple):
-    """A joystick that is plugged in.
+    """A connected joystick.
 
     Attributes:
-        guid: What its maker tells it by; its buttons are kept under it.
-        title: What the player reads.
+        guid: Identifies its make; the settings store its bindings under it.
+        title: Its displayed name.
         buttons: How many it has.
     """
 
@@ -67,33 +67,32 @@ class JoystickEntry(NamedTuple):
 
 
 class Page(ABC):
-    """One page: it answers buttons and draws itself."""
+    """A menu page: it handles buttons and draws itself."""
 
     name = "page"
     repeats = True
-    """Whether a paddle button that is held counts again and again."""
-    quiet = True
-    """Whether the program may begin to play by itself when nobody touches anything; where not, then neither
-    on the pages that are opened from here."""
-    extra_patience = 0.0
-    """How much longer than elsewhere that takes [s]."""
+    """Whether a held paddle button repeats."""
+    allows_attract = True
+    """Whether the attract mode may begin on this page, and on pages opened from it, when nobody is active."""
+    extra_idle_time = 0.0
+    """How much longer than on other pages that takes [s]."""
     shown_at = 0.0
-    """Since when it is shown as it is [s]: texts begin to scroll then."""
+    """Since when the page is shown in its current state [s]: texts begin to scroll then."""
 
     @abstractmethod
     def press(self, button: Button, context: MenuContext) -> Command | None:
-        """Answer a button."""
+        """Handle a button."""
 
     @abstractmethod
     def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
-        """The page at a time, the clock being that of `context.now`; `below` is what the game shows."""
+        """Draw the page at a time of the clock of `context.now`; `below` is the display of the game."""
 
     def tick(self, context: MenuContext) -> Command | None:
-        """Time has gone on."""
+        """Handle the passing of time."""
         return None
 
     def signature(self) -> Hashable:
-        """What tells states of this page apart in which buttons do different things."""
+        """Return a value that differs between states in which buttons do different things."""
         return ()
 
 
@@ -101,25 +100,25 @@ class MenuContext:
     """The shared state of all pages.
 
     Attributes:
-        settings: As they are now.
-        tables: All tables that can be chosen.
-        scores: The best scores of a table and a mode, the best first.
+        settings: The player's settings.
+        tables: All tables to choose from.
+        scores: The scores of a table and a mode, best first.
         actions: All actions that have keys.
         themes: Names of all themes.
-        seed: Of the next random board; None for a new one.
-        last_seed: Of the board that was played last; None if there was none.
+        seed: Of the next random board; None draws one.
+        last_seed: Of the random board shown last; None if there was none.
         has_last_game: Whether there is a last game to watch.
-        demo_player: Who plays while the program plays by itself; None if it has not done so yet.
-        joysticks: Those that are plugged in.
-        labels: What stands on keys on the layout in use, by their names, where it is something else.
+        demo_player: Who plays the demo; None before the first demo.
+        joysticks: The connected joysticks.
+        key_labels: Labels of keys on the current layout, by key name, where they differ from the name.
         now: The time of the last tick [s].
-        idle: How long nobody has touched anything by then [s].
-        pages: The open pages, the visible one last; none while the game runs.
+        idle: How long no button had been pressed by then [s].
+        pages: The open pages, the visible one last; none while a game is running.
     """
 
     def __init__(
         self,
-        settings: Settings,
+        settings: PlayerSettings,
         tables: Sequence[TableEntry],
         scores: Callable[[str, Mode], Sequence[ScoreRow]],
         actions: Sequence[ActionBinding],
@@ -135,11 +134,35 @@ class MenuContext:
         self.has_last_game = False
         self.demo_player: DemoPlayer | None = None
         self.joysticks: Sequence[JoystickEntry] = ()
-        self.labels: Mapping[str, str] = {}
+        self.key_labels: Mapping[str, str] = {}
         self.now = self.idle = 0.0
         self.pages: list[Page] = []
         self._message = ("", 0.0)
-        self._left: list[Page] = []  # the pages that were open when a replay began
+        self._suspended: list[Page] = []  # the pages that were open when a replay began
+
+    @property
+    def table(self) -> TableEntry:
+        """The chosen table; one whose file has disappeared stays chosen under its name."""
+        name = self.settings.current.table
+        return next((entry for entry in self.tables if entry.name == name), TableEntry(name, name))
+
+    @property
+    def mode(self) -> Mode:
+        """The chosen mode."""
+        return Mode(self.settings.current.mode)
+
+    @property
+    def score_lists(self) -> list[tuple[TableEntry, Mode, Sequence[ScoreRow]]]:
+        """All score lists that are not empty, the one of the chosen table and mode first."""
+        settings = self.settings.current
+        lists = [
+            (entry, mode, rows)
+            for entry in self.tables
+            for mode in (Mode.ARCADE, Mode.FREE)
+            if (rows := self.scores(entry.name, mode))
+        ]
+        lists.sort(key=lambda one: (one[0].name, one[1]) != (settings.table, settings.mode))
+        return lists
 
     def open(self, page: Page) -> None:
         """Show a page on top of the others."""
@@ -147,72 +170,43 @@ class MenuContext:
         self.pages.append(page)
 
     def back(self) -> None:
-        """Show the page below; the lowest one stays."""
+        """Show the page below; the bottom page stays."""
         if len(self.pages) > 1:
             self.pages.pop()
             self.pages[-1].shown_at = self.now
 
     def close(self) -> None:
-        """Show the game."""
+        """Close all pages."""
         self.pages.clear()
-        self._left.clear()
+        self._suspended.clear()
 
-    def leave(self) -> None:
-        """Show a replay, and come back to these pages after it."""
-        self._left = self.pages.copy()
+    def suspend(self) -> None:
+        """Hide all pages while a replay or a demo is shown."""
+        self._suspended = self.pages.copy()
         self.pages.clear()
 
-    def come_back(self) -> bool:
-        """Show the pages again that a replay has hidden; False if there were none."""
-        self.pages, self._left = self._left, []
+    def resume(self) -> bool:
+        """Show the suspended pages again; return whether there were any."""
+        self.pages, self._suspended = self._suspended, []
         return bool(self.pages)
 
-    def change(self, **values: Any) -> Change:
-        """Change some settings."""
-        return self.use(self.settings.changed(**values))
-
-    def use(self, settings: Settings) -> Change:
-        """Change the settings."""
-        self.settings = settings
-        return Change(settings)
-
-    def say(self, text: str) -> None:
+    def show_message(self, text: str) -> None:
         """Show a message on whatever page is open."""
         self._message = (text, self.now)
 
     def message(self, seconds: float) -> tuple[str, float]:
-        """What is to be said at a time, and for how long it has been said [s]; empty if nothing."""
+        """Return the message at a time and for how long it has been shown [s]; empty if there is none."""
         text, since = self._message
-        length = max(MESSAGE_TIME, page_layout.scroll_time(NORMAL.width(text)))
+        length = max(MIN_MESSAGE_TIME, page_layout.scroll_time(NORMAL.width(text)))
         return (text, seconds - since) if since <= seconds < since + length else ("", 0.0)
 
-    def table(self) -> TableEntry:
-        """The chosen table; one that is no longer there keeps its name: nothing is chosen in secret."""
-        name = self.settings.table
-        return next((entry for entry in self.tables if entry.name == name), TableEntry(name, name))
-
-    def mode(self) -> Mode:
-        """The chosen game."""
-        return Mode(self.settings.mode)
-
-    def key(self, action: str) -> str:
-        """The first key of an action as the display writes it."""
-        for line in self.actions:
-            if line.action == action and keys_for(self.settings, line):
-                return self.shown(keys_for(self.settings, line)[0])
+    def key_label(self, action: str) -> str:
+        """Return the first key of an action as the display writes it; "?" if it has none."""
+        for binding in self.actions:
+            if binding.action == action and (keys := keys_for(self.settings.current, binding)):
+                return self.button_label(keys[0])
         return "?"
 
-    def shown(self, name: str) -> str:
-        """A key or button as the display writes it."""
-        return shown(name, self.labels)
-
-    def boards(self) -> list[tuple[TableEntry, Mode, Sequence[ScoreRow]]]:
-        """All score tables that have scores, that of the chosen table and game first."""
-        found = [
-            (entry, mode, rows)
-            for entry in self.tables
-            for mode in (Mode.ARCADE, Mode.FREE)
-            if (rows := self.scores(entry.name, mode))
-        ]
-        found.sort(key=lambda board: (board[0].name, board[1]) != (self.settings.table, self.settings.mode))
-        return found
+    def button_label(self, name: str) -> str:
+        """Return a key or button as the display writes it."""
+        return display_name(name, self.key_labels)

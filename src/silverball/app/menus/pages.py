@@ -7,7 +7,6 @@ from collections.abc import Callable
 from silverball.app.demo_players import DEMO_PLAYERS
 from silverball.app.menus.choice import ChoicePage, Item, Value
 from silverball.app.menus.commands import (
-    Change,
     Command,
     EndGame,
     Play,
@@ -27,8 +26,8 @@ from silverball.app.menus.high_scores import ScoresPage
 from silverball.app.menus.remap import remap_page
 
 SEED_DIGITS = 9
-BROKEN = "!"  # before the name of a table that cannot be played
-MAX_PROBLEM_LENGTH = 120  # letters of a problem that scroll by; choosing the table tells all of it
+BROKEN_MARK = "!"  # before the name of a table that cannot be played
+MAX_PROBLEM_LENGTH = 120  # letters of a problem in the list; choosing the table shows all of it
 
 MODE = Value(
     "mode",
@@ -44,14 +43,14 @@ def main_page(context: MenuContext) -> ChoicePage:
     def play() -> Command:
         context.close()
         return Play(
-            context.mode(), context.settings.table, context.seed if context.table().is_random else None
+            context.mode, context.settings.current.table, context.seed if context.table.is_random else None
         )
 
     def items() -> list[Item]:
-        title = _title(context.table())
+        title = _title(context.table)
         return [
-            Item("PLAY", f"{MODE.shown[MODE.place(context)]} · {title}", play),
-            Item("MODE", MODE.hints[MODE.place(context)], value=MODE),
+            Item("PLAY", f"{MODE.labels[MODE.current_index(context)]} · {title}", play),
+            Item("MODE", MODE.hints[MODE.current_index(context)], value=MODE),
             Item("TABLE", f"IS {title}", lambda: context.open(table_page(context))),
             Item("WATCH", "GAMES PLAYED BY YOU OR BY ME", lambda: context.open(watch_page(context))),
             Item("SCORES", "THE BEST OF EVERY TABLE", lambda: context.open(ScoresPage())),
@@ -60,7 +59,7 @@ def main_page(context: MenuContext) -> ChoicePage:
         ]
 
     def leave() -> Command | None:
-        # Who goes back once too often must not lose the program: the second time is meant.
+        # The first "back" only selects QUIT, so that one press too many does not end the program.
         last = len(items()) - 1
         if page.index == last:
             return Quit()
@@ -72,111 +71,111 @@ def main_page(context: MenuContext) -> ChoicePage:
 
 
 def table_page(context: MenuContext) -> ChoicePage:
-    """All tables, and the board of the random ones."""
+    """All tables, and the seed of random boards."""
 
-    def take(entry: TableEntry) -> Change:
+    def choose(entry: TableEntry) -> None:
         context.back()
-        return context.change(table=entry.name)
+        context.settings.change(table=entry.name)
 
     def table_item(entry: TableEntry) -> Item:
         if entry.problem:
             hint = f"CANNOT BE PLAYED: {entry.problem[:MAX_PROBLEM_LENGTH].upper()}"
-            tell = ShowTableProblem(entry.name, entry.problem)
-            return Item(_title(entry), hint, lambda: tell, key=entry.name, does="SAY MORE")
-        hint = "THIS ONE IS CHOSEN" if entry.name == context.settings.table else entry.about.upper()
-        return Item(_title(entry), hint, lambda: take(entry), key=entry.name)
+            show_problem = ShowTableProblem(entry.name, entry.problem)
+            return Item(_title(entry), hint, lambda: show_problem, key=entry.name, verb="SAY MORE")
+        hint = "THIS ONE IS CHOSEN" if entry.name == context.settings.current.table else entry.about.upper()
+        return Item(_title(entry), hint, lambda: choose(entry), key=entry.name)
 
     def items() -> list[Item]:
-        listed = [table_item(entry) for entry in context.tables]
+        all_items = [table_item(entry) for entry in context.tables]
         if any(entry.is_random for entry in context.tables):
             seed = Item(
                 "BOARD SEED", _seed_text(context), lambda: context.open(seed_page(context)), key="seed"
             )
-            listed.append(seed)
-        return [*listed, _back_item(context)._replace(key="back")]
+            all_items.append(seed)
+        return [*all_items, _back_item(context)._replace(key="back")]
 
     names = [entry.name for entry in context.tables]
-    start = names.index(context.settings.table) if context.settings.table in names else 0
+    start = names.index(context.settings.current.table) if context.settings.current.table in names else 0
     return ChoicePage("table", "TABLE", items, start)
 
 
 def seed_page(context: MenuContext) -> ChoicePage:
-    """Which board a random table makes."""
+    """The seed of random boards."""
 
-    def take(seed: int | None) -> Command | None:
+    def choose(seed: int | None) -> Command | None:
         context.seed = seed
         context.back()
-        return ShowBoard(seed) if context.table().is_random else None
+        return ShowBoard(seed) if context.table.is_random else None
 
     def enter() -> None:
-        context.open(LettersPage("seed", "BOARD SEED", "0123456789", SEED_DIGITS, entered, least=1))
+        context.open(LettersPage("seed", "BOARD SEED", "0123456789", SEED_DIGITS, entered, min_length=1))
 
     def entered(text: str) -> Command | None:
         context.back()
-        return take(int(text))
+        return choose(int(text))
 
     def items() -> list[Item]:
-        listed = [Item("NEW", "ANOTHER BOARD EVERY GAME", lambda: take(None))]
+        all_items = [Item("NEW", "ANOTHER BOARD EVERY GAME", lambda: choose(None))]
         if context.last_seed is not None:
             seed = context.last_seed
-            listed.append(Item("THE SAME", f"SEED {seed} AGAIN", lambda: take(seed)))
-        return [*listed, Item("NUMBER", "ENTER A SEED BY DIGITS", enter), _back_item(context)]
+            all_items.append(Item("THE SAME", f"SEED {seed} AGAIN", lambda: choose(seed)))
+        return [*all_items, Item("NUMBER", "ENTER A SEED BY DIGITS", enter), _back_item(context)]
 
     return ChoicePage("board", lambda: f"BOARD: {_seed_text(context)}", items)
 
 
 def watch_page(context: MenuContext) -> ChoicePage:
-    """Which game to watch."""
+    """The games to watch."""
 
     def last() -> Command:
-        context.leave()
+        context.suspend()
         return WatchLast()
 
-    def machine(player: str) -> Command:
-        context.leave()
+    def demo(player: str) -> Command:
+        context.suspend()
         return WatchDemo(player)
 
     def items() -> list[Item]:
-        listed = []
+        all_items = []
         if context.has_last_game:
-            listed.append(Item("LAST GAME", "AS YOU PLAYED IT", last))
-        if any(row.key for _, _, rows in context.boards() for row in rows):
-            listed.append(
-                Item("HIGH SCORES", "HOW THEY WERE MADE", lambda: context.open(champions_page(context)))
+            all_items.append(Item("LAST GAME", "AS YOU PLAYED IT", last))
+        if any(row.key for _, _, rows in context.score_lists for row in rows):
+            all_items.append(
+                Item("HIGH SCORES", "HOW THEY WERE MADE", lambda: context.open(high_scores_page(context)))
             )
         for player, label, hint, *_ in DEMO_PLAYERS:
-            place = f"{hint} ON {context.table().title.upper()}"
-            listed.append(Item(label, place, lambda player=player: machine(player)))  # type: ignore[misc]
-        return [*listed, _back_item(context)]
+            place = f"{hint} ON {context.table.title.upper()}"
+            all_items.append(Item(label, place, lambda player=player: demo(player)))  # type: ignore[misc]
+        return [*all_items, _back_item(context)]
 
     return ChoicePage("watch", "WATCH", items)
 
 
-def champions_page(context: MenuContext) -> ChoicePage:
+def high_scores_page(context: MenuContext) -> ChoicePage:
     """The games of the high scores."""
 
     def watch(key: str) -> Command:
-        context.leave()
+        context.suspend()
         return WatchScore(key)
 
     def items() -> list[Item]:
-        listed = [
+        all_items = [
             Item(
                 f"{place} {row.initials} {row.score:,}",
-                f"{entry.title.upper()} · {MODE.shown[MODE.choices.index(mode)]}",
-                lambda key=row.key: watch(key),  # type: ignore[misc]  # the key of this row, not of the last one
+                f"{entry.title.upper()} · {MODE.labels[MODE.choices.index(mode)]}",
+                lambda key=row.key: watch(key),  # type: ignore[misc]  # bind the key of this row
             )
-            for entry, mode, rows in context.boards()
+            for entry, mode, rows in context.score_lists
             for place, row in enumerate(rows, 1)
             if row.key
         ]
-        return [*listed, _back_item(context)]
+        return [*all_items, _back_item(context)]
 
-    return ChoicePage("champions", "WATCH A HIGH SCORE", items)
+    return ChoicePage("high_scores", "WATCH A HIGH SCORE", items)
 
 
 def settings_page(context: MenuContext) -> ChoicePage:
-    """What can be set."""
+    """The settings."""
     themes = tuple(context.themes)
     values = [
         ("COLOURS", Value("theme", themes, tuple(theme.upper().replace("_", " ") for theme in themes))),
@@ -215,9 +214,9 @@ def settings_page(context: MenuContext) -> ChoicePage:
 
 
 def _title(entry: TableEntry) -> str:
-    """A table as the display names it."""
+    """Return the displayed name of a table."""
     title = entry.title.upper()
-    return f"{BROKEN} {title}" if entry.problem else title
+    return f"{BROKEN_MARK} {title}" if entry.problem else title
 
 
 def _back_item(context: MenuContext) -> Item:
@@ -229,7 +228,7 @@ def _seed_text(context: MenuContext) -> str:
 
 
 def pause_page(context: MenuContext) -> ChoicePage:
-    """The game is paused."""
+    """The pause menu."""
 
     def resume() -> Command:
         context.close()
@@ -256,21 +255,21 @@ def pause_page(context: MenuContext) -> ChoicePage:
             Item("END GAME", "TO THE MAIN MENU", lambda: context.open(_sure(context, "END GAME?", end))),
         ]
 
-    return ChoicePage("pause", "PAUSE", items, back=resume, quiet=False)
+    return ChoicePage("pause", "PAUSE", items, back=resume, allows_attract=False)
 
 
 def over_page(context: MenuContext, score: int) -> ChoicePage:
-    """The game is over."""
+    """The menu after a game."""
     saved = False
 
     def again() -> Command:
         context.close()
         return Play(
-            context.mode(), context.settings.table, context.seed if context.table().is_random else None
+            context.mode, context.settings.current.table, context.seed if context.table.is_random else None
         )
 
     def watch() -> Command:
-        context.leave()
+        context.suspend()
         return WatchLast()
 
     def save() -> Command:
@@ -295,9 +294,9 @@ def over_page(context: MenuContext, score: int) -> ChoicePage:
 
 
 def _sure(context: MenuContext, title: str, do: Callable[[], Command]) -> ChoicePage:
-    """Ask before a game is given up."""
+    """Ask for confirmation before a game is given up."""
     items = [
         Item("NO", "GO BACK", context.back),
         Item("YES", "THIS GAME IS LOST THEN", do),
     ]
-    return ChoicePage("sure", title, lambda: items, quiet=False)
+    return ChoicePage("sure", title, lambda: items, allows_attract=False)

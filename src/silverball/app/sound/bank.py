@@ -28,13 +28,13 @@ from silverball.app.sound.synth import BELL_STEPS, Wave, finished, looped, soft_
 
 
 class Recipe(NamedTuple):
-    """How a sound is made.
+    """How to make a sound.
 
     Attributes:
-        make: The wave of a layer; the generator is that of the variation.
+        make: Makes the wave of a layer with the random generator of a variation.
         level: Loudness of its loudest moment at full strength [dB], see `loudness`.
-        layers: How many layers there are.
-        variations: How many variations of each.
+        layers: Number of layers.
+        variations: Number of variations of each layer.
     """
 
     make: Callable[[int, np.random.Generator], Wave]
@@ -68,18 +68,18 @@ RECIPES: dict[str, Recipe] = {
     "menu_refuse": Recipe(tunes.menu_refuse, -22.0),
     "attract": Recipe(tunes.attract, -22.0),
 }
-"""All sounds but the rolling of a ball, which is in `rolling.py`."""
+"""All sounds except the rolling of a ball, which is in `rolling.py`."""
 
 
 Samples: TypeAlias = NDArray[np.int16]
 
 FULL = 32767.0
 PEAK = 0.5
-"""No wave is higher, so that two of the loudest fit together without any limiting."""
+"""Peak of all waves, so that two of the loudest add up without limiting."""
 
 
 class Key(NamedTuple):
-    """Which wave of the bank: the recipe's name, layer and variation."""
+    """Identifies a wave of the bank: the name of the recipe, layer and variation."""
 
     name: str
     layer: int = 0
@@ -90,8 +90,8 @@ class Bank(NamedTuple):
     """All sounds.
 
     Attributes:
-        waves: By key.
-        loops: Rolling, one for each speed of `ROLL_SPEEDS`; seamless.
+        waves: All waves, by key.
+        loops: Seamless loops of rolling, one per speed of `ROLL_SPEEDS`.
     """
 
     waves: dict[Key, Samples]
@@ -105,14 +105,12 @@ class Bank(NamedTuple):
 
 @lru_cache(maxsize=1)
 def make_bank() -> Bank:
-    """Make all sounds; the same every time."""
+    """Make all sounds; the result is always the same."""
     waves = {}
     for number, (name, recipe) in enumerate(RECIPES.items()):
         for layer in range(recipe.layers):
             for variation in range(recipe.variations):
-                random = np.random.default_rng(
-                    [number, variation]
-                )  # layers differ in the blow, not in the thing
+                random = np.random.default_rng([number, variation])  # the same for all layers
                 wave = finished(recipe.make(layer, random))
                 waves[Key(name, layer, variation)] = to_samples(levelled(wave, recipe.level))
     loops = (to_samples(levelled(roll_loop(number), ROLL_LEVEL)) for number in range(len(ROLL_SPEEDS)))
@@ -120,19 +118,19 @@ def make_bank() -> Bank:
 
 
 def roll_loop(number: int) -> Wave:
-    """The loop of rolling at a speed of `ROLL_SPEEDS`."""
+    """Make the loop of rolling for one of `ROLL_SPEEDS`."""
     speed = ROLL_SPEEDS[number]
     loop = looped(roll_spectrum(roll_pitch(speed)), ROLL_SECONDS, number)
     return (loop * roll_wobble(speed)).astype(np.float32)
 
 
 def levelled(wave: Wave, level: float) -> Wave:
-    """A wave of a loudness [dB], or as loud as it can be below `PEAK`."""
+    """Scale a wave to a loudness [dB], limited to `PEAK`."""
     wave = wave * np.float32(10.0 ** ((level - loudness(wave)) / 20.0))
     return PEAK * soft_limit(wave / PEAK)
 
 
 def to_samples(wave: Wave) -> Samples:
-    """A wave in whole numbers."""
+    """Convert a wave to int16."""
     samples: Samples = np.rint(wave * FULL).astype(np.int16)
     return samples

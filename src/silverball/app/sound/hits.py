@@ -1,7 +1,7 @@
-"""What do the things on the board sound like? One function each, from the layer to a wave.
+"""Recipes for the sounds of the board: one function each, from a layer to a wave.
 
-A layer is how hard the blow was (0 soft, 1 hard), or for a cylinder the step of the scale. The generator
-draws what makes no two blows alike.
+A layer is how hard the blow was (0 soft, 1 hard), or for a cylinder the step of the scale. The random
+generator makes no two blows alike.
 """
 
 from __future__ import annotations

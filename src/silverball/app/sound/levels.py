@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from silverball.app.sound.synth import RATE, Wave
 
 MOMENT = 0.1
-"""Length of a moment [s]: about what the ear takes as one."""
+"""Length of a moment [s]: roughly what the ear integrates."""
 
 _SHELF_PITCH, _SHELF_GAIN, _SHELF_Q = 1681.974450955533, 3.999843853973347, 0.7071752369554196
 _LOW_PITCH, _LOW_Q = 38.13547087602444, 0.5003270373238773
 
 
 def loudness(wave: Wave) -> float:
-    """The loudness of the moment with the most power [dB]; a full sine of 1 kHz has −3 dB, silence −inf."""
+    """Return the loudness of the loudest moment [dB]; a full sine of 1 kHz has −3 dB, silence −inf."""
     moment = round(MOMENT * RATE)
     if len(wave) > moment:
         power = np.cumsum(wave.astype(np.float64) ** 2)
@@ -35,8 +35,8 @@ def loudness(wave: Wave) -> float:
 
 @lru_cache
 def k_weight(count: int) -> NDArray[np.float64]:
-    """The factor for every pitch of a Fourier transform of so many samples."""
-    # The analogue prototypes, without the warping of the digital ones: the same up to 0.3 dB below 10 kHz.
+    """Return the K-weight of every frequency of a Fourier transform of `count` samples."""
+    # The analogue prototypes; the digital filters differ from them by up to 0.3 dB below 10 kHz.
     s = 1j * np.fft.rfftfreq(count, 1.0 / RATE)
     lift = 10.0 ** (_SHELF_GAIN / 20.0)
     shelf = s / _SHELF_PITCH
@@ -47,25 +47,25 @@ def k_weight(count: int) -> NDArray[np.float64]:
 
 
 FULL_SPEED = 20.0
-"""Impact speed [u/s] from which on a hit is at full strength; a table's usual cap is 22."""
+"""Impact speed [u/s] of a hit at full strength; the usual speed limit of a table is 22."""
 
 LOUDNESS_POWER = 0.7
 """Strength = (speed / FULL_SPEED)^0.7, so twice the speed is 4.2 dB more. By energy it would be 6 dB, and the
-soft touches of a long rally would be lost; the ear calls 10 dB "twice as loud"."""
+soft touches of a long rally would be inaudible; 10 dB sound twice as loud."""
 
 SPREAD = 0.75
-"""How far to the side the table's border is; 1 would be wholly in one ear, unpleasant with headphones."""
+"""Pan of the table's border; 1 would be entirely in one ear, which is unpleasant with headphones."""
 
 
 def strength_of(speed: float) -> float:
-    """The strength of a hit, 0 to 1, by the impact speed [u/s]."""
+    """Return the strength of a hit, 0 to 1, from its impact speed [u/s]."""
     return float(min(max(speed, 0.0) / FULL_SPEED, 1.0) ** LOUDNESS_POWER)
 
 
 def pan(z: float, width: float) -> tuple[float, float]:
-    """Strength in the left and in the right ear at a place z [u] on a table of a width [u].
+    """Return the strength in the left and right ear at a place z [u] on a table of a width [u].
 
-    Constant power: their squares add up to 1, so that a ball seems as loud on its whole way across. Source:
+    Constant power: their squares add up to 1, so that a ball is equally loud everywhere. Source:
     the sine and cosine law, e.g. C. Roads, "The Computer Music Tutorial" (1996), ch. 11.
     """
     side = SPREAD * min(max(2.0 * z / width, -1.0), 1.0)

@@ -1,4 +1,4 @@
-"""What does the game itself sound like? Tunes and signals of the game and its menus, one function each."""
+"""Recipes for the tunes and signals of the game and its menus: one function each."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from silverball.app.sound.synth import (
 def _bells(
     random: np.random.Generator, seconds: float, *notes: tuple[float, int, float], decay: float = 0.7
 ) -> Wave:
-    """Bells: (start [s], step of the scale, strength)."""
+    """Play bells: (start [s], step of the scale, strength)."""
     return mix(
         seconds,
         *(
@@ -41,7 +41,7 @@ def _bells(
 
 
 def _reed(step: int, seconds: float, release: float = 0.12) -> Wave:
-    """A held note, like a small organ's: a few overtones, a slow start, a soft end."""
+    """Play a sustained note, like that of a small organ: a few overtones, a slow attack, a soft release."""
     tone = glide(lambda t: np.full_like(t, pitch_of(step)), seconds, (1.0, 0.5, 0.28, 0.14, 0.06))
     edge = min(release, 0.5 * seconds)
     time = np.arange(len(tone)) / RATE
