@@ -40,14 +40,14 @@ def open_window(
     replay: Replay | None = None,
 ) -> None:
     """Open the window and play, telling the terminal while the physics is being compiled."""
-    from silverball.app.startup import compiling_words
+    from silverball.app.startup import compiling_message
     from silverball.app.window import Window
     from silverball.cli.console import errors
 
     status = errors.status("compiling the physics…")
 
     def tell() -> None:
-        status.update(compiling_words())
+        status.update(compiling_message())
         status.start()
 
     window = Window(table, seed, mode=mode, replay=replay, on_compile=tell, on_ready=status.stop)

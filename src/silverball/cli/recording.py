@@ -101,11 +101,11 @@ def filmed(
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
         stage.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
-        events, news = stage.take_events(), stage.take_news()
-        display.tell(news)
+        events, news = stage.game.take_events(), stage.game.take_news()
+        display.add_events(news)
         renderer.note(events, world.tick_rate)
         if sound is not None:
-            sound.note(world, events, stage.game.held, news)
+            sound.add_picture(world, events, stage.game.held, news)
         dots, moment = display.frame(stage.game.face, number / rate), Moment.of(world)
         if not only_last or number == count:
             yield renderer.array(moment, dots)
