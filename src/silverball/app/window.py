@@ -30,6 +30,7 @@ from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
+from silverball.app.sound.voices import part_kinds
 from silverball.app.startup import Startup, compiling_message
 from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
@@ -118,6 +119,7 @@ class Window:
         self.program.settings.subscribe(self._apply_settings)
         self._session: Session | None = None
         self._before: Moment | None = None  # one tick before the present one
+        self._part_kinds: dict[str, str] = {}  # of the session's table, by name in events
         self._seconds = self._drawn_at = 0.0  # real time so far, and at the last frame
         self._moved_at = 0.0  # real time at the last frame in which the session had not ended
         for warning in filter(None, (self.store.trouble, self.sounds.warning)):
@@ -334,7 +336,7 @@ class Window:
             self.sounds.play_events(events, world.tick_rate, world.table.board.width)
         if session.is_played:
             for event in events:
-                if event.kind == "hit" and event.part.startswith("cylinder"):
+                if event.kind == "hit" and self._part_kinds.get(event.part) == "cylinder":
                     strength = min(event.speed / RUMBLE_SPEED, 1.0)
                     self.input_handler.gamepads.rumble(strength, RUMBLE_SECONDS)
 
@@ -348,6 +350,7 @@ class Window:
         self.debug.reset()
         self._clock = TickClock(session.game.tick_rate if session is not None else TICK_RATE)
         if session is not None:
+            self._part_kinds = part_kinds(session.game.world.table)
             self.sounds.begin_game(session.game.world.table)
 
     def _apply_settings(self, before: Settings, settings: Settings) -> None:

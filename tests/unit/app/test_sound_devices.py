@@ -23,6 +23,7 @@ from silverball.app.sound.sounds import master_volume
 from silverball.app.sound.synth import RATE
 from silverball.app.sound.voices import Note
 from silverball.game.view import GameEvent, GameEventKind
+from silverball.table import Cylinder, Table, load_table
 from silverball.world.events import Event
 
 WIDTH, TICKS = 10.0, 240
@@ -41,6 +42,7 @@ def dummy(monkeypatch):
     """Open sounds on a device that swallows everything."""
     monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
     sounds = Sounds(LOUD)
+    sounds.begin_game(_classic())
     sounds.open()
     assert sounds.warning == ""
     sounds.wait()
@@ -69,8 +71,6 @@ def use_all(sounds: Sounds) -> None:
 
 
 def _classic():
-    from silverball.table import load_table
-
     return load_table("classic")
 
 
@@ -147,6 +147,7 @@ def test_what_happens_is_played(dummy):
 
 
 def test_a_storm_of_a_thousand_events_has_few_voices(dummy):
+    dummy.begin_game(Table(cylinder=tuple(Cylinder(center=(0.0, 0.0), radius=1.0) for _ in range(40))))
     parts = [f"cylinder[{number}]" for number in range(40)]
     for frame in range(100):
         events = [
@@ -236,6 +237,7 @@ def played(file: Path) -> np.ndarray:
 
 def test_a_scripted_scene_is_heard_when_and_where_it_happens(disk):
     sounds, file = disk
+    sounds.begin_game(_classic())
     scene = [("board.left", -4.5), ("cylinder[0]", 0.0), ("triangular_prism[0]", 4.5), ("paddle.left", -2.0)]
     times = []
     for number, (part, z) in enumerate(scene):

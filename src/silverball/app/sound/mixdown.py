@@ -130,8 +130,7 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
     loops = [single(np.concatenate([loop, loop[:MAX_FADE]]) / FULL) for loop in bank.loops]
     total = np.zeros((2, max(round(seconds * RATE), 1)), np.float32)
     width = table.board.width
-    voices, rolling = Voices(), Rolling()
-    voices.begin_game(table)
+    voices, rolling = Voices(table), Rolling()
     gains: Gains = {}
     before = 0.0
     for frame in frames:

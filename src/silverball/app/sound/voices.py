@@ -86,12 +86,13 @@ class Note(NamedTuple):
 class Voices:
     """Turns events into notes; its memory keeps them varied, musical and few."""
 
-    def __init__(self) -> None:
+    def __init__(self, table: Table | None = None) -> None:
         self._next_variation: Counter[tuple[str, int]] = Counter()
-        self.begin_game(None)
+        self.begin_game(table)
 
     def begin_game(self, table: Table | None) -> None:
-        """Begin another game on a table; None: one with two default paddles."""
+        """Begin another game on a table; None: one with two default paddles and nothing else."""
+        self._kinds = part_kinds(table)
         self._paddles = (_Paddle(), _Paddle())
         if table is not None:
             for paddle, side in zip(self._paddles, ("left", "right"), strict=True):
@@ -147,7 +148,7 @@ class Voices:
             return None if self._is_repeat(0, "jitter", time, 0.8) else ("shove", 0, 0.8)
         if event.kind == "gutter":
             return "drain", 0, 0.9
-        name, least = _HITS.get(event.part.partition("[")[0].partition(".")[0], ("", 0.0))
+        name, least = _HITS.get(self._kinds.get(event.part, ""), ("", 0.0))
         if not name or event.kind == "jam":
             return None
         is_hit = event.kind in ("hit", "ball_hit")
@@ -254,6 +255,16 @@ class _Paddle:
             return None
         self._position = goal
         return seconds - left
+
+
+def part_kinds(table: Table | None) -> dict[str, str]:
+    """Return the kind of everything that a ball can hit, by its name in events; None: an empty table."""
+    kinds = {"ball": "ball", "board.left": "board", "board.right": "board", "board.top": "board"}
+    kinds |= {"paddle.left": "paddle", "paddle.right": "paddle"}
+    if table is not None:
+        for kind in ("slant_wall", "triangular_prism", "cylinder"):
+            kinds |= {f"{kind}[{number}]": kind for number in range(len(getattr(table, kind)))}
+    return kinds
 
 
 def step_of(run: int) -> int:
