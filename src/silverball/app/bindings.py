@@ -193,10 +193,10 @@ def with_assignment(
         action: The name of the action.
         names: Its keys or buttons from now on.
     """
-    differing: dict[str, tuple[str, ...]] = {}
+    changes: dict[str, tuple[str, ...]] = {}
     for binding in actions:
-        kept = names_for(settings, binding, kind)
-        mine = tuple(names) if binding.action == action else tuple(n for n in kept if n not in names)
-        if mine != binding.defaults(kind):
-            differing[binding.action] = mine
-    return with_bindings(settings, kind, differing)
+        before = names_for(settings, binding, kind)
+        after = tuple(names) if binding.action == action else tuple(n for n in before if n not in names)
+        if after != binding.defaults(kind):
+            changes[binding.action] = after
+    return with_bindings(settings, kind, changes)

@@ -34,7 +34,7 @@ class CurrentBoard:
         table: The board: a table whose random parts are placed.
         recipe: The table that it was made from.
         seed: The seed that it was made with.
-        is_unplayed: Whether nobody has played on it yet.
+        is_unplayed: Whether no game has been played on it yet.
 
     Raises:
         SilverballError: The chosen table cannot be used.
@@ -96,7 +96,7 @@ class CurrentBoard:
             key: The key that makes a new board, as the display writes it.
 
         Returns:
-            What to tell the player; None if no board could be made, which the player has been told.
+            A message for the player; None if no board could be made, which has been reported.
         """
         name, before = self._settings.current.table, self.recipe
         try:

@@ -202,7 +202,7 @@ def table_problem_text(name: str, problem: str) -> str:
 
 
 def table_error_text(name: str, error: SilverballError) -> str:
-    """The same from the error that loaded the table has raised."""
+    """Return the same sentence for the error that reading the table raised."""
     return table_problem_text(name, first_problem(error))
 
 

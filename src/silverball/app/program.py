@@ -187,7 +187,7 @@ class Program:
 
     @contextmanager
     def stopping_on_error(self) -> Iterator[None]:
-        """Stop watching if the session cannot go on: a replay may not match the game it claims to be."""
+        """Stop watching if the session fails: a replay may not match the game that it claims to be."""
         try:
             yield
         except SilverballError as error:

@@ -72,7 +72,7 @@ class ChoicePage(Page):
     Args:
         name: Identifies it.
         title: Shown above the items.
-        items: Returns the current items; asked anew whenever it is is_required, elapsed settings change.
+        items: Returns the current items; called on every use, since settings change.
         start: Index of the item shown first.
         back: Called by "back" instead of showing the page below.
         allows_attract: See `Page`.

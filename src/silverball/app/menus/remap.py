@@ -170,8 +170,8 @@ class CapturePage(Page):
         return self.kind, self._binding.action, self._way
 
     def _bind(self, context: MenuContext, name: str, kind: DeviceKind) -> None:
-        kept = names_for(context.settings.current, self._binding, kind) if self._way == "more" else ()
-        names = (*(one for one in kept if one != name), name)
+        before = names_for(context.settings.current, self._binding, kind) if self._way == "more" else ()
+        names = (*(one for one in before if one != name), name)
         context.show_message(f"{self._binding.label}: {_names(context, names)}")
         context.settings.replace(
             with_assignment(context.settings.current, context.actions, kind, self._binding.action, names)

@@ -2,7 +2,7 @@
 
 `Sounds` plays sounds for a window, `FilmSound` collects them for a film. Sounds are recipes (`hits.py`,
 `tunes.py`, `rolling.py`) on top of `synth.py`; `bank.py` makes them all at the right loudness; `voices.py`
-decides which ones are heard; `mixer.py` plays them.
+selects them; `mixer.py` plays them.
 """
 
 from silverball.app.sound.mixdown import FilmSound, Frame, mixdown, rolling_balls, write_wav

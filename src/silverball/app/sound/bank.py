@@ -58,7 +58,7 @@ RECIPES: dict[str, Recipe] = {
     "ball_saved": Recipe(tunes.ball_saved, -18.0),
     "warning": Recipe(tunes.warning, -18.0),
     "tilt": Recipe(tunes.tilt, -16.0),
-    "un_stuck": Recipe(tunes.un_stuck, -20.0),
+    "unstuck": Recipe(tunes.unstuck, -20.0),
     "double_on": Recipe(tunes.double_on, -18.0),
     "game_over": Recipe(tunes.game_over, -18.0),
     "high_score": Recipe(tunes.high_score, -16.0),

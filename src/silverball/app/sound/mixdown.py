@@ -44,7 +44,7 @@ class Soundtrack(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """What is heard during one frame of the film.
+    """The sound events of one frame of the film.
 
     Attributes:
         time: End of the frame in the film [s].

@@ -148,15 +148,15 @@ def _sound(wave: Samples) -> pygame.mixer.Sound:
 def _without_stderr() -> Iterator[None]:
     """Suppress messages of the sound system about a missing device; `Sounds.warning` reports it."""
     try:
-        kept = os.dup(2)
+        stderr = os.dup(2)
     except OSError:  # there is no standard error, as with pythonw
         yield
         return
-    nothing = os.open(os.devnull, os.O_WRONLY)
+    devnull = os.open(os.devnull, os.O_WRONLY)
     try:
-        os.dup2(nothing, 2)
+        os.dup2(devnull, 2)
         yield
     finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        os.close(nothing)
+        os.dup2(stderr, 2)
+        os.close(stderr)
+        os.close(devnull)

@@ -57,7 +57,7 @@ def roll_wobble(speed: float) -> Wave:
     return 1.0 + 0.22 * np.sin(2.0 * np.pi * turns * np.arange(count) / count)
 
 
-# --- which loops are heard ------------------------------------------------------------------------------
+# --- blending of the loops ------------------------------------------------------------------------------
 
 LANES = 3
 """Balls that are heard at once: two, and one that has just left and fades."""

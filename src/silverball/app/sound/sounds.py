@@ -125,7 +125,7 @@ class Sounds:
         self._play(self._voices.menu(what))
 
     def pause(self) -> None:
-        """Pause: rolling fades, struck things ring out, menus are still heard."""
+        """Pause: rolling fades, hits ring out, menus stay audible."""
         self._is_paused = True
         self._end_rolling()
 

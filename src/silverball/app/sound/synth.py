@@ -92,11 +92,11 @@ def ring(partials: Sequence[Partial], seconds: float) -> Wave:
         if pitch >= 0.45 * RATE:
             continue
         exponent = complex(-math.log(1000.0) / decay, 2.0 * math.pi * pitch) / RATE
-        heard = min(blocks, math.ceil(sample_count(-NATURAL / 60.0 * decay) / _BLOCK))
-        coarse = strength * np.exp(exponent * _BLOCK * np.arange(heard))
+        audible = min(blocks, math.ceil(sample_count(-NATURAL / 60.0 * decay) / _BLOCK))
+        coarse = strength * np.exp(exponent * _BLOCK * np.arange(audible))
         fine = np.exp(exponent * np.arange(_BLOCK))
-        wave[:heard] += np.outer(coarse.real.astype(np.float32), fine.imag.astype(np.float32))
-        wave[:heard] += np.outer(coarse.imag.astype(np.float32), fine.real.astype(np.float32))
+        wave[:audible] += np.outer(coarse.real.astype(np.float32), fine.imag.astype(np.float32))
+        wave[:audible] += np.outer(coarse.imag.astype(np.float32), fine.real.astype(np.float32))
     return wave.reshape(-1)[:count]
 
 

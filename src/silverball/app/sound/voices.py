@@ -52,7 +52,7 @@ _GAME_SOUNDS = {
     GameEventKind.BALL_SAVED: "ball_saved",
     GameEventKind.WARNING: "warning",
     GameEventKind.TILT: "tilt",
-    GameEventKind.UN_STUCK: "un_stuck",
+    GameEventKind.UN_STUCK: "unstuck",
     GameEventKind.DOUBLE_ON: "double_on",
     GameEventKind.OVER: "game_over",
 }
@@ -122,21 +122,21 @@ class Voices:
         if not events:
             return []
         end = now if now is not None else _time(events[-1], tick_rate)
-        heard = []
+        chosen = []
         for event in events:
             time = _time(event, tick_rate)
             found = self._sound_of(event, time)
             if found is not None:
                 name, layer, strength = found
-                heard.append((strength, time, name, layer, event.position[2]))
+                chosen.append((strength, time, name, layer, event.position[2]))
         self._combos.clear()
-        heard.sort(key=lambda one: (-one[0], one[1]))
-        del heard[MAX_NEW:]
-        total = sum(one[0] for one in heard)
+        chosen.sort(key=lambda one: (-one[0], one[1]))
+        del chosen[MAX_NEW:]
+        total = sum(one[0] for one in chosen)
         less = min(1.0, MAX_AT_ONCE / total) if total else 1.0
         return [
             self._note(name, layer, less * strength, pan(z, width), max(end - time, 0.0))
-            for strength, time, name, layer, z in heard
+            for strength, time, name, layer, z in chosen
         ]
 
     def _sound_of(self, event: Event, time: float) -> tuple[str, int, float] | None:
