@@ -1,4 +1,4 @@
-"""A program without a window, and somebody who spends an evening at it."""
+"""A program without a window, and a player for it."""
 
 from __future__ import annotations
 

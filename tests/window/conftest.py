@@ -1,4 +1,4 @@
-"""A window on SDL's dummy driver, moved frame by frame, with keys that come through SDL's own queue."""
+"""A window on SDL's dummy driver, advanced frame by frame, with keys through SDL's own queue."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What keys and gamepad buttons ask for, without a window."""
+"""Actions of keys and gamepad buttons, without a window."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Is a game in a window kept while another program holds the file of the scores?"""
+"""A game in a window while another program locks the file of the scores."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Gamepads and joysticks: those that SDL has no names for, and those that come and go."""
+"""Gamepads and joysticks: devices without a mapping in SDL, and devices that come and go."""
 
 from __future__ import annotations
 

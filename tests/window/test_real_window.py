@@ -1,4 +1,4 @@
-"""The real window on a real X server, worked with real keys: Xvfb shows it, xdotool presses.
+"""The real window on a real X server, operated with real keys: Xvfb shows it, xdotool presses.
 
 Needs Debian's packages xvfb and xdotool, which `.ci/run` installs; without them these tests are skipped.
 """

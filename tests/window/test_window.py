@@ -1,4 +1,4 @@
-"""The window itself: time, size, what it draws, and what it leaves behind."""
+"""The window itself: time, size, drawing, and what remains after it closes."""
 
 from __future__ import annotations
 
@@ -151,7 +151,7 @@ def test_the_first_window_fits_a_screen_of_768_pixels(player):
     screen = player.window._screen
     screen.desktop = (1366, 768)
     title_and_task_bar = 60  # [pixel] of the common desktops together
-    assert 600 < screen.first_height <= 768 - title_and_task_bar
+    assert 600 < screen.max_initial_size[1] <= 768 - title_and_task_bar
 
 
 def test_a_dummy_display_is_no_display_and_the_message_names_the_demo():

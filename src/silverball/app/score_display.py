@@ -94,7 +94,7 @@ class ScoreDisplay:
                     self._enqueue(announcement)
 
     def show_message(self, text: str, *, replace: bool = False) -> None:
-        """Announcement a short message below the score, in capitals; a long one scrolls.
+        """Show a short message below the score, in capitals; a long one scrolls.
 
         Args:
             text: The message.

@@ -52,11 +52,6 @@ class Screen:
         return max(size[0], 1), min(max(size[1], 1), MAX_HEIGHT)
 
     @property
-    def first_height(self) -> int:
-        """The height [pixel] at which the whole window, its decorations included, fits the screen."""
-        return self.max_initial_size[1]
-
-    @property
     def refresh_rate(self) -> int:
         """The refresh rate [1/s] of the screen on which the window is, within `FRAME_RATES`."""
         rates = pygame.display.get_desktop_refresh_rates()

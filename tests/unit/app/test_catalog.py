@@ -1,4 +1,4 @@
-"""Which tables the menu offers, whatever lies in the folder of one's own tables, and what is told of it."""
+"""The tables in the menu for any content of the user's folder, and the messages about them."""
 
 from __future__ import annotations
 

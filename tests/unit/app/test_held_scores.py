@@ -1,4 +1,4 @@
-"""What does a player see and keep while another program holds the file of the scores?"""
+"""Scores and settings while another program locks the file of the scores."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which key is meant by a name, on layouts that are made up here?"""
+"""Key names resolved on made-up keyboard layouts."""
 
 from __future__ import annotations
 

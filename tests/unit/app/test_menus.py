@@ -1,4 +1,4 @@
-"""Do the menus ask for what the player chose?"""
+"""The menus: commands, settings and what they draw."""
 
 import pytest
 from hypothesis import given

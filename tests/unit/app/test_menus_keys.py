@@ -1,4 +1,4 @@
-"""Can keys and gamepad buttons be changed without silently losing one?"""
+"""Remapping keys and gamepad buttons, without silently losing one."""
 
 import pytest
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""Can initials and seeds be typed, and are paddle keys that bear letters still paddles until then?"""
+"""Typing initials and seeds; paddle keys with letters stay paddles until another letter is typed."""
 
 import string
 

@@ -1,4 +1,4 @@
-"""Which pages wait for ever for somebody who has gone, and what becomes of the others?"""
+"""Idle menus: which pages wait forever, and what the others do."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Can every page be reached and left with three buttons alone, and drawn at any time?
+"""Every page can be reached and left with three buttons, and drawn at any time.
 
 The whole graph is walked, breadth first: from each page that a window can open, every button is pressed in
 every state. Since states hold functions they cannot be copied; each is reached anew by its presses.

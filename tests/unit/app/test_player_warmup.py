@@ -1,4 +1,4 @@
-"""How players get ready in the background: never half, and never compiled in the game's own process."""
+"""Players warmed up in the background: never half ready, and never compiled in the game's own process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the program does when buttons are pressed and time goes on, without a window."""
+"""The program without a window: buttons and time."""
 
 from __future__ import annotations
 

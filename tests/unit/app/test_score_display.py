@@ -1,4 +1,4 @@
-"""Does the display tell what happens, without hiding the score for long?"""
+"""The score display announces events without hiding the score for long."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Does the page on how to score say what the table's own rules are?"""
+"""The scoring page of the help agrees with the rules of the table."""
 
 import re
 

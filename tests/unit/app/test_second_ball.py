@@ -1,4 +1,4 @@
-"""In arcade a second ball is one of three: is it spent by nothing but a second press?"""
+"""In arcade a second ball is one of three, and only a second press spends it."""
 
 from __future__ import annotations
 

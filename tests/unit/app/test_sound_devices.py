@@ -1,4 +1,4 @@
-"""Through pygame's own mixer: no device, a device that swallows all, and one that writes it into a file."""
+"""Sounds through pygame's mixer: without a device, with a dummy, and with one that writes a file."""
 
 from __future__ import annotations
 

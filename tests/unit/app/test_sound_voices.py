@@ -1,4 +1,4 @@
-"""What is played for what happens: strengths, places, steps of the scale, and limits."""
+"""The notes of events: strengths, panning, steps of the scale, and limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Waves of the bank: finite, without clicks and offset, at the pitches and the loudness that are promised."""
+"""Waves of the bank: finite, without clicks and offset, at the specified pitches and loudness."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Has each game a table of its own, and does it begin with the right one?"""
+"""Each mode has its own table and begins with it."""
 
 import pytest
 

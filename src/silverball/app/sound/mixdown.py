@@ -108,7 +108,7 @@ class FilmSound:
 
 
 def rolling_balls(world: World) -> tuple[RollingBall, ...]:
-    """The balls of a world, as rolling wants to know them."""
+    """Return the balls of a world for `Rolling`."""
     return tuple(
         RollingBall(
             ball.id, ball.position[0], ball.position[2], float(np.hypot(ball.velocity[0], ball.velocity[2]))
