@@ -108,7 +108,7 @@ def test_space_brings_two_balls_at_most_and_says_why_no_third(player):
         assert not player.says
     player.tap(pygame.K_SPACE)
     assert len(player.world.balls) == 2
-    assert player.says == "2 balls are the most."
+    assert player.says == "At most 2 balls at a time."
 
 
 def test_z_changes_the_velocity_of_the_ball_and_without_a_ball_says_why_not(player):
@@ -182,7 +182,7 @@ def test_the_help_stops_the_time_while_it_is_shown(player):
     player.seconds(0.2)
     assert player.world.tick == tick
     player.tap(pygame.K_SPACE)
-    assert "F1 goes on" in player.says
+    assert "F1 continues" in player.says
     player.tap(pygame.K_F1)
     player.seconds(0.2)
     assert player.world.tick > tick

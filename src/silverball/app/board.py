@@ -107,10 +107,10 @@ class CurrentBoard:
             except SilverballError as no_board:
                 self._show_message(str(no_board))
                 return None
-            return f"{table_error_text(name, error)}. This is the table as it was"
+            return f"{table_error_text(name, error)}. This is the previous version of the table"
         reread = f"{quoted_file_name(name)} was read again" if self.recipe != before else ""
         if self.recipe.random is None:
-            fixed = f"{plain(self.table.name)} is always the same table; the balls come at other places"
+            fixed = f"{plain(self.table.name)} is always the same table; only the balls start elsewhere"
             return reread or fixed
         is_new = seed is None
         text = (
@@ -136,4 +136,6 @@ class CurrentBoard:
         elif change.table is not None:
             self._show_message(f"{quoted_file_name(name)} has changed: {key} plays the new one")
         else:
-            self._show_message(f"{table_problem_text(name, change.problem)}. {key} plays the table as it was")
+            self._show_message(
+                f"{table_problem_text(name, change.problem)}. {key} plays the previous version"
+            )

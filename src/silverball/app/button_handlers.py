@@ -81,8 +81,8 @@ def _try(program: Program, request: Callable[[], object]) -> None:
         request()
     except BoardFull:
         count = program.board.table.board.max_balls
-        program.show_message("one ball is the most" if count == 1 else f"{count} balls are the most")
+        program.show_message("only one ball at a time" if count == 1 else f"at most {count} balls at a time")
     except NoRoom:
-        program.show_message("there is no room for a ball now")
+        program.show_message("there is no space for a ball right now")
     except SilverballError as error:
         program.show_message(str(error))

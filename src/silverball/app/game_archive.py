@@ -40,12 +40,10 @@ class GameResult(NamedTuple):
 
 RETRY_SECONDS = 1.0  # between two attempts to write what is pending
 REMIND_SECONDS = 10.0  # between two messages about a score that is not yet saved
-LOST = "this score cannot be kept: the data folder cannot be written"
-PENDING = "another program holds the scores: this one is kept in a file beside them until it can join them"
-NOT_YET_SAVED = (
-    "this score is not yet saved: another program holds the scores. It is tried again every second"
-)
-SAVED = "the score is now among the others"
+LOST = "this score cannot be saved: the data folder cannot be written"
+PENDING = "another program has locked the scores: this one is saved in a separate file for now"
+NOT_YET_SAVED = "this score is not yet saved: another program has locked the scores. Retrying every second"
+SAVED = "the score is now in the list of scores"
 
 
 class GameArchive:

@@ -171,7 +171,7 @@ class InputHandler:
             self._gamepads_in_use.add(button.pad)
             self._press(button.source, action)
         elif button.name.startswith("button"):
-            self._messages.show(f"{button.name} does nothing here; settings, gamepad, can change that")
+            self._messages.show(f"{button.name} does nothing here; the gamepad settings can change that")
 
     def _devices_changed(self, event: pygame.Event) -> None:
         """A gamepad or joystick was connected or removed."""
@@ -229,7 +229,7 @@ class InputHandler:
             self._turn_help()
         key = self._help_key("Esc")
         if self._program.has_game and action not in PADDLES:
-            self._messages.show(f"the game waits while the help is shown; {key} goes on")
+            self._messages.show(f"the game is paused while the help is shown; {key} continues")
         elif action not in (*PADDLES, Action.CREATE):
             self._messages.show(f"{key} leaves the help")
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from silverball.game.scores.store import Store
     from silverball.table import Table
 
-LOADING_MESSAGE = "one moment, please: the physics is being made ready"
+LOADING_MESSAGE = "one moment, please: the physics is being loaded"
 GAME_OVER_SECONDS = 2.5  # for which the end of a game is shown before a menu page opens
 FILE_CHECK_INTERVAL = 0.5  # [s] between two checks whether a table file has changed
 REPLAY_LOOKAHEAD = 480  # [tick] that a replay is prepared ahead, so that a jump is fast
@@ -232,7 +232,7 @@ class Program:
         """Pause the game, because the gamepad in use was unplugged."""
         if self.is_playing:
             self.menus.open_pause()
-            self.show_message(f"{title} is gone: the game waits")
+            self.show_message(f"{title} was unplugged: the game is paused")
 
     def create_ball(self, session: GameSession) -> None:
         """Create a ball, or ask on the display whether to spend one.
@@ -253,7 +253,7 @@ class Program:
         """Play slower (-1) or faster (+1), by one step."""
         self._speed = min(max(self._speed + step, 0), self._max_speed)
         if isinstance(self.session, GameSession):
-            self.show_message("as fast as ever" if self.speed == 1.0 else f"{self.speed:g} of the speed")
+            self.show_message("normal speed" if self.speed == 1.0 else f"speed ×{self.speed:g}")
         if self.speed < 1.0:
             self._exclude_from_scores()
 
@@ -270,7 +270,7 @@ class Program:
         session = self.session
         if self._is_ranked and isinstance(session, GameSession) and session.game.mode is Mode.ARCADE:
             self._is_ranked = False
-            self.show_message("slowed down, this game no longer counts for the scores")
+            self.show_message("slowed down, this game no longer counts for the high scores")
 
     def _key_label(self, action: Action) -> str:
         """The first key of an action, as the display writes it."""

@@ -185,7 +185,7 @@ def test_r_plays_the_old_table_when_the_file_has_been_broken_and_says_why(mine, 
     assert mine.program.is_playing
     assert mine.program.session.game.world.created == 0
     assert f"silverball check {mine.path}" in mine.said[-1]
-    assert "as it was" in mine.said[-1]
+    assert "previous version" in mine.said[-1]
 
 
 @pytest.mark.parametrize("kind", BROKEN)
