@@ -13,7 +13,7 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 SHOWN = {
     "listen.py": "hits",
     "make_table.py": "did you mean",
-    "record_replay.py": "points",
+    "record_replay.py": "equal in all",
     "thousand_worlds.py": "branches",
     "picture.py": "table.png",
     "own_player.py": "sleepy kept the ball",
