@@ -6,9 +6,7 @@ import json
 
 import pytest
 
-from silverball.benchmarks.envs import environments as contestants
-from silverball.benchmarks.envs import measure as contest
-from silverball.benchmarks.envs import table as report
+from silverball.benchmarks.envs import environments as contestants, measure as contest, table as report
 from silverball.benchmarks.envs.environments import Contestant
 from silverball.cli.app import run
 

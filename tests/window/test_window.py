@@ -135,8 +135,7 @@ def test_a_long_seed_can_be_read_in_full_with_the_keys(open_window, monkeypatch)
 
 def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
     from silverball.app.startup import compiling_message
-    from silverball.physics import code_cache as codecache
-    from silverball.physics import kernel
+    from silverball.physics import code_cache as codecache, kernel
 
     assert "once" in compiling_message()
     with monkeypatch.context() as patch:

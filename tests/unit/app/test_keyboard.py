@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import pygame
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from silverball.app import sdl
 from silverball.app.bindings import ACTIONS

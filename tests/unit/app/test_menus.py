@@ -1,8 +1,7 @@
 """The menus: commands, settings and what they draw."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from reading import reads
 from silverball.app.demo_players import DEMO_PLAYERS

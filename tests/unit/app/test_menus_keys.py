@@ -1,8 +1,7 @@
 """Remapping keys and gamepad buttons, without silently losing one."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from reading import reads
 from silverball.app.bindings import (

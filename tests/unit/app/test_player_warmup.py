@@ -101,6 +101,5 @@ def test_the_one_who_was_asked_for_takes_over_once():
 
 
 def test_every_performer_is_a_player():
-    assert [str(make_player(demo_player.name).player) for demo_player in DEMO_PLAYERS] == [
-        demo_player.name for demo_player in DEMO_PLAYERS
-    ]
+    names = [one.name for one in DEMO_PLAYERS]
+    assert [make_player(name).name for name in names] == names

@@ -115,12 +115,12 @@ def test_a_game_with_questions_is_the_same_game_and_its_replay_is_whole():
     session.create_ball("SPACE")
     plain.create_ball()
     wait(session, 1.5)
-    plain.advance(ticks=360)
+    plain.step(ticks=360)
     session.create_ball("SPACE")
     session.create_ball("SPACE")
     plain.create_ball()
     wait(session, 2.0)
-    plain.advance(ticks=480)
+    plain.step(ticks=480)
     assert session.game.digest() == plain.digest()
     assert verify(session.game.replay).ok
 
