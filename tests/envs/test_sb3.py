@@ -30,8 +30,12 @@ def test_its_checker_has_no_complaint(id_):
         check_env(gym.make(id_, **({} if "Classic" in id_ else {"boards": 2})))
 
 
-def test_a_step_is_that_of_the_vector_environment_with_the_ends_told():
-    envs, plain = SilverballVecEnv(5, seed=3, **OPTIONS), PinballVectorEnv(5, "SameStep", **OPTIONS)
+@pytest.mark.parametrize(
+    "reward", ["score", {"points": 0.5, "drained": -2.0}, lambda terms: terms["touches"] - 1.0]
+)
+def test_a_step_is_that_of_the_vector_environment_with_the_ends_told(reward):
+    options = {**OPTIONS, "reward": reward}
+    envs, plain = SilverballVecEnv(5, seed=3, **options), PinballVectorEnv(5, "SameStep", **options)
     assert envs.reset().tolist() == plain.reset(seed=3)[0].tolist()
     random, lengths, returns = np.random.default_rng(0), np.zeros(5, int), np.zeros(5)
     truncated_ones = ended_ones = 0

@@ -10,7 +10,8 @@ from typing import Any
 
 from silverball.envs import IDS
 from silverball.envs.board_pool import pool_of
-from silverball.envs.options import BUTTONS, OPTIONS, POINT, Options
+from silverball.envs.options import BUTTONS, OPTIONS, Options
+from silverball.envs.rewards import POINT, TERMS
 from silverball.envs.single import PinballEnv
 from silverball.envs.slots import slot_table
 from silverball.envs.spaces import INFO, picture_shape
@@ -85,7 +86,9 @@ def _observations(options: Options, sample: PinballEnv) -> str:
 def _rewards() -> str:
     return (
         f'Points of the step × {POINT:g} (a cylinder is worth 100 points, a prism 50); with `reward="time"` the '
-        "step's seconds if a ball is still on the board at its end. `info` carries the totals of the episode so "
+        "step's seconds if a ball is still on the board at its end; weights of "
+        f"{', '.join(f'`{term}`' for term in TERMS)}, or a callable that receives them. "
+        "`info` carries the totals of the episode so "
         f"far: {', '.join(f'`{name}`' for name in INFO)} (`board`: the seed of the board, in a list of tables its number, −1 for a single one)."
     )
 

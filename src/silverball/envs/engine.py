@@ -28,6 +28,7 @@ from silverball.envs.options import Options
 from silverball.envs.pictures import Pictures, pictures_of
 from silverball.envs.pixels import draw_finals
 from silverball.envs.pointers import ADDRESSES, ARRAYS
+from silverball.envs.rewards import TERMS, called, called_for_many, resolve_reward
 from silverball.envs.state import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
@@ -67,6 +68,9 @@ class Engine:
         self.stack = options.stack if self.shows_pictures else 0
         self._allocate(threads)
         self.rules = _rules(options, self.pool, mode)
+        self.reward = resolve_reward(options.reward)
+        self.terms = np.zeros((count if self.rules["weighs_counts"][0] else 0, len(TERMS)))
+        self.counts_before = np.zeros((len(self.terms), len(COUNTS)), np.int64)
         self._set_film()
         self.actions = np.zeros(count, np.int64)
         self.masks = np.ones(count, np.bool_)
@@ -151,7 +155,8 @@ class Engine:
             board_seeds=pool.seeds, colliders=boards.collider, grid=boards.grid, places=boards.place,
             logs=self.batch.logs, tallies=self.batch.tallies, held=self._held, episodes=self.episodes,
             blanks=pool.blanks, layouts=pool.layouts, rules=self.rules, film=self.film, actions=self.actions,
-            masks=self.masks, wanted=self.wanted, finals=self.finals, final_counts=self.final_counts,
+            masks=self.masks, wanted=self.wanted, terms=self.terms,
+            counts_before=self.counts_before, finals=self.finals, final_counts=self.final_counts,
             scenes=self.scenes, final_scenes=self.final_scenes, drawn=self.drawn,
             backgrounds=pictures.backgrounds, balls=pictures.balls, paddles=pictures.paddles,
             **self.outputs.last.arrays,
@@ -160,8 +165,8 @@ class Engine:
             "envs": self.count, "boards": len(boards.board),
             "colliders": len(boards.collider), "numbers": len(boards.grid), "places": len(boards.place),
             "parts": self.batch.tallies.shape[1], "columns": self.finals.shape[1],
-            "layout_columns": pool.layouts.shape[1], "counts": COUNT_ROWS, "stack": self.stack,
-            "ring": self.ring, "pixels": pictures.backgrounds.shape[1],
+            "layout_columns": pool.layouts.shape[1], "counts": COUNT_ROWS, "terms": len(TERMS),
+            "stack": self.stack, "ring": self.ring, "pixels": pictures.backgrounds.shape[1],
             "ball_pixels": pictures.balls.size, "paddle_pixels": pictures.paddles.size,
         }  # fmt: skip
         for name, length in lengths.items():
@@ -180,13 +185,19 @@ class Engine:
         if self.episodes["over"][0]:
             return 0.0, End.WAS_OVER
         self._slide()
-        ends: tuple[float, int] = self.move(self.addresses, 0, 1, action)
-        return ends
+        reward, ends = self.move(self.addresses, 0, 1, action)
+        if callable(self.reward):
+            reward = called(self.reward, dict(zip(TERMS, self.terms[0].tolist(), strict=True)))
+        return reward, ends
 
     def step(self) -> None:
         """Move all environments on by their `actions`."""
         self._slide()
         self._do(Task.STEP)
+        if callable(self.reward):
+            rewards = called_for_many(self.reward, self.terms)
+            has_moved = self.rules["mode"] != Mode.NEXT_STEP or self.episodes["steps"] > 0
+            self.outputs.last.rewards[:] = np.where(has_moved, rewards, 0.0)
 
     def reset(self, boards: NDArray[np.int64] | int = -1) -> None:
         """Begin the next episode of the environments in `masks`, on these boards of the pool; −1: any."""
@@ -354,7 +365,12 @@ def _rules(options: Options, pool: Pool, mode: Mode) -> NDArray[Any]:
     board = pool.tables[0].board
     row["ticks"], row["tick"] = options.frame_skip, 1.0 / options.tick_rate
     row["balls"], row["per_ball"] = options.balls, 1.0 / options.balls
-    row["by_button"], row["by_time"] = options.create == "button", options.reward == "time"
+    row["by_button"] = options.create == "button"
+    reward = resolve_reward(options.reward)
+    row["writes_terms"] = callable(reward)
+    row["weighs_counts"] = callable(reward) or not reward.keys() <= {"points", "seconds"}
+    for name, weight in {} if callable(reward) else reward.items():
+        row["weights"][TERMS.index(name)] = weight
     row["stall"], row["limit"] = options.steps_in(options.stall), options.steps_in(options.time_limit)
     row["per_quiet"] = 0.0 if options.stall is None else 1.0 / row["stall"]
     for bit, name in enumerate(options.buttons):

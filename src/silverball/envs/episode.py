@@ -13,9 +13,9 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.envs import pointers as the
-from silverball.envs.options import POINT
 from silverball.envs.pixels import SCENE_SIZE, film_step, show_again, show_first, wind
 from silverball.envs.pointers import SMALL_FLOAT, copy_bytes
+from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
 from silverball.envs.slots import (
     BALLS,
     GAME,
@@ -79,13 +79,16 @@ def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
     for start in range(first, end, BLOCK):
         stop = min(start + BLOCK, end)
         for index in range(start, stop):
+            if rules.weighs_counts != 0:
+                row = at.counts_before_at + (first + index - start) * COUNTS_SIZE
+                copy_bytes(row, at.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
             press(at, rules, index)
         run_worlds(
             the.worlds(at), the.boards(at), the.board_of(at), the.colliders(at), the.grid(at), the.logs(at),
             the.tallies(at), the.held(at), start, stop, rules.ticks, rules.tick,
         )  # fmt: skip
         for index in range(start, stop):
-            reward, ends = settle(at, rules, index)
+            reward, ends = settle(at, rules, index, first + index - start)
             the.rewards(at)[index] = reward
             the.terminated(at)[index] = ends & End.TERMINATED != 0
             the.truncated(at)[index] = ends & End.TRUNCATED != 0
@@ -135,14 +138,23 @@ def press(at: Any, rules: Any, index: int) -> None:
 
 
 @internal
-def settle(at: Any, rules: Any, index: int) -> tuple[float, int]:
+def settle(at: Any, rules: Any, index: int, before: int) -> tuple[float, int]:
     """What the last step was worth, and whether it ended the episode; a new one begins where it is time.
+
+    Args:
+        at: One ADDRESSES record.
+        rules: One RULES record.
+        index: The environment.
+        before: The row of its counters from before the step.
 
     Returns:
         The reward, and `End` bits.
     """
     world, episode = the.worlds(at)[index], the.episodes(at)[index]
     if episode.over != 0:
+        if rules.writes_terms != 0:
+            for term in range(len(TERMS)):
+                the.terms(at)[index, term] = 0.0
         if rules.mode == Mode.NEXT_STEP:
             begin(at, rules, index)
             return 0.0, 0
@@ -163,9 +175,12 @@ def settle(at: Any, rules: Any, index: int) -> tuple[float, int]:
         ends = End.TERMINATED + 0
     if ends == 0 and (episode.steps >= rules.limit or world.fault != Fault.NONE):
         ends = End.TRUNCATED + 0
-    reward = gained * POINT
-    if rules.by_time != 0:
-        reward = rules.ticks * rules.tick if plays else 0.0
+    seconds = rules.ticks * rules.tick if plays else 0.0
+    reward = rules.weights[POINTS] * gained + rules.weights[SECONDS] * seconds
+    if rules.weighs_counts != 0:
+        reward += reward_of_counts(at, rules, index, before)
+        if rules.writes_terms != 0:
+            the.terms(at)[index, POINTS], the.terms(at)[index, SECONDS] = gained, seconds
     if rules.pictures != 0:
         film_step(at, index)
     if ends != 0:
@@ -174,6 +189,21 @@ def settle(at: Any, rules: Any, index: int) -> tuple[float, int]:
             keep_final(at, rules, index)
             begin(at, rules, index)
     return reward, ends
+
+
+@internal
+def reward_of_counts(at: Any, rules: Any, index: int, before: int) -> float:
+    """The part of a reward that a stall and the growth of counts make; writes these terms too."""
+    stalled = the.episodes(at)[index].stalled
+    the.terms(at)[index, STALLED] = stalled
+    reward = rules.weights[STALLED] * stalled
+    counts = array_at(at.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
+    for term in range(FIRST_COUNT, len(TERMS)):
+        count = term - FIRST_COUNT + 1
+        grown = counts[count] - the.counts_before(at)[before, count]
+        the.terms(at)[index, term] = grown
+        reward += rules.weights[term] * grown
+    return float(reward)
 
 
 @internal

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import math
 import os
 from collections.abc import Mapping, Sequence
@@ -11,12 +10,12 @@ from typing import Any, Literal
 
 import numpy as np
 
+from silverball.envs.rewards import POINT, Reward, did_you_mean, resolve_reward
 from silverball.table import Table
 
 Named = Table | str | os.PathLike[str] | Mapping[str, Any]
 """A table, the name of a built-in one, a path, or the keys of a table file."""
 
-POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
 BUTTONS = ("left", "right", "jitter", "create")
 OF_VECTORS = (
     "autoreset_mode",
@@ -69,8 +68,10 @@ class Options:
         "auto", '"auto": a ball comes by itself when none is on the board; "button": a button brings it'
     )
     balls: int = option(1, "balls of an episode: 1, or 3 for a game")
-    reward: Literal["score", "time"] = option(
-        "score", f'"score": points × {POINT}; "time": the seconds that a ball stays on the board'
+    reward: Reward = option(
+        "score",
+        f'"score": points × {POINT}; "time": the seconds that a ball stays on the board; '
+        "weights of terms as a dict; a callable, or its import path",
     )
     stall: float | None = option(
         15.0, "[s] without a scoring hit after which the episode ends as stalled; None: never"
@@ -89,7 +90,9 @@ class Options:
         _one_of("observation", self.observation, ("state", "dict", "pixels"))
         _one_of("actions", self.actions, ("discrete", "multibinary"))
         _one_of("create", self.create, ("auto", "button"))
-        _one_of("reward", self.reward, ("score", "time"))
+        resolved = resolve_reward(self.reward)
+        if isinstance(self.reward, Mapping):
+            object.__setattr__(self, "reward", resolved)
         _flag("jitter", self.jitter)
         _flag("rgb", self.rgb)
         _whole("balls", self.balls, 1, MOST_BALLS)
@@ -125,9 +128,7 @@ class Options:
             if name in OF_VECTORS and name not in others:
                 raise TypeError(f"{unexpected}: it is for many environments, gymnasium.make_vec takes it")
             known = (*names, *others)
-            near = difflib.get_close_matches(name, known, 1)
-            hint = f"did you mean {near[0]!r}? " if near else ""
-            raise TypeError(f"{unexpected}; {hint}The options are {', '.join(known)}")
+            raise TypeError(f"{unexpected}; {did_you_mean(name, known)}The options are {', '.join(known)}")
         return cls(**given)
 
     @property

@@ -16,7 +16,7 @@ import numpy as np
 from numba import types
 
 from silverball.envs.buffers import WRITTEN
-from silverball.envs.state import EPISODE, FILM, RULES, SCENE
+from silverball.envs.state import COUNTS, EPISODE, FILM, RULES, SCENE
 from silverball.physics.kernel import SETTINGS, pasted
 from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
 from silverball.world.single_step import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
@@ -46,11 +46,12 @@ copy_bytes: Any = _interpreted_copy if SETTINGS.DISABLE_JIT else _compiled_copy
 ARRAYS = (
     "worlds", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
     "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks", "wanted",
-    *WRITTEN, "finals", "final_counts", "scenes", "final_scenes", "drawn", "backgrounds", "balls", "paddles",
+    *WRITTEN, "terms", "counts_before", "finals", "final_counts",
+    "scenes", "final_scenes", "drawn", "backgrounds", "balls", "paddles",
 )  # fmt: skip
 LENGTHS = (
     "envs", "boards", "colliders", "numbers", "places", "parts", "columns", "layout_columns", "counts",
-    "stack", "ring", "pixels", "ball_pixels", "paddle_pixels",
+    "terms", "stack", "ring", "pixels", "ball_pixels", "paddle_pixels",
 )  # fmt: skip
 ADDRESSES = np.dtype(
     [*((f"{name}_at", "i8") for name in ARRAYS), *((name, "i8") for name in LENGTHS)], align=True
@@ -187,6 +188,18 @@ def truncated(at: Any) -> Any:
 def counts(at: Any) -> Any:
     """The events of each episode so far, see `COUNTS` [envs, counts]."""
     return array_at(at.counts_at, (at.envs, at.counts), INT)
+
+
+@pasted
+def terms(at: Any) -> Any:
+    """The terms of the last step's rewards, see `TERMS` [envs, terms]."""
+    return array_at(at.terms_at, (at.envs, at.terms), FLOAT)
+
+
+@pasted
+def counts_before(at: Any) -> Any:
+    """The counters of the worlds before the step [envs, len(COUNTS)]; a slice uses its first rows."""
+    return array_at(at.counts_before_at, (at.envs, len(COUNTS)), INT)
 
 
 @pasted

@@ -68,6 +68,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self._move, self._addresses = engine.move, engine.addresses
         self._row, self._counts = engine.outputs.last.observations[0], engine.outputs.last.counts[0]
         is_plain = self.options.observation == "state" and self.render_mode != "human"
+        is_plain = is_plain and not callable(engine.reward)
         self._copy_row = self._row.copy if is_plain else None
         self._info = info_of(self._counts.tolist())
         self._memory = memoryview(cast(Any, engine.memory))

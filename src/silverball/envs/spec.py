@@ -5,11 +5,13 @@ from __future__ import annotations
 import copy
 import enum
 import os
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from gymnasium.envs.registration import EnvSpec
 
+from silverball.envs.rewards import import_path
 from silverball.table import Table
 
 
@@ -27,7 +29,24 @@ def own_spec(spec: EnvSpec | None, steps: int | None) -> EnvSpec | None:
     own = copy.copy(spec)
     own.max_episode_steps = steps
     own.kwargs = {name: _for_json(value) for name, value in spec.kwargs.items()}
+    if callable(own.kwargs.get("reward")):
+        own.__class__ = _SpecWithCallable
     return own
+
+
+class _SpecWithCallable(EnvSpec):
+    """The spec of an environment whose reward is a callable without an import path."""
+
+    def to_json(self) -> str:
+        """Refuse, and say what JSON can hold.
+
+        Raises:
+            ValueError: Always.
+        """
+        raise ValueError(
+            f"the spec of {self.id} cannot be written as JSON: its reward is a callable that cannot be "
+            "imported; use a function at the top of a module, its import path 'module:name', or weights"
+        )
 
 
 def _for_json(value: Any) -> Any:
@@ -35,6 +54,10 @@ def _for_json(value: Any) -> Any:
     if isinstance(value, Table):
         keys = value.model_dump(mode="json", exclude_defaults=True, exclude_none=True)
         return {"format": value.format, "name": value.name, **keys}
+    if isinstance(value, Mapping):
+        return {name: _for_json(one) for name, one in value.items()}
+    if callable(value):
+        return import_path(value) or value
     if isinstance(value, (list, tuple)):
         return type(value)(_for_json(one) for one in value)
     if isinstance(value, np.generic):

@@ -38,6 +38,12 @@ class Task(IntEnum):
     OBSERVE = -3  # write observations anew, after states were changed
 
 
+COUNTS = (
+    "score", "created", "drained", "wall_hits", "slant_wall_hits", "paddle_hits", "triangular_prism_hits",
+    "cylinder_hits", "ball_hits", "touches", "jams",
+)  # fmt: skip
+"""The counters of a WORLD record that `info` carries: totals of the episode so far."""
+
 EPISODE = np.dtype(
     [
         ("board_seed", "i8"),  # of the board, or −1: it was not made from a seed
@@ -67,7 +73,9 @@ LIT_BITS = 62  # shapes that can light up
 RULES = np.dtype(
     [
         ("ticks", "i8"), ("tick", "f8"),  # of a step; the length of one [s]
-        ("balls", "i8"), ("by_button", "i8"), ("by_time", "i8"),  # balls of an episode; create, reward
+        ("balls", "i8"), ("by_button", "i8"),  # balls of an episode; 1: a button creates them
+        ("weights", "f8", (len(COUNTS) + 2,)),  # of the terms of a reward, see `rewards.TERMS`
+        ("weighs_counts", "i8"), ("writes_terms", "i8"),  # 1: counts have weights; a callable needs terms
         ("stall", "i8"), ("limit", "i8"),  # steps
         ("jitter_bit", "i8"), ("create_bit", "i8"),  # 0: there is no such button
         ("boards", "i8"), ("own_boards", "i8"),  # 1: environment i plays board i, in turn if there are fewer
@@ -98,9 +106,3 @@ FILM = np.dtype(
     ],
     align=True,
 )  # fmt: skip
-
-COUNTS = (
-    "score", "created", "drained", "wall_hits", "slant_wall_hits", "paddle_hits", "triangular_prism_hits",
-    "cylinder_hits", "ball_hits", "touches", "jams",
-)  # fmt: skip
-"""The counters of a WORLD record that `info` carries: totals of the episode so far."""
