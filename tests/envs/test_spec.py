@@ -145,7 +145,7 @@ def test_a_limit_that_cannot_be_is_refused(steps):
     [
         ("frameskip", "frame_skip"),
         ("rewards", "reward"),
-        ("xyzzy", "options are"),
+        ("xyzzy", "expected one of"),
         ("\u202eboards", "boards"),
     ],
 )

@@ -17,7 +17,7 @@ import numpy as np
 import tomli_w
 from numpy.typing import NDArray
 
-from silverball.envs.options import Named
+from silverball.envs.options import TableSource
 from silverball.envs.slots import CylinderSlot, Field, PrismSlot, fields
 from silverball.physics.records import LOG, WORLD, Kind, Part, records
 from silverball.plain import plain
@@ -72,7 +72,7 @@ class Pool(NamedTuple):
         return self.fields[-1].end
 
 
-def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool:
+def pool_of(table: TableSource | Sequence[TableSource], count: int, board_seed: int) -> Pool:
     """The pool of a recipe, of one table, or of a list of tables.
 
     Args:
@@ -91,7 +91,7 @@ def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool
     return _drawn(one, count, board_seed) if one.random is not None else _compiled((one,), [-1])
 
 
-def _loaded(table: Named) -> Table:
+def _loaded(table: TableSource) -> Table:
     if isinstance(table, (str, os.PathLike)):
         return load_table(table)
     if isinstance(table, Mapping):

@@ -25,8 +25,8 @@ Reward: TypeAlias = str | Mapping[str, float] | Callable[[dict[str, Any]], Any]
 POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
 POINTS, SECONDS, STALLED, FIRST_COUNT = range(4)  # places in `TERMS`
 TERMS = ("points", "seconds", "stalled", *COUNTS[1:])
-"""What describes a step: points gained; its seconds if a ball is on the board at its end, else 0; 1 if the ball
-stalled; then how much each count of `info` grew, except the score."""
+"""What describes a step: points gained; its seconds if a ball is on the board at its end, else 0; 1 if the
+ball stalled; then how much each count of `info` grew, except the score."""
 
 REWARDS: dict[str, dict[str, float]] = {"score": {"points": POINT}, "time": {"seconds": 1.0}}
 """The rewards that have names, as weights."""

@@ -17,8 +17,7 @@ from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
-from silverball.envs.options import refuse_options
-from silverball.envs.single import checked_reset_options
+from silverball.envs.options import checked_reset_options, refuse_options
 from silverball.envs.spaces import INFO
 from silverball.envs.vector import PinballVectorEnv
 

@@ -12,8 +12,14 @@ from numpy.typing import NDArray
 
 from silverball.envs.actions import as_array, as_bits, keys_to_action
 from silverball.envs.engine import HEAD, Engine
-from silverball.envs.options import Options
-from silverball.envs.seeds import GREATEST_SEED, key_of
+from silverball.envs.options import (
+    SEED_RANGE,
+    Options,
+    checked_generator,
+    checked_render_mode,
+    checked_reset_options,
+    checked_seed,
+)
 from silverball.envs.spaces import action_space, observation_space, shown_one
 from silverball.envs.spec import own_spec
 from silverball.envs.state import Mode
@@ -83,7 +89,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     @spec.setter
     def spec(self, spec: EnvSpec | None) -> None:
-        self._spec = own_spec(spec, self.options.steps)
+        self._spec = own_spec(spec, self.options.max_steps)
 
     @property
     def np_random(self) -> np.random.Generator:
@@ -112,12 +118,12 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """
         board = checked_reset_options(options, ("board",)).get("board")
         wanted = -1 if board is None else self._engine.pool.board_of_seed(board)
-        key = None if seed is None else key_of(seed)
+        key = None if seed is None else checked_seed(seed)
         super().reset(seed=None if seed is None else int(seed))
         if key is not None:
             self._engine.seed(key)
         elif self._is_rng_set or not self._engine.has_begun.all():
-            self._engine.seed(self.np_random.integers(GREATEST_SEED, dtype=np.uint64).astype(np.int64))
+            self._engine.seed(self.np_random.integers(SEED_RANGE, dtype=np.uint64).astype(np.int64))
         self._is_rng_set = False
         self._engine.reset(wanted)
         self._info = info_of(self._counts.tolist())
@@ -246,7 +252,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """How `copy` and `pickle` make another: the arrays are known by address and must be made anew."""
-        chosen = {name: getattr(self.options, name) for name in self.options.__dataclass_fields__}
+        chosen = self.options.kwargs()
         kept = {name: value for name, value in vars(self).items() if name not in REMADE}
         return _made_again, (type(self), self.render_mode, chosen, self.save_state(), kept)
 
@@ -292,35 +298,6 @@ def _as_bytes(state: Any) -> bytes:
 
 def _refuse_to_go_on() -> NoReturn:
     raise gymnasium.error.ResetNeeded("the episode is over or has not begun: call reset before step")
-
-
-def checked_render_mode(render_mode: str | None, modes: tuple[str, ...]) -> str | None:
-    """The render mode, if there is such a one."""
-    if render_mode is not None and render_mode not in modes:
-        raise ValueError(f"render_mode must be {' or '.join(map(repr, modes))} or None, got {render_mode!r}")
-    return render_mode
-
-
-def checked_generator(generator: np.random.Generator) -> np.random.Generator:
-    """A generator that somebody sets, if it is one."""
-    if not isinstance(generator, np.random.Generator):
-        raise TypeError(f"np_random must be a numpy.random.Generator, got {generator!r}")
-    return generator
-
-
-def checked_reset_options(options: dict[str, Any] | None, known: tuple[str, ...]) -> dict[str, Any]:
-    """The options of a reset, if there are such.
-
-    Raises:
-        TypeError: They are no dict.
-        ValueError: One is unknown.
-    """
-    if options is not None and not isinstance(options, dict):
-        raise TypeError(f"options must be a dict or None, got {options!r}")
-    for name in options or {}:
-        if name not in known:
-            raise ValueError(f"unknown reset option {name!r}: {' and '.join(map(repr, known))} can be given")
-    return options or {}
 
 
 def info_of(counts: list[int]) -> dict[str, Any]:

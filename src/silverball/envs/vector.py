@@ -18,9 +18,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.envs.actions import as_array, as_bits
 from silverball.envs.engine import Engine
-from silverball.envs.options import NEVER, OF_VECTORS, Options
-from silverball.envs.seeds import GREATEST_SEED, key_of
-from silverball.envs.single import checked_generator, checked_render_mode, checked_reset_options
+from silverball.envs.options import (
+    NO_LIMIT,
+    SEED_RANGE,
+    VECTOR_ONLY,
+    Options,
+    checked_generator,
+    checked_render_mode,
+    checked_reset_options,
+    checked_seed,
+)
 from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
 from silverball.envs.spec import own_spec
 from silverball.envs.state import Mode
@@ -87,7 +94,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         **options: Any,
     ) -> None:
         self.num_envs = checked_int("num_envs", num_envs, 1, 2**22)
-        self.options = Options.of(options, ("num_envs", "render_mode", "max_episode_steps", *OF_VECTORS))
+        self.options = Options.of(options, ("num_envs", "render_mode", "max_episode_steps", *VECTOR_ONLY))
         self.autoreset_mode = _checked_mode(autoreset_mode)
         self.metadata = {
             "render_modes": ["rgb_array"], "render_fps": self.options.frames_per_second,
@@ -127,7 +134,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     @spec.setter
     def spec(self, spec: EnvSpec | None) -> None:
         limit = int(self._engine.rules["limit"][0])
-        self._spec = own_spec(spec, limit if limit < NEVER else None)
+        self._spec = own_spec(spec, limit if limit < NO_LIMIT else None)
 
     @property
     def np_random(self) -> np.random.Generator:
@@ -216,7 +223,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     def __reduce__(self) -> tuple[Any, ...]:
         """How `copy` and `pickle` make another: the arrays are known by address and must be made anew."""
         engine = self._engine
-        chosen = {name: getattr(self.options, name) for name in self.options.__dataclass_fields__}
+        chosen = self.options.kwargs()
         made = (
             self.num_envs, self.autoreset_mode, engine.owns_output, engine.batch.threads, self.render_mode,
             None, bool(engine.rules["own_boards"][0]),
@@ -336,18 +343,18 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if seed is None:
             return np.full(self.num_envs, -1, np.int64)
         if not isinstance(seed, (list, tuple, np.ndarray)) or np.ndim(seed) == 0:
-            first = key_of(seed)
-            return np.array([(first + number) % GREATEST_SEED for number in range(self.num_envs)], np.int64)
+            first = checked_seed(seed)
+            return np.array([(first + number) % SEED_RANGE for number in range(self.num_envs)], np.int64)
         if len(seed) != self.num_envs:
             raise ValueError(f"seed must be one number or {self.num_envs} of them, got {len(seed)}")
-        return np.array([-1 if one is None else key_of(one) for one in seed], np.int64)
+        return np.array([-1 if one is None else checked_seed(one) for one in seed], np.int64)
 
     def _seed(self, keys: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
         """Give the masked environments their seeds; those that never had any get random ones."""
         strangers = mask & (keys < 0) & (self._draws_seed | ~self._engine.has_begun)
         self._draws_seed &= ~mask
         if strangers.any():
-            drawn = self.np_random.integers(GREATEST_SEED, size=self.num_envs, dtype=np.uint64)
+            drawn = self.np_random.integers(SEED_RANGE, size=self.num_envs, dtype=np.uint64)
             keys[strangers] = drawn.astype(np.int64)[strangers]
         where = mask & (keys >= 0)
         self._engine.seed(keys[where], where)
