@@ -115,7 +115,7 @@ def test_floats_are_no_numbers_of_actions(action):
     for actions in ("discrete", "multibinary"):
         envs = gym.make_vec(CLASSIC, 2, actions=actions)
         envs.reset(seed=0)
-        with pytest.raises(ValueError, match="actions must be whole numbers"):
+        with pytest.raises(ValueError, match="actions must be integers"):
             envs.step(action)
 
 

@@ -94,7 +94,7 @@ def test_a_vector_rewards_as_single_environments_do(mode, reward):
 
 
 def test_threads_do_not_change_a_weighed_reward(monkeypatch):
-    monkeypatch.setattr("silverball.envs.engine.LEAST_SLICE", 1)
+    monkeypatch.setattr("silverball.envs.engine.MIN_SLICE_WORK", 1)
     actions = np.random.default_rng(0).integers(0, 4, (200, 150))
 
     def rewards(threads):

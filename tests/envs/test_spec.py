@@ -113,7 +113,7 @@ def test_a_table_can_be_given_by_the_keys_of_its_file():
     assert PinballEnv(table=table)._engine.pool.tables == (expected,)
     with pytest.raises(sb.TableError, match="did you mean `cylinder`"):
         PinballEnv(table={"cylindre": []})
-    with pytest.raises(TypeError, match="table must hold"):
+    with pytest.raises(TypeError, match="that a table file cannot hold"):
         PinballEnv(table={"name": None})
     with pytest.raises(TypeError, match="table must be"):
         PinballEnv(table=7)
@@ -223,7 +223,7 @@ def test_the_first_environment_says_once_that_it_is_compiled(is_there, folder, m
     monkeypatch.setattr(engine.SETTINGS, "DISABLE_JIT", 0)
     monkeypatch.setattr(engine, "is_compiled", lambda name, packages: is_there)
     monkeypatch.setattr(engine, "cache_folder", lambda packages: folder)
-    engine._tell_of_compiling.cache_clear()
+    engine._announce_compilation.cache_clear()
     for _ in range(2):
         PinballEnv(table="classic")
     said = capsys.readouterr()

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from silverball.envs import PinballEnv, PinballVectorEnv
-from silverball.envs.engine import MARK
-from silverball.envs.state import SCENE
+from silverball.envs.engine import SIGNATURE_SIZE
+from silverball.envs.state import PICTURE_STATE
 from silverball.errors import StateError
 
 OPTIONS = [
@@ -140,9 +140,9 @@ def test_a_state_of_other_boards_or_another_rate_is_refused():
 def test_a_state_on_a_board_that_is_not_there_is_refused(options, number):
     env, envs = PinballEnv(**options), PinballVectorEnv(2, **options)
     env.reset(seed=0), envs.reset(seed=0)
-    places = [MARK]
+    places = [SIGNATURE_SIZE]
     if "observation" in options:
-        places.append(len(env.save_state()) - 3 * SCENE.itemsize)  # the board of the first scene
+        places.append(len(env.save_state()) - 3 * PICTURE_STATE.itemsize)  # the board of the first scene
     for place in places:
         state = bytearray(env.save_state())
         state[place : place + 8] = np.int64(number).tobytes()
@@ -169,5 +169,5 @@ def test_a_state_from_before_the_first_reset_has_no_seed_yet():
 def test_a_vector_refuses_as_many_states_as_it_has_no_place_for():
     envs = PinballVectorEnv(3, table="classic")
     envs.reset(seed=0)
-    with pytest.raises(ValueError, match="2 states for 3"):
+    with pytest.raises(ValueError, match="one state or 3 of them.*got 2"):
         envs.restore_state(envs.save_state([0, 1]))

@@ -128,8 +128,8 @@ def test_a_mask_begins_these_episodes_alone():
 @pytest.mark.parametrize(
     ("mask", "message"),
     [
-        ([True, False], "array of bool"),
-        (np.array([1, 0]), "array of bool"),
+        ([True, False], "boolean array"),
+        (np.array([1, 0]), "boolean array"),
         (np.array([True]), "shape"),
         (np.array([False, False]), "at least one"),
     ],
@@ -164,7 +164,7 @@ def test_steps_return_new_arrays_or_with_zero_copy_always_the_same():
 )
 @pytest.mark.parametrize("zero_copy", [False, True])
 def test_any_number_of_threads_gives_the_same_bits(options, zero_copy, monkeypatch):
-    monkeypatch.setattr(engine, "LEAST_SLICE", 1)
+    monkeypatch.setattr(engine, "MIN_SLICE_WORK", 1)
     calls = []
     monkeypatch.setattr(
         engine, "pool_of_threads", lambda threads: calls.append(threads) or pool_of_threads(threads)
@@ -288,8 +288,8 @@ def test_options_that_are_none_are_refused_in_words():
     envs = PinballVectorEnv(2, table="classic")
     envs.reset(seed=0)
     for actions, words in (
-        ([[1], [1, 2]], "actions must be whole numbers, got object"),
-        ([0.0, 1.0], "actions must be whole numbers, got float64"),
+        ([[1], [1, 2]], "actions must be integers, got object"),
+        ([0.0, 1.0], "actions must be integers, got float64"),
         ([[0, 1], [1, 0]], r"actions must have the shape \(2,\), got \(2, 2\)"),
     ):
         with pytest.raises(ValueError, match=words):
@@ -402,7 +402,7 @@ def test_tables_can_be_given_one_by_one():
 
 
 def test_what_only_a_vector_can_have_is_refused_in_words():
-    with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: say boards=5"):
+    with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: pass boards=5"):
         PinballVectorEnv(5, own_boards=True, boards=3)
     for name in ("own_boards", "zero_copy", "autoreset_mode", "threads"):
         with pytest.raises(TypeError, match=f"'{name}': only vector environments take it"):

@@ -38,7 +38,7 @@ def test_mended_pictures_equal_whole_ones(options):
             for row in np.flatnonzero(ended):
                 assert (infos["final_obs"][row] == its_infos["final_obs"][row]).all()
     assert differing == 0
-    assert (mended._engine.rules["mends"][0], whole._engine.rules["mends"][0]) == (1, 0)
+    assert (mended._engine.rules["can_repair"][0], whole._engine.rules["can_repair"][0]) == (1, 0)
 
 
 def test_each_picture_of_a_stack_is_the_one_picture_of_that_moment():
