@@ -1,4 +1,4 @@
-"""Which actions does a step take, and what do wrappers for Atari and `play` learn of them?"""
+"""Actions of a step, and what Atari wrappers and `play` ask about them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Does every example for agents run?"""
+"""Every example for agents runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do the environments keep Gymnasium's contract?"""
+"""The environments fulfil Gymnasium's contract."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def options_of(id_: str) -> dict:
 
 
 @pytest.mark.parametrize("id_", IDS)
-def test_gymnasiums_checker_has_no_complaint(id_):
+def test_gymnasiums_checker_accepts_the_environment(id_):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(gym.make(id_, **options_of(id_)), skip_render_check=True)
@@ -41,7 +41,7 @@ def test_gymnasiums_checker_has_no_complaint(id_):
     ],
     ids=str,
 )
-def test_gymnasiums_checker_has_no_complaint_about_any_option(options):
+def test_gymnasiums_checker_accepts_every_option(options):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(gym.make(CLASSIC, **options), skip_render_check=True)
@@ -81,7 +81,7 @@ def test_a_step_after_the_end_is_refused():
 
 
 @pytest.mark.parametrize("action", [-1, 4, 1.5, None, "left", [1, 0]])
-def test_an_action_that_is_none_is_refused_in_words(action):
+def test_an_invalid_action_is_refused_with_a_message(action):
     env = gym.make(CLASSIC)
     env.reset(seed=0)
     with pytest.raises(ValueError, match="action must be in"):
@@ -149,7 +149,7 @@ def test_an_invalid_value_of_an_option_is_refused_in_one_sentence(name, value, m
         PinballEnv(table="classic", **{name: value})
 
 
-def test_several_invalid_values_are_told_at_once():
+def test_one_error_reports_all_invalid_values():
     with pytest.raises(ValueError, match=r"^balls must be .*; rgb must be True or False, got 2$"):
         PinballEnv(balls=0, rgb=2)
 

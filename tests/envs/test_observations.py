@@ -39,7 +39,7 @@ def test_the_table_names_every_slot_once_and_says_what_each_means():
     assert [field.first for field in layout[1:]] == [field.end for field in layout[:-1]]
 
 
-def test_balls_are_shown_as_the_world_has_them(env):
+def test_balls_have_the_values_of_the_world(env):
     world = env.unwrapped._engine.batch.state[0]
     for action in [0, 3, 1, 4, 2, 0] * 20:
         observation, *_ = env.step(action)
@@ -118,7 +118,7 @@ def test_absent_parts_are_zeros():
     assert observation[PADDLES + 3 : GAME].tolist() == [0.0] * 3
 
 
-def test_the_world_under_an_environment_is_the_world_that_everybody_knows():
+def test_the_world_of_an_environment_equals_a_world_with_the_same_seed():
     env = PinballEnv(table="classic")
     env.reset(seed=2)
     record = env._engine.batch.state[0]

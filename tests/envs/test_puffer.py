@@ -1,4 +1,4 @@
-"""Does PufferLib take the environments, and do they write into its buffers?"""
+"""The adapter for PufferLib, and that it writes into PufferLib's buffers."""
 
 from __future__ import annotations
 

@@ -58,7 +58,7 @@ def test_a_named_reward_is_its_weights_bit_for_bit(name):
 
 @pytest.mark.parametrize("term", TERMS)
 def test_a_term_is_what_it_says(term):
-    """Each count's growth is told by two infos; points, seconds and stalls by what they mean."""
+    """The growth of a count is the difference of two infos; the others follow from their definitions."""
     seen = rewards_of({term: 2.0}, stall=5.0)
     expected = {
         "points": lambda before, after: after["score"] - before["score"],

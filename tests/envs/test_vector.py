@@ -1,4 +1,4 @@
-"""Is the vector environment nothing but many single ones?"""
+"""The vector environment equals many single environments."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_gymnasiums_make_vec_gives_the_native_one(id_):
     assert envs.single_observation_space == single.observation_space
 
 
-def test_an_episode_that_is_over_must_be_reset_when_nobody_else_does():
+def test_with_disabled_autoreset_an_ended_episode_must_be_reset():
     envs = gym.make_vec(CLASSIC, 2, autoreset_mode=AutoresetMode.DISABLED, time_limit=1 / 60)
     envs.reset(seed=0)
     envs.step(np.zeros(2, int))
@@ -225,7 +225,7 @@ def test_an_engine_is_not_copied():
 @pytest.mark.parametrize(
     "options", [{"table": "classic"}, {"table": "classic", "observation": "pixels", "stack": 1}], ids=str
 )
-def test_arrays_of_ones_own_are_written_to(options):
+def test_steps_write_to_given_arrays(options):
     envs, plain = (PinballVectorEnv(3, "Disabled", zero_copy, **options) for zero_copy in (True, False))
     shape = envs.observation_space.shape
     arrays = (np.zeros(shape, envs.observation_space.dtype), np.zeros(3, bool), np.zeros(3, bool))
@@ -262,7 +262,7 @@ def test_arrays_that_cannot_be_written_to_are_not():
     assert not named.write_to(*arrays())
 
 
-def test_a_picture_that_somebody_has_written_to_is_whole_again_after_a_reset():
+def test_a_picture_that_was_written_to_is_complete_again_after_a_reset():
     options = {"boards": 1, "observation": "pixels", "size": (20, 12), "stack": 2, "zero_copy": True}
     envs, other = PinballVectorEnv(2, "Disabled", **options), PinballVectorEnv(2, "Disabled", **options)
     envs.reset(seed=0)
@@ -274,7 +274,7 @@ def test_a_picture_that_somebody_has_written_to_is_whole_again_after_a_reset():
 
 
 @pytest.mark.parametrize("seed", [1.5, "xy", -1, [0, 1.5], [0, -1]])
-def test_what_is_no_seed_is_refused_in_words(seed):
+def test_an_invalid_seed_is_refused_with_a_message(seed):
     with pytest.raises(ValueError, match="seed must be an integer ≥ 0"):
         PinballVectorEnv(2, table="classic").reset(seed=seed)
     if not isinstance(seed, list):
@@ -282,7 +282,7 @@ def test_what_is_no_seed_is_refused_in_words(seed):
             PinballEnv(table="classic").reset(seed=seed)
 
 
-def test_options_that_are_none_are_refused_in_words():
+def test_invalid_actions_and_options_are_refused_with_a_message():
     with pytest.raises(TypeError, match="options must be a dict"):
         PinballVectorEnv(2, table="classic").reset(options=[1])
     envs = PinballVectorEnv(2, table="classic")
@@ -401,7 +401,7 @@ def test_tables_can_be_given_one_by_one():
     assert full.sum() > empty.sum()
 
 
-def test_what_only_a_vector_can_have_is_refused_in_words():
+def test_options_of_vectors_are_refused_for_single_environments():
     with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: pass boards=5"):
         PinballVectorEnv(5, own_boards=True, boards=3)
     for name in ("own_boards", "zero_copy", "autoreset_mode", "threads"):
