@@ -151,7 +151,7 @@ class Engine:
         return OutputPool(arrays, ("rewards", "terminated", "truncated", "counts", shown))
 
     def _write_addresses(self) -> None:
-        """Write down where all arrays are."""
+        """Write down where all arrays are: attributes of the engine by their names, and those of others."""
         boards, pictures, pool, batch = self.pool.boards, self.pictures, self.pool, self.batch
         arrays = {
             "worlds": batch.state, "board_of": batch.board_of, "logs": batch.logs, "tallies": batch.tallies,

@@ -23,7 +23,7 @@ from silverball.physics.kernel import inlined, internal, kernel, pasted
 from silverball.physics.random import WORD, threefry
 from silverball.physics.records import BALL_COUNT, WORLD, Fault, Outcome
 from silverball.physics.step import run_worlds
-from silverball.world.single_step import INT, array_at
+from silverball.world.single_step import INT, LEFT, RIGHT, array_at
 
 BLOCK = 64  # worlds that are moved before their rewards are computed: their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
@@ -116,16 +116,13 @@ def observe_envs(ptr: Pointers, first: int, end: int) -> None:
 def apply_action(ptr: Pointers, rules: RulesRecord, index: int) -> None:
     """Turn the bits of an action into held buttons, and create a ball if its bit is set."""
     bits = views.actions(ptr)[index]
-    views.held(ptr)[0, index, 0] = bits & 1 != 0
-    views.held(ptr)[0, index, 1] = bits & 2 != 0
-    views.held(ptr)[0, index, 2] = bits & rules.jitter_bit != 0
-    world = views.worlds(ptr)[index]
+    held, world, log = views.held(ptr), views.worlds(ptr)[index], views.logs(ptr)[index]
+    held[0, index, 0] = bits & LEFT != 0
+    held[0, index, 1] = bits & RIGHT != 0
+    held[0, index, 2] = bits & rules.jitter_bit != 0
     if bits & rules.create_bit != 0 and world.created < rules.balls and views.episodes(ptr)[index].over == 0:
         board = views.boards(ptr)[views.board_of(ptr)[index]]
-        if (
-            create_ball(world, board, views.colliders(ptr), views.places(ptr), views.logs(ptr)[index])
-            == Outcome.CREATED
-        ):
+        if create_ball(world, board, views.colliders(ptr), views.places(ptr), log) == Outcome.CREATED:
             views.episodes(ptr)[index].idle_steps = 0
 
 
@@ -183,7 +180,7 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
     return reward, flags
 
 
-@internal
+@pasted
 def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> float:
     """The weighted sum of the stall and of the growth of the counts; writes these terms, too."""
     stalled = views.episodes(ptr)[index].stalled

@@ -123,12 +123,8 @@ def copy_picture_state(ptr: Pointers, index: int, number: int, to: int) -> None:
 @internal
 def record_state(ptr: Pointers, index: int, number: int) -> None:
     """Record what a world shows now as picture state `number`."""
-    world, state, log = (
-        views.worlds(ptr)[index],
-        views.picture_states(ptr)[index, number],
-        views.logs(ptr)[index],
-    )
-    rules = views.rules(ptr)[0]
+    state = views.picture_states(ptr)[index, number]
+    world, log, rules = views.worlds(ptr)[index], views.logs(ptr)[index], views.rules(ptr)[0]
     state.board = views.board_of(ptr)[index]
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
@@ -182,9 +178,8 @@ def repair_dirty_rects(
     if has_turned:
         for side in range(2):
             top, left = raster.paddle_row[side], raster.paddle_column[side]
-            restore_background(
-                raster, background, picture, top, left, raster.paddle_rows, raster.paddle_columns
-            )
+            rows, columns = raster.paddle_rows, raster.paddle_columns
+            restore_background(raster, background, picture, top, left, rows, columns)
     if state.lit != 0:
         lowest = max(lowest, light_up(ptr, raster, state, picture))
     if has_turned or lowest > min(raster.paddle_row[0], raster.paddle_row[1]):
@@ -215,9 +210,8 @@ def draw_paddles(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord,
         if state.paddle[side] >= 0:
             number = side * ANGLES + state.paddle[side]
             sprite = ptr.paddle_sprites_at + number * rows * columns * raster.channels
-            blend_sprite(
-                raster, sprite, rows, columns, picture, raster.paddle_row[side], raster.paddle_column[side]
-            )
+            top, left = raster.paddle_row[side], raster.paddle_column[side]
+            blend_sprite(raster, sprite, rows, columns, picture, top, left)
 
 
 @inlined
@@ -231,19 +225,12 @@ def ball_corner(raster: RasterRecord, x: float, z: float) -> tuple[int, int]:
 def draw_ball(raster: RasterRecord, sprites: int, x: float, z: float, picture: int) -> None:
     """Draw a ball at (x, z) with the sprite for its position within the pixel."""
     row, column = (raster.half_length - x) * raster.rows, (raster.half_width + z) * raster.columns
-    first_row, first_column = int(row), int(column)  # never negative on the board
-    subpixel = int((row - first_row) * SUBPIXELS) * SUBPIXELS + int((column - first_column) * SUBPIXELS)
+    pixel_row, pixel_column = int(row), int(column)  # never negative on the board
+    subpixel = int((row - pixel_row) * SUBPIXELS) * SUBPIXELS + int((column - pixel_column) * SUBPIXELS)
     rows, columns = 2 * raster.ball_rows + 1, 2 * raster.ball_columns + 1
     sprite = sprites + subpixel * rows * columns * raster.channels
-    blend_sprite(
-        raster,
-        sprite,
-        rows,
-        columns,
-        picture,
-        first_row - raster.ball_rows,
-        first_column - raster.ball_columns,
-    )
+    top, left = pixel_row - raster.ball_rows, pixel_column - raster.ball_columns
+    blend_sprite(raster, sprite, rows, columns, picture, top, left)
 
 
 @internal

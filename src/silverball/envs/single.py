@@ -121,15 +121,15 @@ class PinballEnv(gymnasium.Env[Any, Any]):
             ValueError: The seed is not an integer ≥ 0, an option is unknown, or there is no such board.
         """
         board = checked_reset_options(options, ("board",)).get("board")
-        wanted = -1 if board is None else self._engine.pool.board_of_seed(board)
-        key = None if seed is None else checked_seed(seed)
+        requested = -1 if board is None else self._engine.pool.board_of_seed(board)
+        number = None if seed is None else checked_seed(seed)
         super().reset(seed=None if seed is None else int(seed))
-        if key is not None:
-            self._engine.seed(key)
+        if number is not None:
+            self._engine.seed(number)
         elif self._is_rng_set or not self._engine.has_begun.all():
             self._engine.seed(self.np_random.integers(SEED_RANGE, dtype=np.uint64).astype(np.int64))
         self._is_rng_set = False
-        self._engine.reset(wanted)
+        self._engine.reset(requested)
         self._info = _info_of(self._counts.tolist())
         if self.render_mode == "human":
             self.render()

@@ -175,7 +175,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """
         given = checked_reset_options(options, ("reset_mask", "board"))
         mask = self._checked_mask(given.get("reset_mask"))
-        boards = self._boards(given.get("board"))
+        boards = self._requested_boards(given.get("board"))
         seeds = self._seeds(seed)
         super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
         self._seed(seeds, mask)
@@ -367,11 +367,11 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         where = mask & (seeds >= 0)
         self._engine.seed(seeds[where], where)
 
-    def _boards(self, wanted: Any) -> NDArray[np.int64]:
+    def _requested_boards(self, requested: Any) -> NDArray[np.int64]:
         """The board of each environment's next episode, int64 [env]; −1: it is drawn."""
-        if wanted is None:
+        if requested is None:
             return np.full(self.num_envs, -1, np.int64)
-        each = [wanted] * self.num_envs if np.ndim(wanted) == 0 else list(wanted)
+        each = [requested] * self.num_envs if np.ndim(requested) == 0 else list(requested)
         if len(each) != self.num_envs:
             raise ValueError(f"board must be one number or {self.num_envs} of them, got {len(each)}")
         pool = self._engine.pool
