@@ -1,7 +1,7 @@
 """Draw the pictures of docs/feel.md and print its figures: `python docs/make_feel.py`.
 
-For each built-in table, or those that are named: where balls spend their time, and where a shot goes for
-each moment of the press. It needs matplotlib: `.venv/bin/pip install '.[bench]'`.
+For each built-in table, or those named: where balls spend their time, and the direction of a shot for each
+moment of the press. It needs matplotlib: `.venv/bin/pip install '.[bench]'`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from silverball.cli.feel import lines_of, report_of
+from silverball.cli.feel import print_report, report_of
 from silverball.metrics.feel import Feel, measure
 from silverball.metrics.game_traces import CELLS, TICK_RATE
 from silverball.metrics.shots import Aim, Shots
@@ -97,8 +97,7 @@ def draw(feel: Feel, path: Path) -> None:
 if __name__ == "__main__":
     for name in sys.argv[1:] or ("classic", "random", "rolling"):
         measured = measure(load_table(name), GAMES, SEED)
-        lines = lines_of({"table": name, "seed": SEED, "games": GAMES, **report_of(measured)})
-        print(*lines, sep="\n", flush=True)
+        print_report({"table": name, "seed": SEED, "games": GAMES, **report_of(measured)})
         file = FOLDER / f"feel_{Path(name).stem}.png"
         draw(measured, file)
         print(f"wrote {file}\n")

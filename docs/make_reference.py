@@ -1,8 +1,8 @@
-"""Write docs/tables.md, the reference of the table file, from the models in `silverball.table.parts`.
+"""Write docs/tables.md, the reference of the table file, from the models of `silverball.table`.
 
     python docs/make_reference.py
 
-A test fails when the page is not what this script would write.
+A test fails if the page differs from what this script writes.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ PAGE = Path(__file__).parent / "tables.md"
 HEAD = """\
 # The table file
 
-A table is a TOML file: data only, never code. `silverball check FILE` reports every problem at once, with its
-place; `silverball show --table FILE --out table.png` draws it; `silverball play --table FILE` plays it.
+A table is a TOML file: data only, never code. `silverball check FILE` reports every problem, with its place in
+the file; `silverball show --table FILE --out table.png` draws the table; `silverball play --table FILE` plays it.
 
 Axes: x runs up the table from the gutter to the top, z to the player's right, the origin is the centre of the
 board. Points are written `[x, z]`. Angles are counter-clockwise as the player sees the board, from +z (right)
@@ -26,30 +26,40 @@ towards +x (up). Lengths are table units [u], times seconds; a real table of 1.0
 Every key below is optional unless its default is "–"; a table without paddles is allowed, but no fun. Messages
 count parts from 0: `slant_wall[0]` is the first one in the file.
 
-This page is generated from `src/silverball/table/parts.py`.
+In Python the sections are models with the same keys, in `silverball.parts`, and `replace` makes a changed table
+with the same checks:
+
+    import silverball as sb
+
+    table = sb.load_table("classic")
+    bumper = sb.parts.Cylinder(center=(5.0, 1.5), radius=0.6, points=250)
+    mine = table.replace(name="Mine", board={"gravity": 12}, cylinder=[bumper], triangular_prism=[])
+    sb.save_table(mine, "mine.toml")
+
+This page is generated from `src/silverball/table/parts.py` and `table.py`.
 """
 MESHES = """\
 ## Obstacles from meshes
 
-`mesh = "wedge.stl"` (or .obj, .glb; relative to the table file) takes the footprint of a 3-D mesh, seen from above:
-for a prism the largest triangle among the corners of the convex hull, for a cylinder the smallest circle around it. The
-mesh's own axes and units are the table's: x up the table, **y out of the board**, z to the right, in u, and it stands
-where it is to stand on the board. Only the file itself is read, of at most 16 MiB and 1,100,000 vertices, every place
-where a GLB shows a mesh counted. A model drawn flat (X to the right, Y up, Z the height, in millimetres), as most CAD
-programs make it, becomes one of the board by this (`.venv/bin/pip install trimesh`):
+`mesh = "wedge.stl"` (or .obj, .glb; relative to the table file) takes the footprint of a 3-D mesh from above: for a
+prism the largest triangle among the corners of the convex hull, for a cylinder the smallest circle around it. The axes
+and units of the mesh are those of the table: x up the table, **y out of the board**, z to the right, in u; so the mesh
+contains its position on the board. Only the file itself is read, up to 16 MiB and 1,100,000 vertices, counting every
+instance of a mesh in a GLB. Most CAD programs use X to the right, Y up, Z for the height, and millimetres; this
+converts such a model (`.venv/bin/pip install trimesh`):
 
     import trimesh
 
     wedge = trimesh.load("drawn.stl", force="mesh")
     wedge.apply_scale(20 / 1070)  # a table of 1.07 m is 20 u long
-    x, z = 2.0, -1.0  # where its origin comes to lie
+    x, z = 2.0, -1.0  # the position of its origin on the board
     wedge.apply_transform([[0, 1, 0, x], [0, 0, 1, 0], [1, 0, 0, z], [0, 0, 0, 1]])  # Y → x, Z → y, X → z
     wedge.export("wedge.stl")
 """
 SECTIONS = (
     ("[board]", Board, "once"),
     ("[[slant_wall]]", SlantWall, "any number"),
-    ("[[paddle]]", Paddle, "at most one a side"),
+    ("[[paddle]]", Paddle, "at most one per side"),
     ("[[triangular_prism]]", TriangularPrism, "any number"),
     ("[[cylinder]]", Cylinder, "any number"),
     ("[random]", RandomRecipe, "makes the table a recipe, with a board for every seed"),
@@ -58,7 +68,7 @@ SECTIONS = (
 
 
 def page() -> str:
-    """The whole page."""
+    """Return the whole page."""
     elsewhere = ("board", "slant_wall", "paddle", "triangular_prism", "cylinder", "arcade")
     parts = [HEAD, _table("Top level", Table, "", skip=elsewhere)]
     parts += [_table(f"`{title}`", model, note) for title, model, note in SECTIONS]

@@ -22,8 +22,7 @@ from stable_baselines3.common.vec_env import VecEnvWrapper, VecNormalize
 from silverball.envs import PinballVectorEnv
 from silverball.envs.sb3 import SilverballVecEnv
 from silverball.metrics.ball_time import time_balls
-from silverball.players import PlayerKind
-from silverball.players.features import COLUMNS, MIRRORED, SEEN, see
+from silverball.players.features import COLUMNS, ENCODED, MIRRORED, encode
 from silverball.players.trained import DECISIONS, Policy
 from silverball.world import WorldBatch
 
@@ -37,20 +36,20 @@ class Seen(VecEnvWrapper):
     """Observations as the features of `players/features.py`; balls on the right are mirrored to the left."""
 
     def __init__(self, envs):
-        super().__init__(envs, Box(-10.0, 10.0, (SEEN,), np.float32))
+        super().__init__(envs, Box(-10.0, 10.0, (ENCODED,), np.float32))
 
     def _see(self, rows):
-        seen, is_mirrored = see(rows[:, COLUMNS])
+        seen, is_mirrored = encode(rows[:, COLUMNS])
         return seen.astype(np.float32), is_mirrored
 
-    def reset(self):  # noqa: D102  (documented by SB3)
+    def reset(self):
         seen, self._is_mirrored = self._see(self.venv.reset())
         return seen
 
-    def step_async(self, actions):  # noqa: D102
+    def step_async(self, actions):
         self.venv.step_async(np.where(self._is_mirrored, MIRRORED[actions], actions))
 
-    def step_wait(self):  # noqa: D102
+    def step_wait(self):
         rows, rewards, ended, infos = self.venv.step_wait()
         for row in np.flatnonzero(ended):
             last = infos[row]["terminal_observation"]
@@ -184,8 +183,10 @@ options = {"frame_skip": 60 // DECISIONS, "time_limit": LONGEST}
 unseen = PinballVectorEnv(
     chosen.balls, "SameStep", own_boards=True, boards=chosen.balls, board_seed=UNSEEN, **options
 )
-worlds = {name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN) for name in ("random", "reflex")}
-others = {name: time_balls(one, PlayerKind[name.upper()], LONGEST).score[0] for name, one in worlds.items()}
+worlds = {
+    name: WorldBatch(unseen.batch.tables, chosen.balls, UNSEEN, tick_rate=60) for name in ("random", "reflex")
+}
+others = {name: time_balls(one, name, LONGEST).score[0] for name, one in worlds.items()}
 for name, points in others.items():
     print(f"the player {name}: {points:.0f} points a ball", flush=True)
 

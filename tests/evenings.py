@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from silverball.app.catalog import Library
+from silverball.app.catalog import Catalog
 from silverball.app.controls import Action, Held
 from silverball.app.program import Program
 from silverball.app.settings import Settings
@@ -23,8 +23,8 @@ class Evening:
 
     def __init__(self, folder, settings=None, table=LEAKY) -> None:
         self.said: list[str] = []
-        self.store = Store(folder, at_once=True)  # as a window has it
-        self.library = Library(self.store, folder, {table.name: table})
+        self.store = Store(folder, nonblocking=True)  # as a window has it
+        self.library = Catalog(self.store, folder, {table.name: table})
         chosen = settings or Settings(table=table.name)
         self.program = Program(self.store, chosen, self.library, seed=3, say=self.said.append)
         self.seconds = 0.0

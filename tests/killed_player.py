@@ -38,9 +38,9 @@ def games(seed: int) -> Iterator[Played]:
         number = draw.randrange(1, 2**31)
         game = Game("classic", number)
         while not game.is_over and game.tick < MOST_TICKS:
-            if game.face.on_board == 0:
+            if game.view.on_board == 0:
                 game.create_ball()
-            game.advance(draw.random() < 0.5, draw.random() < 0.5, ticks=20)
+            game.step(draw.random() < 0.5, draw.random() < 0.5, ticks=20)
         game.end()
         yield Played(number, game.score, game.replay.to_text())
 
@@ -58,16 +58,16 @@ def show(*words: object) -> None:
 def play(folder: Path, seed: int) -> None:
     """Play games and keep them; what was shown is said as it is shown."""
     with Store(folder) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
         show("opened")
         for count, game in enumerate(games(seed)):
-            store.keep_last_game(f"{count}\n{game.replay}")
+            store.save_last_game(f"{count}\n{game.replay}")
             show("last_game", count)
             id = store.add_score("OLD", game.score, *LIST, game.seed, game.replay)
             show("score", id, game.score, game.seed)
             store.rename(id, initials(id))
             show("renamed", id)
-            store.keep_settings({"initials": initials(id), "count": count, "again": count})
+            store.save_settings({"initials": initials(id), "count": count, "again": count})
             show("settings", count)
 
 
@@ -77,7 +77,7 @@ def add_scores(folder: Path, first: int, count: int) -> None:
         for score in range(first, first + count):
             id = store.add_score("OLD", score, *LIST, 0, "a replay\n" * 100)
             store.rename(id, initials(score))
-        assert (store.trouble, store.keeps) == ("", True)
+        assert (store.warning, store.is_persistent) == ("", True)
 
 
 def main() -> None:

@@ -1,11 +1,11 @@
-"""Do damaged table files end in words? Thousands of them, through load, check and five seconds of play.
+"""Fuzzing of table files: thousands of damaged files through load, check and five seconds of play.
 
     python tests/mutate_tables.py --count 50000
 
-Each is a good file with its bytes, lines, numbers, keys or types changed, or a recipe or a mesh made nasty;
-number n of a seed is always the same file. A table or a `TableError` is right. Wrong, and listed, are any
-other exception, a control character in a message, more than 5 s, more than 200 MB beside the process itself,
-a world that stops with a fault, and a recipe that loads and then makes no board.
+Each is a valid file with changed bytes, lines, numbers, keys or types, or with a hostile recipe or mesh. File
+n of a seed is always the same. A table or a `TableError` is right. Wrong, and listed, are any other
+exception, a control character in a message, more than 5 s, more than 200 MB beyond the process itself, a
+world that stops with a fault, and a recipe that loads but makes no board.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ class Finding(NamedTuple):
 
 
 def _bytes(text: str, dice: random.Random) -> str:
-    """Some characters are other ones, or gone."""
+    """Change or remove some bytes."""
     letters = list(text)
     for _ in range(dice.randint(1, 6)):
         place = dice.randrange(len(letters))
@@ -142,7 +142,7 @@ def _bytes(text: str, dice: random.Random) -> str:
 
 
 def _lines(text: str, dice: random.Random) -> str:
-    """Lines are removed, doubled, swapped or moved."""
+    """Remove, double, swap or move lines."""
     lines = text.split("\n")
     for _ in range(dice.randint(1, 4)):
         one, other = dice.randrange(len(lines)), dice.randrange(len(lines))
@@ -159,7 +159,7 @@ def _lines(text: str, dice: random.Random) -> str:
 
 
 def _numbers(text: str, dice: random.Random) -> str:
-    """Some numbers are nasty ones, or a little more or less."""
+    """Replace some numbers by hostile ones, or change them a little."""
     found = list(NUMBER.finditer(text))
     for match in sorted(dice.sample(found, min(len(found), dice.randint(1, 5))), key=lambda m: -m.start()):
         nasty = dice.choice(NUMBERS)
@@ -173,7 +173,7 @@ def _numbers(text: str, dice: random.Random) -> str:
 
 
 def _gentle(text: str, dice: random.Random) -> str:
-    """A number or two are a little more or less, so that many of these files can be played."""
+    """Change one or two numbers a little, so that many of these files can be played."""
     found = list(NUMBER.finditer(text))
     for match in sorted(dice.sample(found, min(len(found), dice.randint(1, 2))), key=lambda m: -m.start()):
         with contextlib.suppress(ValueError):
@@ -183,7 +183,7 @@ def _gentle(text: str, dice: random.Random) -> str:
 
 
 def _types(text: str, dice: random.Random) -> str:
-    """Some values are of other types, and some keys other ones."""
+    """Change the types of some values, and some keys."""
     lines = text.split("\n")
     places = [place for place, line in enumerate(lines) if " = " in line]
     for place in dice.sample(places, min(len(places), dice.randint(1, 4))):
@@ -198,7 +198,7 @@ def _types(text: str, dice: random.Random) -> str:
 
 
 def _additions(text: str, dice: random.Random) -> str:
-    """Sections and keys from elsewhere are put in."""
+    """Insert sections and keys from elsewhere."""
     lines = text.split("\n")
     for _ in range(dice.randint(1, 4)):
         word = dice.choice([word for word in WORDS if word.isidentifier()])
@@ -208,12 +208,12 @@ def _additions(text: str, dice: random.Random) -> str:
 
 
 def _cut(text: str, dice: random.Random) -> str:
-    """The file ends early."""
+    """Truncate the file."""
     return text[: dice.randrange(len(text))]
 
 
 def _nesting(text: str, dice: random.Random) -> str:
-    """Brackets in brackets, sections in sections."""
+    """Nest brackets and sections."""
     depth = dice.choice([10, 100, 1000, 5000])
     return text + dice.choice(
         [
@@ -225,7 +225,7 @@ def _nesting(text: str, dice: random.Random) -> str:
 
 
 def _recipe(text: str, dice: random.Random) -> str:
-    """Another recipe, in an area that may be too small, elsewhere or nowhere."""
+    """Change the recipe; its area may be too small, or outside the board."""
     x, z = (
         sorted(dice.uniform(-11.0, 11.0) for _ in range(2)),
         sorted(dice.uniform(-6.0, 6.0) for _ in range(2)),
@@ -248,7 +248,7 @@ def _recipe(text: str, dice: random.Random) -> str:
 
 
 def _mesh(text: str, dice: random.Random) -> str:
-    """A prism and a cylinder from a mesh, which may be damaged."""
+    """Add a prism and a cylinder with a mesh, which may be damaged."""
     names = [f"{name}.{kind}" for name in ("good", "bad") for kind in ("stl", "obj", "glb")]
     names += ["gone.stl", "/dev/null", "..", "good.glb/x.stl", "\\u0000.stl", "\\u001b[31m.obj"]
     mesh = dice.choice(names)
@@ -274,7 +274,7 @@ WAYS: tuple[Callable[[str, random.Random], str], ...] = (
 
 
 def good_texts() -> list[str]:
-    """The files that are damaged: the built-in tables, some boards, and a table that says everything."""
+    """The files to damage: the built-in tables, some boards, and a table with every key."""
     tables = [load_table(name) for name in table_names()]
     tables += [generate_table(seed, name) for name in ("random", "original") for seed in range(3)]
     full = "\n".join(["[arcade]", "balls = 5", "tilt_limit = 2.0", "combo_window = 1.5"])
@@ -282,7 +282,7 @@ def good_texts() -> list[str]:
 
 
 def mutated(texts: list[str], seed: int, number: int) -> bytes:
-    """Damaged file number n of a seed."""
+    """Make damaged file number n of a seed."""
     dice = random.Random(f"{seed}/{number}")
     text = dice.choice(texts)
     for _ in range(dice.choice([1, 1, 1, 2, 3])):
@@ -296,7 +296,7 @@ def mutated(texts: list[str], seed: int, number: int) -> bytes:
 
 
 def write_meshes(folder: Path, dice: random.Random) -> None:
-    """A wedge in each format, good and damaged."""
+    """A wedge in each format, valid and damaged."""
     stl = bytes(80) + (2).to_bytes(4, "little")
     corners = np.array(
         [[2, 0, -1], [3.2, 0, -1.4], [2.4, 1, 0.2], [2, 1, -1], [3.2, 1, -1.4], [2.4, 0, 0.2]], "<f4"
@@ -332,7 +332,7 @@ def write_meshes(folder: Path, dice: random.Random) -> None:
 
 
 def take_through(path: Path, seed: int) -> tuple[str, str]:
-    """Load, check and play a file: what became of it, and what it said."""
+    """Load, check and play a file; returns the outcome and the message."""
     try:
         table = load_table(path)
     except TableError as error:
@@ -358,7 +358,7 @@ def take_through(path: Path, seed: int) -> tuple[str, str]:
 
 
 def examine(path: Path, seed: int) -> tuple[str, str | None]:
-    """What became of a file, and what was wrong with that."""
+    """Return the outcome of a file, and what was wrong with it."""
     start = time.process_time()
     try:
         with _alarm(10.0 * LONGEST):
@@ -382,7 +382,7 @@ def examine(path: Path, seed: int) -> tuple[str, str | None]:
 
 @contextlib.contextmanager
 def _alarm(seconds: float) -> Iterator[None]:
-    """An end to what never ends, where the system has one."""
+    """Limit the computing time, where the system can."""
 
     def ring(*_: object) -> None:
         raise TimeoutError(f"no end within {seconds:.0f} s")
@@ -405,7 +405,7 @@ def run(
     first: int = 0,
     tell: Callable[[int, Finding | None], None] = lambda number, found: None,
 ) -> tuple[Counter[str], list[Finding], float]:
-    """Take files of a seed through: how many had which outcome, what was wrong, and the growth [bytes]."""
+    """Run the files of a seed; returns the number of each outcome, the findings, and the growth [bytes]."""
     texts, outcomes, findings = good_texts(), Counter[str](), []
     World("classic", seed=1).step()
     before = _peak()
@@ -426,12 +426,12 @@ def run(
 
 
 def _peak() -> float:
-    """[bytes] The most memory that this process has had."""
+    """[bytes] The peak memory of this process."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1.0 if sys.platform == "darwin" else 1024.0)
 
 
 def main() -> int:
-    """From the command line; 1 if anything was wrong."""
+    """Run from the command line; returns 1 if anything was wrong."""
     options = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

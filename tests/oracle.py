@@ -1,7 +1,7 @@
 """A slow, obvious twin of the solver in plain Python, to test against.
 
-It moves the balls in tiny steps and looks for overlaps: just what the solver must never do. When a step
-ends in an overlap it is cut in half again and again until the overlap is gone or the step is nothing; then
+It moves the balls in tiny steps and checks for overlaps: just what the solver must never do. When a step
+ends in an overlap it is cut in half again and again until the overlap is gone or the step is negligible; then
 the contact is where the ball stands. Shapes are lists of corners taken from the table; distances come from
 the nearest point of each side. Friction is the law itself, in three dimensions. It shares no code with the
 solver.
@@ -15,7 +15,7 @@ from typing import NamedTuple
 from silverball.table import Board, Paddle, Table
 
 STEP = 1e-4  # [s] at 22 u/s a ball moves 1/110 of its radius
-SHORTEST = 1e-13  # [s] a cut step this short is none
+SHORTEST = 1e-13  # [s] a shorter step is negligible
 
 
 class Bounce(NamedTuple):
@@ -64,7 +64,7 @@ def pushed(velocity: Vector, spin: Vector, arm: Vector, impulse: Vector) -> tupl
 
 
 def rubbing(slip: Vector, normal: Vector, most: float, bodies: int = 1) -> Vector:
-    """The impulse of friction against a slip between so many balls: what stops it, or all there is.
+    """The impulse of friction against a slip between `bodies` balls: what stops it, or all that is available.
 
     An impulse J along the surface changes the slip there by J for the ball's speed and by J/INERTIA for its
     spin; along y by the latter alone.
@@ -267,7 +267,7 @@ class Twin:
             other = self.balls[1]
             w = -(nx * (ball.vx - other.vx) + nz * (ball.vz - other.vz))
             push = (1 + board.ball_restitution) * w / 2
-            self.rub_balls(ball, other, (nx, 0.0, nz), push)
+            self.apply_ball_friction(ball, other, (nx, 0.0, nz), push)
             ball.vx, ball.vz = ball.vx + push * nx, ball.vz + push * nz
             other.vx, other.vz = other.vx - push * nx, other.vz - push * nz
             self.cap(other)
@@ -279,18 +279,18 @@ class Twin:
                 else part.restitution / (1 + part.restitution_falloff * w)
             )
             factor = getattr(part, "speed_factor", 1.0) if w > board.hit_speed else 1.0
-            self.rub_surface(ball, (nx, 0.0, nz), (1 + e) * w, (surface[0], 0.0, surface[1]))
+            self.apply_surface_friction(ball, (nx, 0.0, nz), (1 + e) * w, (surface[0], 0.0, surface[1]))
             ball.vx, ball.vz = (ball.vx + (1 + e) * w * nx) * factor, (ball.vz + (1 + e) * w * nz) * factor
         self.cap(ball)
         self.bounces.append(Bounce(self.time, index, path, ball.x, ball.z, w))
 
-    def rub_surface(self, ball: Body, normal: Vector, push: float, surface: Vector) -> None:
+    def apply_surface_friction(self, ball: Body, normal: Vector, push: float, surface: Vector) -> None:
         """Friction at a surface with a velocity of its own."""
         arm = plus((0.0, 0.0, 0.0), normal, -self.board.ball_radius)
         slip = plus(surface_slip(ball.velocity, ball.spin, arm), surface, -1.0)
         ball.push(arm, rubbing(slip, normal, self.board.friction * push))
 
-    def rub_balls(self, ball: Body, other: Body, normal: Vector, push: float) -> None:
+    def apply_ball_friction(self, ball: Body, other: Body, normal: Vector, push: float) -> None:
         """Friction between two balls: equal and opposite impulses at one point."""
         nowhere, radius = (0.0, 0.0, 0.0), self.board.ball_radius
         arm, other_arm = plus(nowhere, normal, -radius), plus(nowhere, normal, radius)

@@ -1,4 +1,4 @@
-"""How does a test give a ball a spin, and see the one it has?"""
+"""Balls with spin: give them one, and measure what follows."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import pytest
 
-from silverball.cli.app import app
+from silverball.cli.app import main_command
 from silverball.table import parse_table
 
 ROOT = Path(__file__).parent.parent
@@ -17,7 +17,7 @@ DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 
 
 def test_readme_names_every_command():
-    commands = [command.callback.__name__ for command in app.registered_commands if command.callback]
+    commands = main_command().commands
     assert [name for name in commands if f"silverball {name}" not in README] == []
 
 

@@ -24,7 +24,7 @@ def test_the_lowest_versions_are_those_of_the_project():
 
 def test_every_package_that_is_needed_to_run_is_among_them():
     lines = make_lowest.lowest(PROJECT).splitlines()
-    for name in ("numpy", "numba", "pygame-ce", "typer", "trimesh", "imageio-ffmpeg", "gymnasium", "pytest"):
+    for name in ("numpy", "numba", "pygame-ce", "typer", "trimesh", "av", "gymnasium", "pytest"):
         assert sum(line.startswith(f"{name}==") for line in lines) == 1
 
 

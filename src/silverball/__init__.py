@@ -1,4 +1,4 @@
-"""Silverball: a pinball table in Python, exact, fast and deterministic.
+"""A pinball table in Python: exact, fast and deterministic.
 
     import silverball as sb
 
@@ -6,7 +6,7 @@
     world.create_ball()
     world.step(left=True, ticks=24)
 
-Everything public is reachable from here and loaded when first used: `import silverball` costs nothing.
+Every public name is reachable from here and loaded on first use, so `import silverball` is fast.
 """
 
 from __future__ import annotations
@@ -15,6 +15,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from silverball.drawing import (
+        Renderer as Renderer,
+    )
     from silverball.errors import (
         BoardFull as BoardFull,
     )
@@ -45,6 +48,48 @@ if TYPE_CHECKING:
     from silverball.errors import (
         UnknownTable as UnknownTable,
     )
+    from silverball.game.builtin_rules import (
+        ArcadeRules as ArcadeRules,
+    )
+    from silverball.game.builtin_rules import (
+        FreeRules as FreeRules,
+    )
+    from silverball.game.game import (
+        Game as Game,
+    )
+    from silverball.game.replay.format import (
+        Replay as Replay,
+    )
+    from silverball.game.replay.verify import (
+        Verdict as Verdict,
+    )
+    from silverball.game.rules import (
+        InPlay as InPlay,
+    )
+    from silverball.game.rules import (
+        RuleConfig as RuleConfig,
+    )
+    from silverball.game.rules import (
+        Rules as Rules,
+    )
+    from silverball.game.rules import (
+        RuleState as RuleState,
+    )
+    from silverball.game.view import (
+        GameEvent as GameEvent,
+    )
+    from silverball.game.view import (
+        GameEventKind as GameEventKind,
+    )
+    from silverball.game.view import (
+        GameView as GameView,
+    )
+    from silverball.game.view import (
+        Mode as Mode,
+    )
+    from silverball.game.view import (
+        Phase as Phase,
+    )
     from silverball.table import (
         Table as Table,
     )
@@ -56,6 +101,9 @@ if TYPE_CHECKING:
     )
     from silverball.table import (
         load_table as load_table,
+    )
+    from silverball.table import (
+        parts as parts,
     )
     from silverball.table import (
         save_table as save_table,
@@ -85,11 +133,20 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOME = {
+    "silverball.drawing": ("Renderer",),
     "silverball.errors": (
         "BoardFull", "FaultError", "MissingExtra", "NoDisplay", "NoRoom", "OutputError", "SilverballError",
         "StateError", "TableError", "UnknownTable",
     ),
-    "silverball.table": ("Table", "check_table", "generate_table", "load_table", "save_table", "table_names"),
+    "silverball.game.builtin_rules": ("ArcadeRules", "FreeRules"),
+    "silverball.game.game": ("Game",),
+    "silverball.game.replay.format": ("Replay",),
+    "silverball.game.replay.verify": ("Verdict",),
+    "silverball.game.rules": ("InPlay", "RuleConfig", "Rules", "RuleState"),
+    "silverball.game.view": ("GameEvent", "GameEventKind", "GameView", "Mode", "Phase"),
+    "silverball.table": (
+        "Table", "check_table", "generate_table", "load_table", "parts", "save_table", "table_names",
+    ),
     "silverball.world": ("BallState", "Event", "PaddleState", "Snapshot", "World", "WorldBatch"),
 }  # fmt: skip
 _MODULE_OF = {name: module for module, names in _HOME.items() for name in names}

@@ -1,6 +1,6 @@
-"""Who compiles while a game is played? Another process, of low priority; compiling holds Python's lock.
+"""Compiling in a background process of low priority, because compiling holds the interpreter lock.
 
-It fills the cache of machine code, from which the game's own process then loads.
+The process fills the cache of machine code, from which the game then loads.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ POLL_SECONDS = 0.1
 
 
 class Compiler:
-    """The one process that compiles, whoever waits for it. It does not outlive the program.
+    """One process that compiles, shared by all who wait for it. It ends with the program.
 
     Args:
-        module: What it runs, and what compiles; the module itself sees to its priority.
+        module: The module that it runs, which compiles and lowers its own priority.
     """
 
     def __init__(self, module: str) -> None:
@@ -28,14 +28,14 @@ class Compiler:
         atexit.register(self.kill)
 
     def finish(self, stop: threading.Event, most_seconds: float) -> bool:
-        """Run it to its end.
+        """Run the process to its end.
 
         Args:
-            stop: Once it is set, nobody waits any longer; the process goes on, for others need it too.
-            most_seconds: After which it is killed [s].
+            stop: When it is set, this call stops waiting; the process continues for others.
+            most_seconds: The time after which the process is killed [s].
 
         Returns:
-            Whether it has ended well.
+            Whether the process has succeeded.
         """
         try:
             process = self._running()
@@ -52,7 +52,7 @@ class Compiler:
         return process.returncode == 0
 
     def kill(self) -> None:
-        """End it if it runs."""
+        """Kill the process if it runs."""
         with self._lock:
             if self._process is not None and self._process.poll() is None:
                 with contextlib.suppress(OSError):
@@ -60,10 +60,10 @@ class Compiler:
                     self._process.wait()
 
     def _running(self) -> subprocess.Popen[bytes]:
-        """The process, started if none runs."""
+        """Return the process, and start it if it does not run."""
         with self._lock:
             if self._process is None or self._process.poll() is not None:
-                # On Windows a process cannot lower its own priority later.
+                # On Windows a process cannot lower its priority later.
                 flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
                 self._process = subprocess.Popen(
                     [sys.executable, "-m", self._module],

@@ -1,10 +1,10 @@
-"""Every error that Silverball raises on purpose: what can go wrong, and whose turn it is to act.
+"""All errors that Silverball raises on purpose, by who has to fix what.
 
     SilverballError
     ├── TableError        a table cannot be used; `problems` lists every mistake with its path
     │   └── UnknownTable  no built-in table and no file has that name
     ├── BoardFull         the board already holds as many balls as the table allows
-    ├── NoRoom            there is no free place for a ball, or the asked place overlaps something
+    ├── NoRoom            there is no free place for a ball, or the given place overlaps something
     ├── StateError        saved bytes belong to another table, are damaged or describe an impossible state
     ├── FaultError        a world has stopped at an impossible state; `fault` names it
     ├── NoDisplay         there is no screen to open a window on
@@ -12,9 +12,9 @@
     │   └── OutdatedExtra an optional package is there, but too old
     └── OutputError       a file cannot be written (unknown ending, no such folder, no permission)
 
-A message says where, what was expected, what was given and what to do. The command line prints the
-message alone and ends with exit code 2; nothing half-written stays behind. Whatever a message repeats of a
-file, a name or an argument is shown in it and never obeyed: every line goes through `plain`.
+A message says where, what was expected, what was given and what to do. The command line prints the message
+alone and exits with code 2; it leaves no half-written files. Control characters in whatever a message repeats
+of a file, a name or an argument are escaped: every line goes through `plain`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class SilverballError(Exception):
     """The root of every error that Silverball raises on purpose.
 
     Args:
-        lines: Of the message, usually one.
+        lines: The lines of the message, usually one.
     """
 
     def __init__(self, *lines: str) -> None:
@@ -37,23 +37,28 @@ class SilverballError(Exception):
 
 
 class Problem(NamedTuple):
-    """One mistake in a table: where it is and what to do about it.
+    """One mistake in a table: where it is and how to fix it.
 
     Attributes:
         path: The place in the file, for example ``triangular_prism[2].vertices``.
-        message: What was expected, what was given and how to mend it, as one sentence.
+        message: What was expected, what was given and how to fix it, as one sentence.
     """
 
     path: str
     message: str
 
     def __str__(self) -> str:
-        """The problem on one line."""
+        """Return the problem on one line."""
         return f"{self.path}: {self.message}" if self.path else self.message
 
 
 class TableError(SilverballError):
-    """A table cannot be used; every problem is reported, not only the first."""
+    """A table cannot be used; all problems are reported, not only the first.
+
+    Attributes:
+        source: The file or the name of the table.
+        problems: Every `Problem`, in the order of the file.
+    """
 
     def __init__(self, source: str, problems: Sequence[Problem]) -> None:
         self.source = plain(source)
@@ -75,7 +80,7 @@ class BoardFull(SilverballError):
 
 
 class NoRoom(SilverballError):
-    """There is no free place for a ball, or the place asked for overlaps something."""
+    """There is no free place for a ball, or the given place overlaps something."""
 
 
 class StateError(SilverballError):
@@ -87,7 +92,7 @@ class FaultError(SilverballError):
 
     Attributes:
         fault: The name of the fault.
-        state: The bytes of the world at the fault, for `World.restore` and a report.
+        state: The bytes of the world at the fault, for `World.restore` and for a report.
     """
 
     def __init__(self, message: str, fault: str, state: bytes) -> None:
@@ -101,7 +106,7 @@ class NoDisplay(SilverballError):
 
 
 class MissingExtra(SilverballError):
-    """An optional package is needed for this."""
+    """An optional package is missing; the message says which extra installs it."""
 
     def __init__(self, what: str, extra: str) -> None:
         super().__init__(
@@ -116,7 +121,7 @@ class OutdatedExtra(MissingExtra):
         SilverballError.__init__(
             self,
             f"{what} needs {package} {needed} or later, and {found} is installed: "
-            f"bring it up to date with  pip install --upgrade 'silverball[{extra}]'",
+            f"update it with  pip install --upgrade 'silverball[{extra}]'",
         )
 
 

@@ -1,4 +1,4 @@
-"""Is there a display, and how is SDL's video started? For the window of the game and of an environment."""
+"""Starting SDL's video, or saying why there is no display; for windows of games and environments."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ import pygame
 from silverball.errors import NoDisplay
 
 NOT_A_SCREEN = ("dummy", "offscreen", "evdev")
-"""Drivers of SDL that show nothing."""
+"""SDL drivers that show nothing."""
 
 
 def open_video(remedy: str, *, without_display: bool = False) -> None:
     """Start SDL's video.
 
     Args:
-        remedy: What to do instead where there is no display, as a sentence.
-        without_display: Whether SDL's drivers that show nothing will do.
+        remedy: What to do instead if there is no display, as a sentence.
+        without_display: Whether SDL drivers that show nothing are accepted.
 
     Raises:
-        NoDisplay: SDL finds no screen, or was told to use a driver that shows nothing.
+        NoDisplay: SDL finds no screen, or is configured to use a driver that shows nothing.
     """
     os.environ.setdefault("SDL_WINDOWS_DPI_AWARENESS", "permonitorv2")  # real pixels on Windows
-    os.environ.setdefault("SDL_VIDEO_X11_WMCLASS", "Silverball")  # what a desktop lists it under
+    os.environ.setdefault("SDL_VIDEO_X11_WMCLASS", "Silverball")  # its name on a desktop
     if sys.platform == "linux" and not {"XDG_RUNTIME_DIR", "WAYLAND_DISPLAY"} & os.environ.keys():
-        # Wayland cannot work without these; asked nevertheless, its library prints an error of its own.
+        # Without these Wayland cannot work, and its library would print an error of its own.
         os.environ.setdefault("SDL_VIDEODRIVER", "x11,kmsdrm")
     try:
         pygame.display.init()
@@ -38,14 +38,14 @@ def open_video(remedy: str, *, without_display: bool = False) -> None:
         pygame.display.quit()
         raise NoDisplay(_sentence(f"SDL uses the driver {driver!r}, which shows nothing", remedy))
     if driver == "x11" and not has_gpu():
-        # SDL would put each frame through OpenGL, which without a GPU takes 4 ms instead of 0.3 ms.
+        # SDL would draw each frame with OpenGL, which without a GPU takes 4 ms instead of 0.3 ms.
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
     else:
-        os.environ.setdefault("SDL_RENDER_VSYNC", "1")  # a flip waits for the screen: no picture is torn
+        os.environ.setdefault("SDL_RENDER_VSYNC", "1")  # a flip waits for the screen, so no frame is torn
 
 
 def has_gpu() -> bool:
-    """Whether Linux knows of a graphics card; elsewhere it is taken for granted."""
+    """Return whether Linux has a graphics card; on other systems it is assumed."""
     return sys.platform != "linux" or any(Path("/dev/dri").glob("renderD*"))
 
 

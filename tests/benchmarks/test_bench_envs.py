@@ -137,7 +137,7 @@ def test_the_command_writes_the_table(tmp_path, monkeypatch, capsys):
     idle = Candidate("idle", lambda: (lambda: None, 1), ours=False, yardstick="an idler")
     monkeypatch.setattr(environments, "others", lambda: [idle])
     place = tmp_path / "envs.md"
-    assert run(["bench", "--envs", "--rounds", "1", "--out", str(place)]) == 0
+    assert run(["bench", "envs", "--rounds", "1", "--out", str(place)]) == 0
     told = capsys.readouterr()
     assert "beside an idler" in place.read_text(encoding="utf-8")
     assert "one, through gymnasium.make" in told.out
@@ -146,5 +146,5 @@ def test_the_command_writes_the_table(tmp_path, monkeypatch, capsys):
 
 def test_another_ending_is_refused_before_anything_is_measured(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(measure, "run", None)
-    assert run(["bench", "--envs", "--out", str(tmp_path / "envs.png")]) == 2
+    assert run(["bench", "envs", "--out", str(tmp_path / "envs.png")]) == 2
     assert "is written as .md" in capsys.readouterr().err

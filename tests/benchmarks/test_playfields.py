@@ -1,4 +1,4 @@
-"""Do the peers' tables obey the same laws as ours, as well as their engines can?"""
+"""The peers' tables obey the same laws as ours, as well as their engines can."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import math
 
 import pytest
 
-from silverball.benchmarks.peers import energy, play, tables
-from silverball.benchmarks.peers.engine import Stepping
+from silverball.benchmarks.peers import accuracy, play, tables
 from silverball.benchmarks.peers.engines import FINE, OWN, PEERS, Entry
-from silverball.benchmarks.peers.penetration import Watcher, watch
+from silverball.benchmarks.peers.penetration import PenetrationMonitor, play_monitored
+from silverball.benchmarks.peers.playfield import Stepping
 from silverball.table import Table, load_table
 from silverball.table.parts import Board
 
@@ -48,7 +48,7 @@ def test_watching_changes_nothing_in_play(entry):
     played = play.Game(entry.build(table), press, places)
     played.run(120)
     watched = play.Game(entry.build(table), press, places)
-    assert watch(watched, 120, Watcher(table)) == 0
+    assert play_monitored(watched, 120, PenetrationMonitor(table)) == 0
     assert watched.field.balls() == played.field.balls()
     assert watched.field.angles() == played.field.angles()
 
@@ -57,7 +57,7 @@ def test_a_free_ball_falls_by_the_law_of_free_fall(entry):
     # Stepping by h with the new velocity, as the peers do, lands ½·g·t·h too low after t.
     fine = stepped_finely(entry)
     field = fine.build(Table())
-    field.put_ball(5.0, 1.0, 0.0, -0.5)
+    field.add_ball(5.0, 1.0, 0.0, -0.5)
     for _ in range(30):
         field.frame(False, False)
     x, z, vx, vz = field.balls()[0]
@@ -69,7 +69,7 @@ def test_a_free_ball_falls_by_the_law_of_free_fall(entry):
 
 def test_a_ball_comes_back_from_the_side_with_the_share_of_the_restitution(entry):
     field = stepped_finely(entry).build(tables.plain(Table(board=Board(wall_restitution=0.6))))
-    field.put_ball(5.0, 3.65, 0.0, 10.0)  # a unit before the right border
+    field.add_ball(5.0, 3.65, 0.0, 10.0)  # a unit before the right border
     for _ in range(12):
         field.frame(False, False)
     assert field.balls()[0][3] == pytest.approx(-6.0, rel=0.01)
@@ -79,8 +79,8 @@ def test_two_balls_that_meet_head_on_leave_with_the_share_of_the_restitution(ent
     table = tables.plain(Table(board=Board(wall_restitution=0.6)))
     assert table.board.ball_restitution == 0.6
     field = stepped_finely(entry).build(table)
-    field.put_ball(5.0, -1.0, 0.0, 5.0)
-    field.put_ball(5.0, 1.0, 0.0, -5.0)
+    field.add_ball(5.0, -1.0, 0.0, 5.0)
+    field.add_ball(5.0, 1.0, 0.0, -5.0)
     for _ in range(15):
         field.frame(False, False)
     left, right = field.balls()
@@ -119,7 +119,7 @@ def test_a_rising_paddle_throws_a_ball_up_on_either_side(entry):
     table = tables.board(RANDOM, 0)
     for side in (-1.0, 1.0):
         field = stepped_finely(entry).build(table)
-        field.put_ball(-6.9, side * 1.2)
+        field.add_ball(-6.9, side * 1.2)
         for _ in range(6):
             field.frame(side < 0.0, side > 0.0)
         assert field.balls()[0][2] > 3.0
@@ -127,8 +127,8 @@ def test_a_rising_paddle_throws_a_ball_up_on_either_side(entry):
 
 def test_a_ball_below_the_gutter_is_gone_after_the_frame(entry):
     field = entry.build(Table())
-    field.put_ball(-8.7, 0.0, -10.0, 0.0)
-    field.put_ball(5.0, 0.0)
+    field.add_ball(-8.7, 0.0, -10.0, 0.0)
+    field.add_ball(5.0, 0.0)
     for _ in range(6):
         field.frame(False, False)
     assert field.ball_count == 1
@@ -137,9 +137,9 @@ def test_a_ball_below_the_gutter_is_gone_after_the_frame(entry):
 
 def test_a_ball_that_is_taken_is_gone_and_the_other_stays(entry):
     field = entry.build(Table())
-    field.put_ball(5.0, -1.0)
-    field.put_ball(5.0, 1.0)
-    field.take_ball(0)
+    field.add_ball(5.0, -1.0)
+    field.add_ball(5.0, 1.0)
+    field.remove_ball(0)
     assert field.ball_count == 1
     assert field.balls()[0][1] == pytest.approx(1.0)
 
@@ -147,8 +147,8 @@ def test_a_ball_that_is_taken_is_gone_and_the_other_stays(entry):
 def test_silverball_keeps_its_energy_on_the_elastic_table():
     table = tables.board(RANDOM, 0)
     closed = tables.elastic(table)
-    assert tables.least_restitution(closed) == 1.0
-    assert energy.drift(OWN_ENTRY.build(closed), energy.start(table), 60) < 1e-13
+    assert tables.min_restitution(closed) == 1.0
+    assert accuracy.drift(OWN_ENTRY.build(closed), accuracy.drift_start(table), 60) < 1e-13
 
 
 def test_drift_is_the_share_of_energy_that_is_missing():
@@ -156,4 +156,4 @@ def test_drift_is_the_share_of_energy_that_is_missing():
     table = tables.board(RANDOM, 0)
     closed = tables.elastic(table)
     dull = closed.model_copy(update={"board": closed.board.model_copy(update={"wall_restitution": 0.5})})
-    assert 0.05 < energy.drift(OWN_ENTRY.build(dull), energy.start(table), 60) < 1.0
+    assert 0.05 < accuracy.drift(OWN_ENTRY.build(dull), accuracy.drift_start(table), 60) < 1.0

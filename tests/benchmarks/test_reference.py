@@ -1,11 +1,11 @@
-"""Is the reference right? Against laws worked out by hand, and it against Silverball."""
+"""The reference agrees with laws worked out by hand, and Silverball agrees with the reference."""
 
 from __future__ import annotations
 
 import pytest
 
 from silverball.benchmarks.peers import accuracy
-from silverball.benchmarks.peers.engine import Stepping
+from silverball.benchmarks.peers.playfield import Stepping
 from silverball.benchmarks.peers.reference import DIGITS, follow, positive_roots
 from silverball.benchmarks.peers.silverball_table import SilverballPlayfield
 from silverball.errors import SilverballError
@@ -92,7 +92,7 @@ def test_scenes_look_between_the_bounces_they_name(scenes):
 
 
 def test_a_table_without_obstacles_has_no_scenes_and_that_is_said_in_words(monkeypatch):
-    monkeypatch.setattr(accuracy, "MOST_DROPS", 3)
+    monkeypatch.setattr(accuracy, "MAX_DROPS", 3)
     with pytest.raises(SilverballError, match="more obstacles"):
         accuracy.scenes(Table(), 1)
 

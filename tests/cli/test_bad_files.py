@@ -21,23 +21,23 @@ from silverball.errors import OutputError
 from silverball.export.film import check_output
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import soak
-from silverball.soak.finding import Finding, again
+from silverball.soak.finding import Finding, reproduce
 from silverball.table import dump_table, load_table
 
-SOAK = ("simulate", "--soak", "--worlds", "1", "--frames", "1")
+SOAK = ("soak", "--worlds", "1", "--frames", "1")
 
 READERS: dict[str, Callable[[str], list[str]]] = {
     "check": lambda path: ["check", path],
     "show": lambda path: ["show", "--out", "x.png", "--table", path],
     "demo": lambda path: ["demo", "--out", "x.gif", "--table", path],
     "simulate": lambda path: ["simulate", "--table", path],
-    "feel": lambda path: ["simulate", "--feel", "--table", path],
+    "feel": lambda path: ["feel", "--table", path],
     "soak": lambda path: [*SOAK, "--table", path],
     "generate": lambda path: ["generate", "--table", path],
-    "bench": lambda path: ["bench", "--table", path],
+    "bench": lambda path: ["bench", "step", "--table", path],
     "play": lambda path: ["play", "--table", path],
     "replay": lambda path: ["replay", path],
-    "again": lambda path: ["simulate", "--soak", "--again", path],
+    "again": lambda path: ["soak", "--again", path],
     "progress": lambda path: [*SOAK, "--progress", path],
 }
 """Every command that reads a file, and how."""
@@ -167,7 +167,7 @@ def test_what_is_no_ordinary_file_is_never_written_over(refused, writer, make):
 
         game = Game("classic", 1)
         game.create_ball()
-        game.advance(True, False, 10)
+        game.step(True, False, 10)
         Path("good.replay").write_text(game.replay.to_text(), encoding="utf-8")
     make(target)
     before = what_is_there()
@@ -191,7 +191,7 @@ def test_standard_input_and_nothing_are_refused(refused, reader, name):
 
 def test_a_pipe_says_what_to_do(refused):
     os.mkfifo("from-another-program.toml")
-    assert "save what comes from it" in refused("check", "from-another-program.toml")
+    assert "save its output to a file" in refused("check", "from-another-program.toml")
     assert "save it to a file" in refused("check", "-")
 
 
@@ -299,7 +299,7 @@ def is_as_good(key: str, value: Any, other: Any) -> bool:
 
 def test_the_undamaged_files_are_read(soaked: Path):
     finding = Finding.load(soaked / "finding.json")
-    again(finding)
+    reproduce(finding)
     assert soak(options_of(), 1, soaked / "soak.json").rounds == 1
 
 
@@ -339,7 +339,7 @@ def test_every_damaged_finding_is_refused_in_one_sentence(refused, soaked: Path)
     assert len(bad) > 200
     for what, text in bad.items():
         Path("finding.json").write_text(text, encoding="utf-8")
-        message = refused("simulate", "--soak", "--again", "finding.json", why=what)
+        message = refused("soak", "--again", "finding.json", why=what)
         assert message.startswith("finding.json: "), what
         assert len(message.splitlines()) == 1, what
         assert len(message) < 400, what
@@ -364,8 +364,7 @@ def test_every_damaged_progress_file_is_refused_in_one_sentence_and_kept(refused
     assert len(bad) > 200
     options = options_of()
     command = [
-        "simulate",
-        "--soak",
+        "soak",
         "--frames",
         "1",
         "--worlds",

@@ -11,9 +11,14 @@ from pathlib import Path
 import pytest
 
 import silverball as sb
-from silverball.cli.app import app
+from silverball.cli.app import main_command
+from silverball.cli.demo import free_name
 
-COMMANDS = [command.callback.__name__ for command in app.registered_commands if command.callback]
+COMMANDS = [
+    [name, *more]
+    for name, command in main_command().commands.items()
+    for more in ([[one] for one in command.commands] if name == "bench" else [[]])
+]
 
 
 def assert_friendly_refusal(result, *words):
@@ -28,16 +33,41 @@ def test_version_is_that_of_the_package(silverball):
     assert silverball("--version").stdout.strip() == f"silverball {sb.__version__}"
 
 
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 def test_every_command_has_help_with_an_example_of_itself(silverball, command):
-    result = silverball(command, "--help")
+    result = silverball(*command, "--help")
     assert result.returncode == 0
-    assert f"silverball {command}" in result.stdout.split("Example", 1)[1]
+    assert f"silverball {' '.join(command)}" in result.stdout.split("Example", 1)[1]
 
 
 def test_the_help_page_names_every_command(silverball):
-    page = silverball("--help").stdout
-    assert all(command in page for command in COMMANDS)
+    assert all(command[0] in silverball("--help").stdout for command in COMMANDS)
+    page = silverball("bench", "--help").stdout
+    assert all(command[1] in page for command in COMMANDS if command[0] == "bench")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("simulate --soak --frames 5", "soak"),
+        ("simulate --frames 5 --soak", "soak"),
+        ("simulate --feel --games 5", "feel"),
+        ("simulate --ball-time", "ball-time"),
+        ("bench --peers --out peers.md", "bench peers"),
+        ("bench --marks", "bench marks"),
+        ("bench --drawing", "bench drawing"),
+        ("bench --envs", "bench envs"),
+        ("bench --threads 2", "bench step"),
+    ],
+)
+def test_an_old_spelling_names_the_new_command(silverball, old, new):
+    result = silverball(*old.split())
+    assert_friendly_refusal(result, f"`silverball {new}`")
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_bench_alone_names_the_benchmarks(silverball):
+    assert_friendly_refusal(silverball("bench"), "step, marks, drawing")
 
 
 def test_tables_lists_the_built_in_tables(silverball):
@@ -154,7 +184,7 @@ def test_a_file_of_100_megabytes_is_refused_at_once(silverball, tmp_path):
 
 
 def test_bench_prints_a_median_and_what_it_was_measured_on(silverball):
-    result = silverball(*"bench --worlds 64 --frames 30 --rounds 3 --json".split())
+    result = silverball(*"bench step --worlds 64 --frames 30 --rounds 3 --json".split())
     report = json.loads(result.stdout)
     assert 0 < report["slowest"] <= report["frames_per_second"] <= report["fastest"]
     assert report["machine"]
@@ -172,6 +202,15 @@ def test_an_unknown_command_is_refused_with_the_nearest_name(silverball):
     assert_friendly_refusal(silverball("simulat"), "simulate")
 
 
+def test_a_demo_without_a_name_takes_the_first_that_is_free(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    taken = []
+    for _ in range(3):
+        taken.append(free_name("demo.gif"))
+        taken[-1].touch()
+    assert [path.name for path in taken] == ["demo.gif", "demo-2.gif", "demo-3.gif"]
+
+
 def test_less_than_one_tick_is_refused(silverball):
     assert_friendly_refusal(
         silverball(*"simulate --seconds 0.01 --tick-rate 10".split()), "--seconds", "tick"
@@ -186,8 +225,8 @@ def test_output_that_cannot_be_written_ends_in_one_sentence():
     assert_friendly_refusal(result, "No space left")
 
 
-def test_simulate_feels_how_a_table_plays(silverball):
-    result = silverball("simulate", "--feel", "--games", "3", "--table", "random", "--json")
+def test_feel_measures_how_a_table_plays(silverball):
+    result = silverball("feel", "--games", "3", "--table", "random", "--json")
     assert result.returncode == 0, result.stderr
     report = json.loads(result.stdout)
     assert set(report["players"]) == {"idle", "random", "beginner", "reflex"}
@@ -195,10 +234,7 @@ def test_simulate_feels_how_a_table_plays(silverball):
         value, low, high = found["seconds_per_ball"]
         assert 0.0 <= low < value < high
     assert {shots["paddle"] for shots in report["shots"]} == {"left", "right"}
-    text = silverball("simulate", "--feel", "--games", "3", "--table", "random").stdout
+    text = silverball("feel", "--games", "3", "--table", "random").stdout
     assert f"{report['players']['idle']['seconds_per_ball'][0]:.1f} ±" in text
-
-
-def test_simulate_refuses_options_that_do_not_go_with_a_feel(silverball):
-    assert_friendly_refusal(silverball("simulate", "--feel", "--soak"), "--soak")
-    assert_friendly_refusal(silverball("simulate", "--games", "5"), "--feel")
+    assert "cylinder[2]" in text
+    assert "left, down the guide" in text

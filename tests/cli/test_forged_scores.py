@@ -1,4 +1,4 @@
-"""Does `silverball scores --verify` prove what was played, and nothing that somebody wrote into the file?
+"""`silverball scores --verify` proves what was played, and nothing that was written into the file.
 
 Every forgery is done to a copy of a file with honest scores on built-in tables and on tables of one's own, by
 a program that can write to it. What is forged must be found, and what is honest must stay proven beside it.
@@ -22,8 +22,8 @@ import pytest
 from silverball.cli.app import run
 from silverball.game.game import TICK_RATE, Game
 from silverball.game.replay.format import Replay
-from silverball.game.replay.lines import read, written
 from silverball.game.replay.reader import checksum
+from silverball.game.replay.recording import format_input, parse_inputs
 from silverball.game.scores.store import FILE, Store
 from silverball.table import Table, dump_table, generate_table, load_table, table_digest
 
@@ -58,12 +58,12 @@ def played(
     """
     game = Game(table, **{"seed": SEED, "mode": "arcade"} | how)
     for tick in range(0, wait, 10):
-        game.advance(left=tap and tick < wait // 2, ticks=10)
+        game.step(left=tap and tick < wait // 2, ticks=10)
     while not game.is_over and game.tick < wait + seconds * game.tick_rate:
-        if not game.face.on_board:
+        if not game.view.on_board:
             game.create_ball()
         phase = (game.tick - wait) % 100
-        game.advance(left=phase < 50, right=phase > 50, ticks=10)
+        game.step(left=phase < 50, right=phase > 50, ticks=10)
     if end:
         game.end()
     return game
@@ -173,9 +173,9 @@ def again(text: str, **changes: Any) -> str:
 
 def with_vain_presses_after_the_end(text: str) -> str:
     replay = Replay.from_text(text)
-    last = max((one.tick for one in read(replay.tail)), default=0)
+    last = max((one.tick for one in parse_inputs(replay.tail)), default=0)
     rest = replay.ticks % TICK_RATE
-    return again(text, tail=replay.tail + written("R", rest - last) + written("R", 0))
+    return again(text, tail=replay.tail + format_input("R", rest - last) + format_input("R", 0))
 
 
 def rich(name: str = "Classic") -> Table:
@@ -275,7 +275,6 @@ FORGERIES["the list of one built-in table renamed to another"] = lambda forger: 
     "classic", table_name="Random"
 )
 
-# ── another game ──
 FORGERIES |= {
     "another mode in the list": lambda forger: forger.set_list("classic", mode="free"),
     "a mode that there is not": lambda forger: forger.set_list("classic", mode="x\x1b[31m"),
@@ -387,7 +386,6 @@ FORGERIES["the same game with a number below the first"] = lambda forger: (
 )
 
 
-# ── records of other types ──
 def of_another_type(forger: Forger, column: str, value: Any) -> set[int]:
     forger.without_constraints()
     return forger.set("mine", **{column: value})
@@ -416,9 +414,6 @@ def marked_by_a_trigger(forger: Forger) -> set[int]:
 FORGERIES["a trigger that marks all as proven"] = marked_by_a_trigger
 
 
-# ── the tests ───────────────────────────────────────────────────────────────────────────────────────────
-
-
 @pytest.fixture
 def folder(base: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A copy of the honest folder, which is the data folder of this test."""
@@ -445,7 +440,7 @@ def rows_of(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, l
     return code, json.loads(capsys.readouterr().out)
 
 
-def test_honest_scores_are_proven_on_built_in_tables_random_boards_and_tables_of_ones_own(folder, capsys):
+def test_honest_scores_are_proven_on_built_in_random_and_custom_tables(folder, capsys):
     code, rows = rows_of(capsys, "--verify")
     assert code == 0
     assert {row["table_name"] for row in rows} == {table.name for table in HONEST.values()}
@@ -453,7 +448,7 @@ def test_honest_scores_are_proven_on_built_in_tables_random_boards_and_tables_of
 
 
 @pytest.mark.parametrize("forgery", FORGERIES.values(), ids=FORGERIES)
-def test_what_was_forged_is_not_proven_stands_below_what_is_and_can_be_removed(folder, capsys, forgery):
+def test_a_forged_score_is_not_proven_ranks_below_others_and_can_be_removed(folder, capsys, forgery):
     forged = forge(folder, forgery)
     code, rows = rows_of(capsys, "--verify")
     assert code == 1

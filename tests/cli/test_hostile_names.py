@@ -64,7 +64,7 @@ def told(capfd):
 def played() -> Replay:
     game = Game("classic", 5, Mode.FREE)
     game.create_ball()
-    game.advance(True, False, 300)
+    game.step(True, False, 300)
     return game.replay
 
 
@@ -140,14 +140,14 @@ def test_file_names_and_table_names_are_shown_as_arguments(told, name: str):
             ["demo", "--player", path, "--out", "x.gif"],
             ["simulate", "--table", path],
             ["simulate", "--player", path],
-            ["simulate", "--feel", "--table", path],
-            ["simulate", "--ball-time", "--table", path],
-            ["simulate", "--soak", "--table", path],
-            ["simulate", "--soak", "--again", path],
-            ["simulate", "--soak", "--again", path, "--json"],
+            ["feel", "--table", path],
+            ["ball-time", "--table", path],
+            ["soak", "--table", path],
+            ["soak", "--again", path],
+            ["soak", "--again", path, "--json"],
             ["generate", "--table", path],
-            ["bench", "--table", path],
-            ["bench", "--peers", "--out", path],
+            ["bench", "step", "--table", path],
+            ["bench", "peers", "--out", path],
             ["replay", path],
             ["replay", path, "--json"],
             ["play", "--table", path],
@@ -243,8 +243,10 @@ def test_a_hostile_word_anywhere_in_a_replay_is_shown(told, played: Replay):
 def test_a_simulation_names_the_file_of_its_table(told, name: str):
     path = f"{name.replace('/', '|')}.toml"
     os.rename(table_called(name), path)
-    for options in ([], ["--json"], ["--ball-time"], ["--ball-time", "--json"]):
-        code, text = told("simulate", "--table", path, "--seconds", "0.1", *options)
+    for command, *options in (
+        ["simulate"], ["simulate", "--json"], ["ball-time"], ["ball-time", "--json"],
+    ):  # fmt: skip
+        code, text = told(command, "--table", path, "--seconds", "0.1", *options)
         assert code == 0
         if "--json" in options:
             assert json.loads(text)["table"] == path
@@ -267,8 +269,8 @@ def test_files_whose_names_are_no_text_are_read_and_written(told, played: Replay
         (["replay", game, "--out", f"b{film}", "--size", "100"], f"wrote b{plain(film)}"),
         (["generate", "--out", f"b{table}"], f"wrote b{plain(table)}"),
         (["simulate", "--table", table, "--seconds", "1", "--json"], "\\udce9"),
-        (["simulate", "--soak", *small, "--table", table, "--progress", log], plain(log)),
-        (["simulate", "--soak", *small, "--table", table, "--progress", log, "--json"], "\\udce9"),
+        (["soak", *small, "--table", table, "--progress", log], plain(log)),
+        (["soak", *small, "--table", table, "--progress", log, "--json"], "\\udce9"),
     ):
         code, text = told(*command)
         assert code == 0, text

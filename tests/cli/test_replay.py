@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from PIL import Image, ImageSequence
 
+import silverball as sb
 from silverball.game.game import Game
 from silverball.game.replay.format import Replay
 from silverball.game.view import Mode
@@ -20,11 +21,11 @@ def played() -> Game:
     game = Game("classic", 5, Mode.FREE)
     game.create_ball()
     for second in range(6):
-        game.advance(True, second % 2 == 0, 100)
+        game.step(True, second % 2 == 0, 100)
         if second == 3:
             game.create_ball()
             game.jitter()
-        game.advance(False, False, 140)
+        game.step(False, False, 140)
     return game
 
 
@@ -77,7 +78,7 @@ def test_against_another_replay_names_the_very_tick_the_field_and_both_values(
     assert (same.returncode, "the same game" in same.stdout) == (0, True)
 
 
-def test_json_tells_what_the_replay_says_of_itself(silverball, good: str, played: Game):
+def test_json_has_the_facts_of_the_replay(silverball, good: str, played: Game):
     result = silverball("replay", good, "--verify", "--json")
     report = json.loads(result.stdout)
     assert result.returncode == 0
@@ -93,7 +94,7 @@ def test_json_tells_what_the_replay_says_of_itself(silverball, good: str, played
         (lambda text: text[: len(text) // 2], "cut off"),
         (lambda text: text.replace("score = ", "score = 9"), "changed or damaged"),
         (lambda text: text.replace("replay 1", "replay 9", 1), "newer Silverball"),
-        (lambda _: "hello\n", "this is no replay"),
+        (lambda _: "hello\n", "this is not a replay"),
         (lambda _: "", "empty"),
     ],
 )
@@ -112,7 +113,7 @@ def test_a_bad_file_is_refused_whatever_is_asked_of_it(silverball, good: str, op
     path.write_text("hello\n", encoding="utf-8")
     result = silverball("replay", good, *options, cwd=path.parent)
     assert (result.returncode, result.stdout) == (2, "")
-    assert "this is no replay" in result.stderr
+    assert "this is not a replay" in result.stderr
     assert not (path.parent / "film.gif").exists()
 
 
@@ -149,12 +150,36 @@ def test_a_film_from_beyond_the_end_is_refused(silverball, good: str, tmp_path: 
     assert (result.returncode, "before the game's end at 6.00 s" in result.stderr) == (2, True)
 
 
-def test_last_is_the_game_that_was_played_last(silverball, played: Game, tmp_path: Path, monkeypatch):
+def test_last_names_the_last_game(silverball, played: Game, tmp_path: Path, monkeypatch):
     store = pytest.importorskip("silverball.game.scores.store")
     monkeypatch.setenv("SILVERBALL_DATA", str(tmp_path))
     result = silverball("replay", "last", "--verify")
     assert (result.returncode, "no last game" in result.stderr) == (2, True)
     with store.Store() as kept:
-        kept.keep_last_game(played.replay.to_text())
+        kept.save_last_game(played.replay.to_text())
     result = silverball("replay", "last", "--verify")
     assert result.returncode == 0, result.stderr
+
+
+class Nothing(sb.FreeRules):
+    """Nothing scores."""
+
+    name = "nothing"
+
+    def hit(self, config, state, tick, points, part):
+        return state, ()
+
+
+@pytest.mark.parametrize("options", [["--verify"], ["--out", "film.gif"]])
+def test_a_replay_with_rules_of_its_own_ends_with_2_and_says_what_it_needs(
+    silverball, tmp_path: Path, options: list[str]
+):
+    game = sb.Game("classic", rules=Nothing())
+    game.create_ball()
+    game.step(ticks=300)
+    game.replay.save(tmp_path / "own.replay")
+    result = silverball("replay", "own.replay", *options, cwd=tmp_path)
+    assert (result.returncode, result.stdout) == (2, "")
+    assert "rules of its own, 'nothing'" in result.stderr
+    assert "replay.verify(rules=…)" in result.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["own.replay"]

@@ -1,4 +1,4 @@
-"""What does `silverball scores` print, verify, write and remove, and how does a mistake end?"""
+"""`silverball scores`: what it prints, verifies, writes and removes, and how errors end."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_tables_modes_and_numbers_choose_what_is_shown(silverball, scores):
     assert shown("--mode", "arcade", "--limit", "1") == [1200, 50]
 
 
-def test_json_tells_all_of_a_score(silverball, scores):
+def test_json_has_everything_about_a_score(silverball, scores):
     row = json.loads(silverball("scores", "--json", "--table", "Random", "--mode", "free").stdout)[0]
     when = row.pop("when")
     assert re.fullmatch(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\+00:00", when)
@@ -128,7 +128,7 @@ def test_what_a_terminal_would_obey_is_shown_as_its_escape_and_can_be_asked_for(
 
 
 def test_more_scores_than_are_shown_are_counted(silverball, scores):
-    assert "and 1 more; --limit shows them" in silverball("scores", "--limit", "1", "--mode", "arcade").stdout
+    assert "and 1 more (see --limit)" in silverball("scores", "--limit", "1", "--mode", "arcade").stdout
 
 
 def test_two_versions_of_a_table_are_told_apart(silverball, scores, folder):
@@ -156,7 +156,7 @@ def test_a_removed_score_is_gone(silverball, scores):
     assert sorted(left) == [50, 70, 1200]
 
 
-def test_a_mistake_ends_in_one_sentence(silverball, scores, tmp_path):
+def test_an_invalid_call_ends_in_one_sentence(silverball, scores, tmp_path):
     out = str(tmp_path / "out.replay")
     assert_refused(silverball("scores", "--table", "nowhere"), "nowhere", "Random")
     assert_refused(silverball("scores", "--mode", "hard"), "arcade", "free", "hard")
@@ -171,7 +171,7 @@ def test_a_mistake_ends_in_one_sentence(silverball, scores, tmp_path):
     assert_refused(silverball("scores", "--replay", "1"), "--replay ID --export FILE")
     assert_refused(silverball("scores", "--export", out), "--replay ID --export FILE")
     assert_refused(silverball("scores", "--replay", "1", "--export", str(tmp_path)), "folder")
-    assert_refused(silverball("scores", "--replay", "1", "--export", f"{out}/x/y"), "there is no folder")
+    assert_refused(silverball("scores", "--replay", "1", "--export", f"{out}/x/y"), "does not exist")
     assert_refused(silverball("scores", "--remove", "1", "--json"), "--json does not go with --remove")
     assert_refused(silverball("scores", "--verify", "--remove", "1"), "--verify does not go with --remove")
     assert_refused(silverball("scores", "--force"), "--force is for --export")
@@ -191,7 +191,7 @@ def test_scores_of_a_newer_program_are_neither_shown_nor_touched(silverball, sco
     assert "nothing was changed" in refused.stderr
 
 
-def test_what_cannot_be_read_is_not_called_verified(silverball, scores, folder):
+def test_unreadable_scores_are_not_called_verified(silverball, scores, folder):
     with closing(sqlite3.connect(folder / FILE)) as connection, connection:
         connection.execute("PRAGMA user_version = 9")
     refused = silverball("scores", "--verify")
@@ -211,7 +211,10 @@ def test_scores_at_both_ends_of_the_calendar_are_shown(silverball, folder, zone)
         assert result.stderr == ""
 
 
-def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(silverball, scores, folder):
+def test_a_file_that_another_program_holds_is_reported_in_one_sentence(
+    silverball, scores, folder, monkeypatch
+):
+    monkeypatch.setattr("silverball.game.scores.database.BUSY_SECONDS", 0.3)
     with held(folder / FILE, ALONE):
         assert_refused(silverball("scores"), "another program holds it")
     with held(folder / FILE):
@@ -223,7 +226,7 @@ def test_a_file_that_another_program_holds_is_told_of_in_one_sentence(silverball
     assert len(json.loads(silverball("scores", "--json").stdout)) == len(scores)
 
 
-def test_a_damaged_file_is_set_aside_with_a_sentence(silverball, folder):
+def test_a_damaged_file_is_quarantined_with_a_sentence(silverball, folder):
     folder.mkdir()
     (folder / FILE).write_bytes(b"hello " * 1000)
     result = silverball("scores")
@@ -233,9 +236,6 @@ def test_a_damaged_file_is_set_aside_with_a_sentence(silverball, folder):
     assert silverball("scores").stderr == ""
 
 
-# ── is it proven? ───────────────────────────────────────────────────────────────────────────────────────
-
-
 def test_verify_marks_what_is_not_proven_and_ends_with_1(silverball, folder):
     games = pytest.importorskip("silverball.game.game")
     table = load_table("classic")
@@ -243,9 +243,9 @@ def test_verify_marks_what_is_not_proven_and_ends_with_1(silverball, folder):
         for claimed in (0, 1):
             game = games.Game("classic", seed=5)
             while not game.score:
-                if not game.face.on_board:
+                if not game.view.on_board:
                     game.create_ball()
-                game.advance(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
+                game.step(left=game.tick % 100 < 50, right=game.tick % 100 > 50, ticks=10)
             game.end()
             store.add_score(
                 "ABC",

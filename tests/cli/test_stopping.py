@@ -19,8 +19,8 @@ COMMANDS = {
     "simulate": ("simulate", "--seconds", "1e6"),
     "planner": ("simulate", "--seconds", "1e6", "--player", "planner"),
     "demo": ("demo", "--out", "film.gif"),
-    "bench": ("bench",),
-    "soak": ("simulate", "--soak", "--frames", "1000000000"),
+    "bench": ("bench", "step"),
+    "soak": ("soak", "--frames", "1000000000"),
 }
 
 
@@ -36,7 +36,7 @@ def stop(tmp_path, name: str, sent: signal.Signals, seconds: float) -> None:
     process.send_signal(sent)
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 128 + sent
-    lines = [line for line in errors.splitlines() if not line.startswith("what was done is kept in")]
+    lines = [line for line in errors.splitlines() if not line.startswith("progress is saved in")]
     assert lines == (["stopped"] if sent == signal.SIGINT else [])
     assert not list(tmp_path.glob("film*"))
 

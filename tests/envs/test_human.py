@@ -11,7 +11,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import silverball as sb
-from silverball.drawing.lettering import lettering
+from silverball.drawing.text import lettering
 from silverball.envs import IDS, PinballEnv, PinballVectorEnv
 from silverball.errors import NoDisplay
 from silverball.table import load_table

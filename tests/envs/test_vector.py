@@ -12,7 +12,7 @@ from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 from silverball.envs import IDS, PinballEnv, PinballVectorEnv, engine
 from silverball.table import load_table
-from silverball.world.threads import pool_of_threads
+from silverball.world.threads import thread_pool
 
 MODES = tuple(AutoresetMode)
 CLASSIC = "silverball/PinballClassic-v0"
@@ -166,9 +166,7 @@ def test_steps_return_new_arrays_or_with_zero_copy_always_the_same():
 def test_any_number_of_threads_gives_the_same_bits(options, zero_copy, monkeypatch):
     monkeypatch.setattr(engine, "MIN_SLICE_WORK", 1)
     calls = []
-    monkeypatch.setattr(
-        engine, "pool_of_threads", lambda threads: calls.append(threads) or pool_of_threads(threads)
-    )
+    monkeypatch.setattr(engine, "thread_pool", lambda threads: calls.append(threads) or thread_pool(threads))
 
     def result(threads: int) -> list[bytes]:
         envs = PinballVectorEnv(40, "Disabled", zero_copy, threads, time_limit=0.3, **options)

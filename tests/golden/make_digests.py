@@ -1,11 +1,11 @@
-"""Write the golden digests anew: `python tests/golden/make_digests.py`.
+"""Write the golden digests again: `python tests/golden/make_digests.py`.
 
 A digest is that of `World.digest`, taken with the version of the physics since which the scene gives these
-bits. So a raised version leaves the digests as they are of all scenes whose bits it does not change.
+bits. So raising the version keeps the digests of all scenes whose bits it does not change.
 
-A digest that differs means that the same table, seed and inputs now give other bits, so that nobody's
-replays hold any longer: that takes a raised PHYSICS_VERSION. New scenes may be added at any time, and scenes
-that are gone are forgotten.
+A digest that differs means that the same table, seed and inputs now give other bits, so that replays
+no longer hold: PHYSICS_VERSION must be raised. New scenes may be added at any time; digests of removed scenes
+are dropped.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Does the same game still give the bits that it gave when its digest was written down?"""
+"""The same game still gives the bits that it gave when its digest was recorded."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ OLD = Golden(3, {"a": "1", "b": "2"}, {"a": 2, "b": 3})
         (Golden(4, {"a": "1", "b": "9"}, {"a": 2, "b": 4}), "1 changed, 0 added, 0 gone"),
     ],
 )
-def test_digests_are_written_anew(tmp_path, new: Golden, done: str):
+def test_digests_are_written_again(tmp_path, new: Golden, done: str):
     file = tmp_path / FILE.name
     renew(file, OLD)
     assert renew(file, new).endswith(done)

@@ -1,4 +1,4 @@
-"""Does a world go on with the same bits wherever it was saved and whoever its neighbours are?"""
+"""A world continues with the same bits wherever it was saved and whatever its neighbours are."""
 
 from __future__ import annotations
 
@@ -123,8 +123,19 @@ def test_whatever_is_pressed_and_however_a_ball_spins_all_stays_finite_and_outsi
 
 
 wild = st.floats() | st.sampled_from([0.0, -0.0, 1e300, -1e300, 30.0, -0.01])
-NUMBERS = ("from_x", "from_z", "from_vx", "from_vz", "pull_x", "pull_z", "grips", "offset", "age", "due")
-COUNTS = ("meets", "motion", "ticks")
+NUMBERS = (
+    "start_x",
+    "start_z",
+    "start_vx",
+    "start_vz",
+    "accel_x",
+    "accel_z",
+    "roll_age",
+    "offset",
+    "age",
+    "contact_age",
+)
+COUNTS = ("contact_part", "motion", "ticks")
 
 
 @settings(max_examples=150)

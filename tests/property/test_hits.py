@@ -1,7 +1,7 @@
-"""Is the first contact really one, and is none earlier? Brute force over all parts, with the twin's shapes.
+"""The first contact is one, and none is earlier: brute force over all parts, with the twin's shapes.
 
 The flight up to the first contact is known in closed form: gravity alone, or 5/7 of it where the ball rolls
-from the start. It is sampled finely, and every part is looked at in every sample.
+from the start. It is sampled finely, and every part is checked in every sample.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A jam is the jammed ball's alone: the other ball goes on as if nothing had happened, and stays outside."""
+"""A jam stops the jammed ball only: the other ball continues unchanged, and stays outside of it."""
 
 from __future__ import annotations
 

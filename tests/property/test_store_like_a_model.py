@@ -49,7 +49,7 @@ class Model:
 
 def assert_equal(store: Store, model: Model) -> None:
     """All that can be asked of the store is as the model has it."""
-    assert (store.trouble, store.keeps) == ("", True)
+    assert (store.warning, store.is_persistent) == ("", True)
     for mode in MODES:
         for digest in TABLES:
             ranked = model.ranked(mode, digest)
@@ -59,7 +59,7 @@ def assert_equal(store: Store, model: Model) -> None:
                 in_the_way = (model.scores[id] for id in ranked if model.scores[id]["verified"] is not False)
                 better = sum(score["score"] >= points for score in in_the_way)
                 place = better + 1 if points > 0 and better < PLACES else None
-                assert store.is_high(points, mode, digest) == place
+                assert store.high_score_rank(points, mode, digest) == place
     lists = {(one.mode, one.table_digest): (one.table_name, one.length) for one in store.lists()}
     filled = {score["list"] for score in model.scores.values()}
     assert lists == {key: (model.names[key], len(model.ranked(*key))) for key in filled}
@@ -207,7 +207,7 @@ class Stores(RuleBasedStateMachine):
     @rule(values=st.dictionaries(TEXT, JSON, max_size=4), cut=st.floats(0, 1))
     def keep_settings(self, values: dict[str, Any], cut: float) -> None:
         self.do(
-            lambda store: store.keep_settings(values), lambda model, _: model.settings.update(values), cut
+            lambda store: store.save_settings(values), lambda model, _: model.settings.update(values), cut
         )
 
     @rule(text=TEXT, cut=st.floats(0, 1))
@@ -215,7 +215,7 @@ class Stores(RuleBasedStateMachine):
         def then(model: Model, _: object) -> None:
             model.last_game = text
 
-        self.do(lambda store: store.keep_last_game(text), then, cut)
+        self.do(lambda store: store.save_last_game(text), then, cut)
 
     @rule()
     def open_again(self) -> None:

@@ -1,4 +1,4 @@
-"""What must not matter, and what must not grow: the mirror, the direction of time, the tick rate, the energy.
+"""Invariances: mirror, direction of time and tick rate do not matter, and the energy does not grow.
 
 A path between round obstacles magnifies the smallest difference at each bounce. Where it would magnify
 1e-13 u to more than 1e-10 u within the five bounces, rounding alone decides what comes out, so such starts

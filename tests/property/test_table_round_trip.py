@@ -1,4 +1,4 @@
-"""Is a table that went through a file the same: equal parts, the same digest, the same arrays?"""
+"""A table that was saved and loaded is the same: equal parts, the same digest, the same arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where nothing pulls: balls fly straight, keep what they have, rest for ever, and get into nothing."""
+"""Without gravity balls fly straight, keep their speed, rest forever, and get into nothing."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from boards import CLASSIC, edited, full_table, launched, place, speed_of, table_of
 from silverball.physics.audit import deepest
-from silverball.physics.tolerances import LEAST_HOP
+from silverball.physics.tolerances import MIN_HOP_SPEED
 from silverball.soak.hostile import hostile_table
 from silverball.table import Cylinder, SlantWall, Table, check_table, generate_table
 from silverball.world import World, WorldBatch
@@ -79,7 +79,7 @@ def test_a_ball_at_rest_stays_and_a_restored_one_too(rub, tick_rate: int, gravit
 
 @pytest.mark.parametrize("gravity", TINY)
 @pytest.mark.parametrize("rub", RUBS, ids=str)
-def test_a_leap_and_a_batch_give_the_bits_of_one_tick_after_the_other(rub, gravity: float) -> None:
+def test_a_skip_and_a_batch_give_the_bits_of_one_tick_after_the_other(rub, gravity: float) -> None:
     tables = [weightless(generate_table(n), gravity=gravity, **rub) for n in range(8)]
     tables += [weightless(hostile_table(n), gravity=gravity, **rub) for n in range(8)]
     leaping, single = (WorldBatch(tables, len(tables), 3, 60) for _ in range(2))
@@ -103,7 +103,7 @@ def test_a_leap_and_a_batch_give_the_bits_of_one_tick_after_the_other(rub, gravi
 @pytest.mark.parametrize("tick_rate", [10, 60, 240])
 @pytest.mark.parametrize("degrees", [0, 1, 30, 45, 77, 90, 135])
 def test_a_ball_slides_along_a_wall_that_has_taken_its_speed_towards_it(degrees: int, tick_rate: int) -> None:
-    """What is left of that speed is a hop of LEAST_HOP, no rounding that would be met again without end."""
+    """A hop of MIN_HOP_SPEED is left of that speed, not a rounding that would be met again without end."""
     s, k = math.sin(math.radians(degrees)), math.cos(math.radians(degrees))
     wall = SlantWall(start=(-4 * s, -4 * k), end=(4 * s, 4 * k), restitution=0.0)
     ball = (-3 * s + 0.5 * k, -3 * k - 0.5 * s, 2.0 * s - 0.5 * k, 2.0 * k + 0.5 * s)
@@ -114,7 +114,7 @@ def test_a_ball_slides_along_a_wall_that_has_taken_its_speed_towards_it(degrees:
         assert x * s + z * k == pytest.approx(-3.0 + 2.0 * tick / tick_rate, abs=1e-9)
     vx, vz = speed_of(world.balls[0])
     assert vx * s + vz * k == pytest.approx(2.0, abs=1e-9)
-    assert vx * k - vz * s == pytest.approx(LEAST_HOP, abs=1e-14)
+    assert vx * k - vz * s == pytest.approx(MIN_HOP_SPEED, abs=1e-14)
     assert world.jams == 0
 
 

@@ -1,6 +1,6 @@
 """A flight whose highest point just touches a border had gap and rate both 0, and 0/0 made a contact at once.
 
-The Newton step that polishes a time divides the gap by its rate. Balls that just touch in passing were
+The Newton step that refines a time divides the gap by its rate. Balls that just touch in passing were
 stopped dead in mid-air for the same reason.
 """
 

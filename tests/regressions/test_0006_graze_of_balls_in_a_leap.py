@@ -1,7 +1,7 @@
 """Balls that pass each other at two radii, but for some ulps, met or not depending on how a run was cut.
 
-A leap over many ticks looked for their meeting over its whole length, where rounding is another than in the
-one tick in which they pass.
+A skip over many ticks searched for their contact over its whole length, where rounding differs from that in
+the one tick in which they pass.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from silverball.world import World
 TABLE = table_of(gravity=0.1, length=50.0, width=20.0, gutter=-24.0)
 
 
-def test_a_leap_is_the_same_as_single_ticks_for_balls_that_nearly_touch() -> None:
+def test_a_skip_is_the_same_as_single_ticks_for_balls_that_nearly_touch() -> None:
     pick = random.Random(1)
     leaping, stepping = World(TABLE, tick_rate=240), World(TABLE, tick_rate=240)
     start, met = leaping.save(), 0

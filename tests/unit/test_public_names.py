@@ -1,12 +1,29 @@
-"""Is everything public reachable from `silverball` itself?"""
+"""Everything public is reachable from `silverball`, documented, and shown in an example that runs."""
 
 from __future__ import annotations
 
+import doctest
 from importlib import import_module
+from types import FunctionType, ModuleType
 
 import pytest
 
 import silverball as sb
+from silverball.errors import SilverballError
+
+NAMES = [name for name in sb.__all__ if not name.startswith("__")]
+ERRORS = [
+    name
+    for name in NAMES
+    if isinstance(getattr(sb, name), type) and issubclass(getattr(sb, name), SilverballError)
+]
+MODULES = sorted(
+    {"silverball.world.compile"}
+    | {
+        value.__name__ if isinstance(value := getattr(sb, name), ModuleType) else value.__module__
+        for name in NAMES
+    }
+)
 
 
 @pytest.mark.parametrize("name", sb.__all__)
@@ -18,6 +35,33 @@ def test_every_public_name_is_there_and_listed(name: str):
 @pytest.mark.parametrize("name", import_module("silverball.world").__all__)
 def test_all_that_the_worlds_offer_is_public(name: str):
     assert getattr(sb, name) is getattr(import_module("silverball.world"), name)
+
+
+@pytest.mark.parametrize("name", sb.parts.__all__)
+def test_every_part_is_documented_with_its_fields(name: str):
+    part = getattr(sb.parts, name)
+    assert part.__doc__
+    assert all(field.description for field in part.model_fields.values())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_public_name_is_documented(name: str):
+    value = getattr(sb, name)
+    assert value.__doc__
+    for member, what in vars(value).items() if isinstance(value, type) else ():
+        if not member.startswith("_") and isinstance(what, FunctionType | classmethod | property):
+            assert getattr(value, member).__doc__, member
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in ERRORS and name != "parts"])
+def test_every_public_name_has_an_example(name: str):
+    assert doctest.DocTestFinder(recurse=False).find(getattr(sb, name), name)[0].examples
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_the_examples_of_a_module_are_true(module: str, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # some examples write files
+    assert doctest.testmod(import_module(module), optionflags=doctest.ELLIPSIS).failed == 0
 
 
 def test_an_unknown_name_is_no_attribute():

@@ -1,4 +1,4 @@
-"""Is a file written whole or not at all?"""
+"""A file is written as a whole, or not at all."""
 
 from __future__ import annotations
 

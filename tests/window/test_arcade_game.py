@@ -10,7 +10,6 @@ from silverball.game.replay.format import Replay
 from silverball.game.replay.verify import verify
 from silverball.game.scores.store import Store
 from silverball.game.view import Mode, Phase
-from silverball.players import PlayerKind
 
 
 def play_all_balls(player, create) -> None:
@@ -174,17 +173,17 @@ def test_the_planner_takes_over_the_show_and_can_be_watched_until_a_key_is_press
     player.window.rehearsal.wait(300.0)
     player.seconds(31.0)
     assert player.menus.page == "attract"
-    assert player.program.stage.player.kind == PlayerKind.PLANNER
+    assert player.program.stage.player.name == "planner"
     player.tap(pygame.K_z)
     assert player.menus.page == "main"
     for key in (pygame.K_d, pygame.K_d, pygame.K_d, pygame.K_SPACE, pygame.K_d, pygame.K_SPACE):
         player.tap(key)
     assert player.menus.page == ""
-    assert player.program.stage.player.kind == PlayerKind.TRAINED
+    assert player.program.stage.player.name == "trained"
     player.tap(pygame.K_a)
     player.tap(pygame.K_a)
     player.tap(pygame.K_SPACE)
-    assert player.program.stage.player.kind == PlayerKind.PLANNER
+    assert player.program.stage.player.name == "planner"
     tick = player.world.tick
     player.seconds(1.0)
     assert player.world.tick > tick

@@ -140,7 +140,7 @@ def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
 
     assert "once" in compiling_words()
     with monkeypatch.context() as patch:
-        patch.setattr(codecache.Damage, "words", "damaged")
+        patch.setattr(codecache.Damage, "message", "damaged")
         assert "damaged" in compiling_words()
     monkeypatch.setattr(kernel, "cache_folder", lambda *_: None)
     assert "every start" in compiling_words()
@@ -186,7 +186,7 @@ def test_a_folder_that_cannot_be_written_is_told_and_the_game_goes_on(open_windo
     in_the_way = tmp_path / "file"
     in_the_way.write_text("not a folder", encoding="utf-8")
     player = open_window(folder=in_the_way / "data")
-    assert player.window.store.trouble
+    assert player.window.store.warning
     player.tap(pygame.K_SPACE)
     assert player.world.balls
     player.window.close()
@@ -247,7 +247,7 @@ def test_a_window_plays_for_a_given_time(player):
 
 def test_a_table_chosen_long_ago_that_is_gone_gives_way_to_the_default(tmp_path, open_window):
     with Store(tmp_path / "data") as store:
-        store.keep_settings({"table": str(tmp_path / "gone.toml")})
+        store.save_settings({"table": str(tmp_path / "gone.toml")})
     player = open_window(None, None, mode=None)
     assert player.program.recipe.name == "Classic"
 

@@ -24,7 +24,7 @@ from silverball.app.table_files import (
     is_path,
 )
 from silverball.errors import SilverballError
-from silverball.game.user_folder import keep
+from silverball.game.user_folder import write_user_file
 from silverball.game.view import Mode
 from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, table_digest, table_names
@@ -152,7 +152,7 @@ class Catalog:
     def _best(self, digest: str, mode: Mode) -> list[ScoreRow]:
         if self._lists is None:
             self._lists = {(one.table_digest, one.mode) for one in self._store.lists()}
-        if (digest, str(mode)) not in self._lists and not self._store.is_held:  # else one may be waiting
+        if (digest, str(mode)) not in self._lists and not self._store.has_pending:  # else one may be waiting
             return []
         if (digest, mode) not in self._rows:
             self._rows[digest, mode] = [
@@ -174,7 +174,7 @@ class Catalog:
     def keep_file(self, text: str, what: str, score: int) -> Path | None:
         """Keep a replay as a file of its own; where it is, or None where nothing can be written."""
         name = f"{what}-{time.strftime('%Y-%m-%d-%H%M%S')}-{score}.replay"
-        return keep(text, name, self._folder / REPLAYS)
+        return write_user_file(text, name, self._folder / REPLAYS)
 
 
 def file_name(name: str) -> str:

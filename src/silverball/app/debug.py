@@ -15,7 +15,7 @@ import pygame
 
 from silverball.app.framerate import FrameTimes
 from silverball.app.latency import LatencyMeter, middle
-from silverball.drawing import palette
+from silverball.drawing import themes
 from silverball.drawing.text import line
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ class DebugView:
         target.blit(veil, area.topleft)
         for row, text in enumerate(lines):
             target.blit(
-                line(text, size, palette.TEXT), (area.left + size // 2, area.top + size // 2 + row * height)
+                line(text, size, themes.TEXT), (area.left + size // 2, area.top + size // 2 + row * height)
             )
 
 

@@ -1,8 +1,7 @@
 """Who can be watched while the program plays by itself, and who plays until that one is ready?
 
-`PERFORMERS` is the one list: the menu offers it, the window makes its players ready (`player_warmup.py`),
-and the
-first of it plays when nobody is there. To add one, add its line.
+`PERFORMERS` are the built-in ones: the window makes them ready (`player_warmup.py`), and the first of them
+plays when nobody is there. `performers` lists these and the registered players; the menu offers them.
 """
 
 from __future__ import annotations
@@ -38,8 +37,16 @@ PERFORMERS = (
     Performer("trained", "TRAINED", "LEARNT BY TRIAL"),
     Performer("reflex", "REFLEX", "HITS WHAT COMES"),
 )
+HINT = "YOUR OWN"  # what a registered player does, as the score display writes it
 BEST = PERFORMERS[0]
 STAND_IN = next(performer for performer in PERFORMERS if performer.name == "reflex")  # ready with the physics
+
+
+def performers() -> tuple[Performer, ...]:
+    """Everyone who can be watched: `PERFORMERS`, then the players registered so far."""
+    from silverball.players import registered_names
+
+    return *PERFORMERS, *(Performer(name, name.upper(), HINT) for name in registered_names())
 
 
 class DemoPlayers:
@@ -59,7 +66,7 @@ class DemoPlayers:
 
     def begin(self, name: str) -> Player:
         """Ask for a player, and have one that plays at once."""
-        self.asked = next(performer for performer in PERFORMERS if performer.name == name)
+        self.asked = next(performer for performer in performers() if performer.name == name)
         return self._enter()
 
     def follow(self, stage: DemoSession) -> bool:

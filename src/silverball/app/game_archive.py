@@ -68,22 +68,22 @@ class GameArchive:
         Returns:
             What to tell the player; empty if nothing.
         """
-        if not self._store.is_held or seconds < self._next_try:
+        if not self._store.has_pending or seconds < self._next_try:
             return ""
         self._next_try = seconds + RETRY_SECONDS
-        is_saved = self._store.try_again()
+        is_saved = self._store.retry_pending()
         if is_saved:
             self._library.forget_scores()
-        if not self._score_waits or (not is_saved and (self._store.is_safe or seconds < self._next_words)):
+        if not self._score_waits or (not is_saved and (self._store.is_spooled or seconds < self._next_words)):
             return ""
         self._next_words = seconds + REMIND_SECONDS
         self._score_waits = not is_saved
-        return NOT_YET if not is_saved else SAVED if self._store.keeps else LOST
+        return NOT_YET if not is_saved else SAVED if self._store.is_persistent else LOST
 
     def last_game(self, game: Game) -> None:
         """Keep a game as the one that was played last, if anything was played."""
         if game.world.created:
-            self._store.keep_last_game(game.replay.to_text())
+            self._store.save_last_game(game.replay.to_text())
 
     def file(self, game: Game, why: str) -> Path | None:
         """Keep the replay of a game as a file; where it is, None if it cannot be written."""
@@ -106,16 +106,16 @@ class GameArchive:
         if game.mode is not Mode.ARCADE or not counts or game.score <= 0:
             return Ended()
         key, text = self._library.key(recipe), game.replay.to_text()
-        rank = self._store.is_high(game.score, game.mode, key.digest)
+        rank = self._store.high_score_rank(game.score, game.mode, key.digest)
         table = dump_table(without_meshes(recipe))
         number = self._store.add_score(
             initials, game.score, game.mode, key.title, key.digest, game.seed, text, table_text=table
         )
         self._library.forget_scores()
-        self._score_waits = self._store.is_held
+        self._score_waits = self._store.has_pending
         if self._score_waits:
-            return Ended(rank, number, WAITS if self._store.is_safe else NOT_YET)
-        return Ended(rank, number, "" if self._store.keeps else LOST)
+            return Ended(rank, number, WAITS if self._store.is_spooled else NOT_YET)
+        return Ended(rank, number, "" if self._store.is_persistent else LOST)
 
     def rename(self, ended: Ended, initials: str) -> None:
         """The player has given initials for a score."""

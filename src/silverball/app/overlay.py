@@ -14,7 +14,7 @@ from silverball.app.controls import Action, Controls
 from silverball.app.menus import ACTIONS, capital
 from silverball.app.scoring import Rule
 from silverball.app.widgets import column, in_columns, key_cap, panel, plate, row
-from silverball.drawing import palette
+from silverball.drawing import themes
 from silverball.drawing.text import line, wrapped
 
 TEXT_SIZE = 0.5  # [u] of ordinary text
@@ -85,7 +85,7 @@ def _cap(name: str) -> str:
 def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
     padding = size // 2
     lines = wrapped(text, size, width - 2 * padding)
-    words = column([line(text, size, palette.TEXT) for text in lines], 0)
+    words = column([line(text, size, themes.TEXT) for text in lines], 0)
     if words.get_height() + padding > height and size > LEAST_MESSAGE_SIZE:
         return _message(text, size - 1, width, height)
     return plate(words, width, max(height, words.get_height() + padding))
@@ -102,13 +102,13 @@ def _help(
     def build(size: int) -> pygame.Surface:
         gap = size // 2
         rows = [
-            [row([key_cap(name, size) for name in names], gap // 2), line(label, size, palette.TEXT)]
+            [row([key_cap(name, size) for name in names], gap // 2), line(label, size, themes.TEXT)]
             for label, names in keys
         ]
-        title = line("KEYS", round(1.2 * size), palette.SCORE)
+        title = line("KEYS", round(1.2 * size), themes.SCORE)
         listed = column(in_columns(rows, gap), gap // 2, centered=False)
         ends = (f"seed {seed}", *wrapped(foot, size, max(listed.get_width(), room[0] - 2 * size)))
-        lines = [line(text, size, palette.FAINT_TEXT) for text in ends]
+        lines = [line(text, size, themes.FAINT_TEXT) for text in ends]
         return panel(column([title, listed, *lines], gap), size)
 
     return _fitting(build, size, room)
@@ -121,16 +121,16 @@ def _rules(size: int, room: tuple[int, int], rules: tuple[Rule, ...], foot: str)
         blocks = [
             column(
                 [
-                    line(rule.title, size, palette.SCORE),
-                    *(line(text, size, palette.TEXT) for text in wrapped(f"{rule.text}.", size, width)),
+                    line(rule.title, size, themes.SCORE),
+                    *(line(text, size, themes.TEXT) for text in wrapped(f"{rule.text}.", size, width)),
                 ],
                 0,
                 centered=False,
             )
             for rule in rules
         ]
-        title = line("HOW TO SCORE", round(1.2 * size), palette.SCORE)
-        ends = [line(text, size, palette.FAINT_TEXT) for text in wrapped(foot, size, width)]
+        title = line("HOW TO SCORE", round(1.2 * size), themes.SCORE)
+        ends = [line(text, size, themes.FAINT_TEXT) for text in wrapped(foot, size, width)]
         return panel(column([title, column(blocks, gap, centered=False), *ends], gap), size)
 
     return _fitting(build, size, room)

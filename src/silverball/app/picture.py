@@ -14,8 +14,8 @@ import pygame
 
 from silverball.app.settings import Settings
 from silverball.drawing import Moment, Renderer, best_size
-from silverball.drawing.palette import ROOM
-from silverball.drawing.renderer import rgb_surface
+from silverball.drawing.sketch import rgb_surface
+from silverball.drawing.themes import ROOM
 from silverball.table import Board, Table
 
 if TYPE_CHECKING:
@@ -89,12 +89,12 @@ class Picture:
     def note(self, events: Iterable[Event], tick_rate: int) -> None:
         """Tell what happened since the last picture."""
         if self._renderer is not None:
-            self._renderer.note(events, tick_rate)
+            self._renderer.add_events(events, tick_rate)
 
     def forget(self) -> None:
         """Another game begins."""
         if self._renderer is not None:
-            self._renderer.effects.forget()
+            self._renderer.effects.clear()
 
     def draw(self, moment: Moment, window: pygame.Surface, dots: Dots | None = None) -> pygame.Surface:
         """Draw a moment into a window of any size; returns the part of it that the table fills."""

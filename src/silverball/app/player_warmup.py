@@ -12,9 +12,10 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
+import warnings
 from typing import TYPE_CHECKING
 
-from silverball.app.demo_players import PERFORMERS, STAND_IN, Performer
+from silverball.app.demo_players import PERFORMERS, STAND_IN, Performer, performers
 from silverball.background_process import Compiler
 
 if TYPE_CHECKING:
@@ -54,11 +55,18 @@ class Rehearsal:
     def _work(self) -> None:
         if self._stop.wait(HEAD_START):
             return
-        for performer in PERFORMERS:
-            with contextlib.suppress(Exception):  # the game goes on, and so does the stand-in
+        from silverball.players import PlayerError, player_names
+
+        player_names()  # imports the players of installed packages
+        for performer in performers():
+            try:
                 if is_there(performer) or (self._compile() and is_there(performer)):
                     press_once(performer, self._table)
                     self._ready.add(performer.name)
+            except PlayerError as error:
+                warnings.warn(f"{error}; the player {STAND_IN.name!r} stands in", stacklevel=1)
+            except Exception:  # the game goes on, and so does the stand-in
+                pass
             if self._stop.is_set():
                 return
 
@@ -83,7 +91,7 @@ def press_once(performer: Performer, table: Table) -> None:
 
     game = Game(table, 0)
     game.create_ball()
-    game.advance(False, False, 1)
+    game.step(False, False, 1)
     make_player(performer.name).press(game.world)
 
 

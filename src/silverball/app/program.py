@@ -103,7 +103,7 @@ class Program:
         self._looked = 0.0  # when the table files were looked at
         self._played: Table | None = None  # of what the board of the game was made
         self._key: Key | None = None  # under which its score is listed
-        self._is_blind = store.is_blind  # the settings are not known yet
+        self._is_blind = store.is_unreadable  # the settings are not known yet
         self._see(library.recipe(settings.table), seed)
 
     # --- what there is to see -----------------------------------------------------------------------
@@ -158,7 +158,7 @@ class Program:
         if self.stage is not None:
             is_played, mode = self.stage.is_played, self.stage.game.mode
             best = self._library.best(self._key, mode) if is_played and self._key is not None else 0
-            below = self.display.frame(self.stage.game.face, seconds, best)
+            below = self.display.frame(self.stage.game.view, seconds, best)
         if not self.menus.is_open and below is None:
             return draw_page(seconds, self.progress)
         dots = self.menus.draw(seconds, below)
@@ -190,7 +190,7 @@ class Program:
     def _try_to_save(self, seconds: float) -> None:
         """Save what waits for another program that held the file of the scores."""
         words = self.keeper.pass_time(seconds)
-        if self._is_blind and not self.store.is_held:
+        if self._is_blind and not self.store.has_pending:
             self._is_blind = False
             here = {"table": self.settings.table, "mode": self.settings.mode}
             self._take(Settings.of(self.store.settings()).changed(**here))
@@ -589,7 +589,7 @@ class Program:
         if self._is_blind:  # the others must stay what they are
             values = {name: value for name, value in values.items() if value != before[name]}
         self._take(settings)
-        self.store.keep_settings(values)
+        self.store.save_settings(values)
         if changed and not self.has_game:
             self.end_watching()
 

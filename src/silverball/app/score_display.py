@@ -86,7 +86,7 @@ class Display:
         for one in news:
             if one.kind is GameEventKind.SCORED and one.value:
                 self._points, self._points_began = one.value, None
-            elif one.kind is GameEventKind.UN_STUCK:
+            elif one.kind is GameEventKind.UNSTUCK:
                 self.say("A SHOVE FOR A STILL BALL")
             else:
                 show = _show_of(one)
@@ -208,7 +208,7 @@ class Display:
         _draw_combo_meters(dots, face.combo, seconds)
         _draw_balls(dots, face)
         if self.performer:
-            dots.text(self.performer, 7 * face.most_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
+            dots.text(self.performer, 7 * face.max_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
         if face.multiplier > 1:
             text = f"×{face.multiplier}"
             width = NORMAL.width(text) + 4
@@ -358,5 +358,5 @@ def _draw_balls(dots: Dots, face: GameView) -> None:
     if face.mode is Mode.ARCADE and face.balls:
         dots.text(f"BALL {face.ball}/{face.balls}", 0, STATUS_Y, NORMAL, brightness=HALF)
         return
-    for ball in range(face.most_balls):
+    for ball in range(face.max_balls):
         dots.text("●" if ball < face.on_board else "○", 7 * ball, STATUS_Y, NORMAL)

@@ -117,10 +117,10 @@ def quick_shoves(arcade: Arcade) -> tuple[int | None, int]:
     warnings = 0
     for count in range(1, MOST_SHOVES):
         swing = count * tilt.SHOVE
-        verdict = tilt.judged(swing, warnings, arcade.tilt_warning, arcade.tilt_limit, arcade.warnings)
-        if verdict is tilt.Verdict.TILT:
+        verdict = tilt.shove_result(swing, warnings, arcade.tilt_warning, arcade.tilt_limit, arcade.warnings)
+        if verdict is tilt.ShoveResult.TILT:
             return warns, count
-        if verdict is tilt.Verdict.WARNING:
+        if verdict is tilt.ShoveResult.WARNING:
             warnings += 1
             warns = warns or count
     return warns, MOST_SHOVES

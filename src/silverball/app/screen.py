@@ -9,7 +9,7 @@ import pygame
 
 from silverball.app import sdl
 from silverball.app.pointer import Pointer
-from silverball.drawing.icon import ball_icon
+from silverball.drawing.sketch import ball_icon
 from silverball.video_driver import open_video
 
 DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take

@@ -13,6 +13,7 @@ from silverball.errors import BoardFull, NoRoom
 from silverball.game.view import GameEvent, GameView, Mode, Phase
 
 if TYPE_CHECKING:
+    from silverball.game.core import GameCore
     from silverball.game.game import Game
     from silverball.game.replay.player import ReplayPlayer
     from silverball.players import Player
@@ -29,7 +30,7 @@ class Session(Protocol):
     """What is going on on the board."""
 
     @property
-    def game(self) -> Game:
+    def game(self) -> GameCore:
         """The game that is seen."""
 
     @property
@@ -43,10 +44,10 @@ class Session(Protocol):
     def advance(self, held: Held, ticks: int) -> None:
         """Move on by a number of ticks."""
 
-    def take_events(self) -> list[Event]:
+    def take_world_events(self) -> list[Event]:
         """What happened on the board since this was last asked."""
 
-    def take_news(self) -> list[GameEvent]:
+    def take_game_events(self) -> list[GameEvent]:
         """What happened in the game since this was last asked."""
 
 
@@ -81,7 +82,7 @@ class GameSession:
         Raises:
             SilverballError: There cannot be one more; the message says why.
         """
-        face, tick = self.game.face, self.game.tick
+        face, tick = self.game.view, self.game.tick
         if face.phase is Phase.PLAY and _could_come(face):
             if tick - self._launched < SURE_AFTER * self.game.tick_rate:
                 return f"BALL {face.ball} IS IN PLAY"
@@ -97,18 +98,18 @@ class GameSession:
         if ticks <= 0:
             return
         if held.first != held.rest:
-            self.game.advance(*held.first, 1)
+            self.game.step(*held.first, 1)
             ticks -= 1
         if ticks > 0:
-            self.game.advance(*held.rest, ticks)
+            self.game.step(*held.rest, ticks)
 
-    def take_events(self) -> list[Event]:
+    def take_world_events(self) -> list[Event]:
         """What happened on the board since this was last asked."""
-        return list(self.game.take_events())
+        return list(self.game.take_world_events())
 
-    def take_news(self) -> list[GameEvent]:
+    def take_game_events(self) -> list[GameEvent]:
         """What happened in the game since this was last asked."""
-        return list(self.game.take_news())
+        return list(self.game.take_game_events())
 
 
 class DemoSession:
@@ -132,15 +133,15 @@ class DemoSession:
         """Move on by a number of ticks; `held` moves nothing."""
         for _ in range(ticks):
             self._bring_balls()
-            self.game.advance(*self.player.press(self.game.world), 1)
+            self.game.step(*self.player.press(self.game.world), 1)
 
-    def take_events(self) -> list[Event]:
+    def take_world_events(self) -> list[Event]:
         """What happened on the board since this was last asked."""
-        return list(self.game.take_events())
+        return list(self.game.take_world_events())
 
-    def take_news(self) -> list[GameEvent]:
+    def take_game_events(self) -> list[GameEvent]:
         """What happened in the game since this was last asked."""
-        return list(self.game.take_news())
+        return list(self.game.take_game_events())
 
     def _bring_balls(self) -> None:
         world = self.game.world
@@ -162,7 +163,7 @@ class ReplaySession:
         self.player = player
 
     @property
-    def game(self) -> Game:
+    def game(self) -> GameCore:
         """The game as it was at this moment."""
         return self.player.game
 
@@ -175,18 +176,18 @@ class ReplaySession:
         """Move on by a number of ticks; `held` moves nothing."""
         self.player.advance(ticks)
 
-    def take_events(self) -> list[Event]:
+    def take_world_events(self) -> list[Event]:
         """What happened on the board since this was last asked."""
-        return list(self.game.take_events())
+        return list(self.game.take_world_events())
 
-    def take_news(self) -> list[GameEvent]:
+    def take_game_events(self) -> list[GameEvent]:
         """What happened in the game since this was last asked."""
-        return list(self.game.take_news())
+        return list(self.game.take_game_events())
 
 
 def _could_come(face: GameView) -> bool:
     """Whether one of the balls left in a game of so many could come now."""
-    return 0 < face.ball < face.balls and face.on_board < face.most_balls and not face.tilted
+    return 0 < face.ball < face.balls and face.on_board < face.max_balls and not face.tilted
 
 
 def why_no_tick(stage: Session | None) -> str:

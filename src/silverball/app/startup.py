@@ -60,10 +60,10 @@ class Startup:
 
     def _load(self) -> None:
         try:
-            from silverball.physics.kernel import forget_old_code, is_compiled
+            from silverball.physics.kernel import evict_old_code, is_compiled
 
             if not is_compiled():
-                forget_old_code()
+                evict_old_code()
                 self._compiles_since = time.monotonic()
                 self._on_compile()
             warm_up(self._table)
@@ -76,7 +76,7 @@ def compiling_words() -> str:
     from silverball.physics.code_cache import Damage
     from silverball.physics.kernel import cache_folder
 
-    if Damage.words:
+    if Damage.message:
         return "some compiled code was damaged: compiling it anew; this takes some seconds…"
     if cache_folder() is None:
         return "compiling the physics, as at every start: its cache folder cannot be written…"
@@ -91,7 +91,7 @@ def warm_up(table: Table) -> None:
     game = Game(table, 0)
     game.create_ball()
     game.jitter()
-    game.advance(True, True, 2)
-    game.advance(False, False, 2)
+    game.step(True, True, 2)
+    game.step(False, False, 2)
     game.replay.to_text()
     make_player("reflex").press(game.world)

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import pygame
 
-from silverball.drawing import palette
+from silverball.drawing import themes
 from silverball.drawing.text import line
 
 PANEL_OPACITY = 226  # of 255
@@ -50,14 +50,14 @@ def in_columns(rows: Sequence[Sequence[pygame.Surface]], gap: int) -> list[pygam
 def panel(content: pygame.Surface, padding: int) -> pygame.Surface:
     """A dark rounded panel around something."""
     width, height = content.get_width() + 2 * padding, content.get_height() + 2 * padding
-    result = _rounded(width, height, padding, (*palette.PANEL, PANEL_OPACITY), palette.PANEL_INNER)
+    result = _rounded(width, height, padding, (*themes.PANEL, PANEL_OPACITY), themes.PANEL_INNER)
     result.blit(content, (padding, padding))
     return result
 
 
 def plate(content: pygame.Surface, width: int, height: int) -> pygame.Surface:
     """A dark rounded plate of a given size with something in its middle."""
-    result = _rounded(width, height, height // 6, (*palette.PANEL, 255), palette.PANEL_INNER)
+    result = _rounded(width, height, height // 6, (*themes.PANEL, 255), themes.PANEL_INNER)
     result.blit(content, content.get_rect(center=(width // 2, height // 2)))
     return result
 
@@ -65,10 +65,10 @@ def plate(content: pygame.Surface, width: int, height: int) -> pygame.Surface:
 @lru_cache(maxsize=256)
 def key_cap(label: str, size: int) -> pygame.Surface:
     """A key as it looks on a keyboard; "<" and ">" are the arrow keys."""
-    text = _arrow(label, size) if label in ("<", ">") else line(label, size, palette.TEXT)
+    text = _arrow(label, size) if label in ("<", ">") else line(label, size, themes.TEXT)
     height = round(1.7 * size)
     width = max(height, text.get_width() + round(0.9 * size))
-    cap = _rounded(width, height, round(0.35 * size), (*palette.KEY_FACE, 255), palette.KEY_EDGE)
+    cap = _rounded(width, height, round(0.35 * size), (*themes.KEY_FACE, 255), themes.KEY_EDGE)
     cap.blit(text, text.get_rect(center=(width // 2, height // 2)))
     return cap
 
@@ -77,12 +77,12 @@ def _arrow(label: str, size: int) -> pygame.Surface:
     large = _clear(4 * size, 4 * size)
     tip, back = (0.7, 3.3) if label == "<" else (3.3, 0.7)
     points = [(tip * size, 2 * size), (back * size, 0.6 * size), (back * size, 3.4 * size)]
-    pygame.draw.polygon(large, palette.TEXT, points)
+    pygame.draw.polygon(large, themes.TEXT, points)
     return pygame.transform.smoothscale(large, (round(0.8 * size), round(0.8 * size)))
 
 
 def _rounded(
-    width: int, height: int, rounding: int, face: tuple[int, int, int, int], edge: palette.Color
+    width: int, height: int, rounding: int, face: tuple[int, int, int, int], edge: themes.Color
 ) -> pygame.Surface:
     """A rounded box with a thin edge, smoothed by drawing it three times as large."""
     large = _clear(3 * width, 3 * height)

@@ -89,7 +89,7 @@ class Window:
     ) -> None:
         self._folder = folder or data_folder()
         self.messages = Messages()
-        self.store = Store(self._folder, at_once=True)
+        self.store = Store(self._folder, nonblocking=True)
         try:
             self.program = self._new_program(table, seed, mode)
             self._screen = Screen("Silverball", without_display=without_display)
@@ -117,7 +117,7 @@ class Window:
         self._before: Moment | None = None  # one tick before the present one
         self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
         self._moved_at = 0.0  # at the last picture of a stage that had not ended
-        for trouble in filter(None, (self.store.trouble, self.sounds.trouble)):
+        for trouble in filter(None, (self.store.warning, self.sounds.trouble)):
             self.messages.say(trouble)
         if replay is not None:
             self.program.watch(replay)
@@ -222,11 +222,11 @@ class Window:
         self.sounds.close()
         self.listener.close()
         self._screen.close()
-        if not self.store.is_safe:
+        if not self.store.is_spooled:
             print(f"waiting for another program that holds {self.store.path} …", file=sys.stderr)
         self.store.close()
-        if self.store.farewell:
-            print(plain(self.store.farewell), file=sys.stderr)
+        if self.store.exit_warning:
+            print(plain(self.store.exit_warning), file=sys.stderr)
 
     @property
     def is_over(self) -> bool:
@@ -322,7 +322,7 @@ class Window:
         if stage is None:
             return
         world = stage.game.world
-        news, events = stage.take_news(), stage.take_events()
+        news, events = stage.take_game_events(), stage.take_world_events()
         program.display.tell(news)
         self._picture.note(events, world.tick_rate)
         self.debug.note(events, world.tick_rate)
@@ -365,7 +365,7 @@ class Window:
         sounds.resume()
         world = self._stage.game.world
         game = self._stage.game
-        sounds.buttons(*((False, False) if game.face.tilted else game.held))
+        sounds.buttons(*((False, False) if game.view.tilted else game.held))
         balls = rolling_balls(world)
         sounds.rolling(balls, elapsed * program.speed, world.table.board.width)
 

@@ -1,5 +1,6 @@
-"""How fast and how exact is Silverball?
+"""Benchmarks behind `silverball bench`: speed, latency and accuracy, each measured in one run.
 
-By itself (`speed.py`), in the places where it could be slow (`marks.py`), and beside other engines
-(`peers/`). How smooth the window is, `benchmarks/window.py` of the repository measures.
+`speed` and `marks` measure the step, `drawing`, `window`, `planner` and `replays` what their names say,
+`envs` the environments for agents beside those of other packages, `peers` other engines on the same tables,
+and `thresholds` the returns above which an environment counts as solved.
 """

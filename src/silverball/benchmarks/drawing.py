@@ -1,7 +1,7 @@
-"""How soon is there a picture, how soon the best one, and how many frames a second are drawn?
+"""Speed of the drawing: time to the first and to the best picture of a board, and frames per second.
 
-Everything is baked into a folder that is thrown away afterwards, so nothing is known at the beginning.
-Compiled code is there: compiling it is a matter of the first start on a machine alone.
+Pictures are cached in a folder that is removed afterwards, so nothing is cached at the start. The code is
+compiled before: that happens only at the first start on a machine.
 """
 
 from __future__ import annotations
@@ -13,22 +13,22 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from silverball.benchmarks.marks import Figure
+from silverball.benchmarks.speed import Figure
 from silverball.drawing import Moment, Renderer, best_size
-from silverball.drawing.picture_cache import Store
-from silverball.drawing.renderer import rgb_surface
+from silverball.drawing.picture_cache import PictureCache
+from silverball.drawing.sketch import rgb_surface
 from silverball.table import Table, generate_table, load_table
 from silverball.world import World
 
 HEIGHT = 1152  # [pixel] of the picture
-FRAMES = 240  # of a game, drawn again and again
+FRAMES = 240  # of a game, drawn in every round
 FRAME_RATE = 60
 TICK_RATE = 240
 SEEDS = (11, 12)
 
 
 def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
-    """Measure all of it; `advance` is told what comes next. Bakings are timed once."""
+    """Measure everything, baking once; `advance` is called with the name of what is measured next."""
     from silverball.drawing.warm_up import compile_all
 
     advance("loading compiled code")
@@ -37,33 +37,33 @@ def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None
     first, second = (generate_table(seed, recipe) for seed in SEEDS)
     size = best_size(first.board, HEIGHT)
     with tempfile.TemporaryDirectory() as folder:
-        store = Store(Path(folder))
+        cache = PictureCache(Path(folder))
         advance("a sketch")
         figures = [Figure("first picture of an unknown board", _first_picture(first, size, rounds), "s")]
         advance("baking a board")
         figures.append(
-            Figure("best picture of an unknown board", _seconds(lambda: _bake(first, size, store)), "s")
+            Figure("best picture of an unknown board", _seconds(lambda: _bake(first, size, cache)), "s")
         )
         advance("baking an empty board and paddles")
-        renderer = _bake(first, size, store)
-        assert renderer._studio is not None
-        studio = renderer._studio
-        figures.append(Figure("all angles of the paddles, once", _seconds(studio.bake_paddles), "s"))
-        figures.append(Figure("the empty board, once", _seconds(studio.bake_empty), "s"))
+        renderer = _bake(first, size, cache)
+        assert renderer._provider is not None
+        provider = renderer._provider
+        figures.append(Figure("all angles of the paddles, once", _seconds(provider.bake_paddles), "s"))
+        figures.append(Figure("the empty board, once", _seconds(provider.bake_empty), "s"))
         advance("baking another board")
         figures.append(
-            Figure("best picture of another board", _seconds(lambda: _bake(second, size, store)), "s")
+            Figure("best picture of another board", _seconds(lambda: _bake(second, size, cache)), "s")
         )
         advance("a board that was seen before")
-        known = statistics.median(_seconds(lambda: _bake(second, size, store)) for _ in range(rounds))
+        known = statistics.median(_seconds(lambda: _bake(second, size, cache)) for _ in range(rounds))
         figures.append(Figure("picture of a board seen before", known, "s"))
         advance("drawing frames")
-        figures += _frames(_bake(first, size, store), rounds)
+        figures += _frames(_bake(first, size, cache), rounds)
     return figures
 
 
-def _bake(table: Table, size: tuple[int, int], store: Store) -> Renderer:
-    return Renderer(table, size, board_seed=SEEDS[0], store=store)
+def _bake(table: Table, size: tuple[int, int], cache: PictureCache) -> Renderer:
+    return Renderer(table, size, board_seed=SEEDS[0], cache=cache)
 
 
 def _seconds(work: Callable[[], Any]) -> float:
@@ -73,12 +73,12 @@ def _seconds(work: Callable[[], Any]) -> float:
 
 
 def _first_picture(table: Table, size: tuple[int, int], rounds: int) -> float:
-    """Seconds to a renderer that works in the background, and its first picture."""
+    """Time [s] to create a renderer that works in the background and to draw its first picture."""
     times = []
     for _ in range(rounds):
         with tempfile.TemporaryDirectory() as folder:
             before = time.perf_counter()
-            renderer = Renderer(table, size, board_seed=0, background=True, store=Store(Path(folder)))
+            renderer = Renderer(table, size, board_seed=0, background=True, cache=PictureCache(Path(folder)))
             renderer.surface(Moment.before(table))
             times.append(time.perf_counter() - before)
             renderer.close()
@@ -86,15 +86,15 @@ def _first_picture(table: Table, size: tuple[int, int], rounds: int) -> float:
 
 
 def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
-    """Frames of a game with two balls under random paddles, in processor time of one core."""
+    """Frames of a game with two balls and moving paddles, in processor time of one core."""
     play = list(_play(renderer.table))
     target = rgb_surface(renderer.camera.size)
     times = []
     for _ in range(max(rounds, 3)):
-        renderer.effects.forget()
+        renderer.effects.clear()
         before = time.process_time()
         for moment, events in play:
-            renderer.note(events, TICK_RATE)
+            renderer.add_events(events, TICK_RATE)
             renderer.draw(moment, target)
         times.append((time.process_time() - before) / len(play))
     import pygame

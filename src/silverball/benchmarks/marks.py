@@ -1,7 +1,7 @@
-"""How does the step do in the places where it could be slow? One figure for each, all in one run.
+"""Speed of the step in every situation that could be slow, of single calls, and of the start, in one run.
 
-Every batch is measured once in every round, one after the other, so that a busy moment of the machine hits
-all of them; the figures are medians of the rounds, the ratios medians of the ratios within a round.
+Every batch is measured once per round, one after the other, so that a busy moment of the machine affects all
+of them; figures are medians of the rounds, ratios medians of the ratios within a round.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from silverball.benchmarks.speed import FILL, FRAME_RATE, boards_of, random_actions
+from silverball.benchmarks.speed import FILL, FRAME_RATE, Figure, boards_of, random_actions
 from silverball.table import Cylinder, SlantWall, Table, load_table
 from silverball.world import World, WorldBatch
 
 WORLDS = 4096
 MANY_WORLDS = 65_536
 FRAMES = 60
-CALLS = 20_000  # of one world
-STARTS = 5
+CALLS = 20_000  # timed calls of one world
+STARTS = 5  # timed starts of a program
 
 START = """
 import time
@@ -39,16 +39,8 @@ print(imported - started, time.perf_counter() - started, time.perf_counter() - m
 """
 
 
-class Figure(NamedTuple):
-    """One measured figure: what, how much, in which unit."""
-
-    name: str
-    value: float
-    unit: str
-
-
 def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
-    """Measure all of them; `advance` is told what comes next."""
+    """Measure everything; `advance` is called with the name of what is measured next."""
     cases = _cases()
     times: dict[str, list[float]] = {name: [] for name in cases}
     for number in range(rounds + 2):  # the first two compile and warm up
@@ -75,7 +67,7 @@ def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) 
 
 
 def _cases() -> dict[str, Callable[[], float]]:
-    """What is measured in rounds: functions that return the seconds a frame."""
+    """The cases that are measured in rounds, by name: functions that return the seconds per frame."""
     boards = boards_of(load_table("random"))
     rolling = [_changed(board, friction=0.2, rolling=True) for board in boards]
     return {
@@ -99,24 +91,24 @@ def _play(
     ticks = tick_rate // FRAME_RATE
     for _ in range(FILL):
         batch.create_balls()
-    if frames < FRAMES:  # the balls must be spread over the board first
-        batch.run(random_actions(random, FRAMES, count), FRAMES)
+    if frames < FRAMES:  # spread the balls over the board first
+        batch.step_unchecked(random_actions(random, FRAMES, count), FRAMES)
 
     def one_round() -> float:
         for _ in range(FILL):
             batch.create_balls()
         actions = np.repeat(random_actions(random, frames, count), ticks, axis=0)
         started = time.perf_counter()
-        batch.run(actions, frames * ticks)
+        batch.step_unchecked(actions, frames * ticks)
         return (time.perf_counter() - started) / (count * frames)
 
     return one_round
 
 
 def _rolling_cost(rounds: int) -> Figure:
-    """What rolling costs in the same situations: the same places, velocities and presses, for a second.
+    """Cost of rolling in the same situations: the same positions, velocities and buttons, for a second.
 
-    (In play of their own, rolling balls are slower and stay longer at the paddles, where a step costs more.)
+    (In their own play, rolling balls are slower and stay longer near the paddles, where a step costs more.)
     """
     boards = boards_of(load_table("random"))
     slides, rolls = (
@@ -129,7 +121,7 @@ def _rolling_cost(rounds: int) -> Figure:
     for _ in range(rounds + 2):
         for _ in range(FILL):
             slides.create_balls()
-        slides.run(random_actions(random, FRAMES, WORLDS), FRAMES)
+        slides.step_unchecked(random_actions(random, FRAMES, WORLDS), FRAMES)
         rolls.state[:] = slides.state
         ball = rolls.state["ball"]
         ball["spin_x"], ball["spin_z"] = ball["vz"] / radius, -ball["vx"] / radius
@@ -137,7 +129,7 @@ def _rolling_cost(rounds: int) -> Figure:
         times = []
         for batch in (slides, rolls):
             started = time.perf_counter()
-            batch.run(actions, FRAMES)
+            batch.step_unchecked(actions, FRAMES)
             times.append(time.perf_counter() - started)
         shares.append(times[1] / times[0])
     return Figure("rolling costs from the same places", statistics.median(shares[2:]), "×")
@@ -149,18 +141,18 @@ def _rest() -> Callable[[], float]:
     batch = WorldBatch("classic", count, 0, FRAME_RATE, 1)
     raised = np.zeros((1, count, 3), np.bool_)
     raised[..., :2] = True
-    batch.run(raised, FRAMES)
+    batch.step_unchecked(raised, FRAMES)
     one = World("classic", tick_rate=FRAME_RATE)
     one.step(left=True, right=True, ticks=FRAMES)
     for z in (-2.9, 2.9):
         one.create_ball(position=(-4.5, z))
     one.step(left=True, right=True, ticks=10 * FRAMES)
-    assert len(one.balls) == FILL, "the balls were to lie on the paddles"
+    assert len(one.balls) == FILL, "the balls do not lie on the paddles"
     batch.state[:] = one.records[0]
 
     def one_round() -> float:
         started = time.perf_counter()
-        batch.run(raised, FRAMES)
+        batch.step_unchecked(raised, FRAMES)
         return (time.perf_counter() - started) / (count * FRAMES)
 
     return one_round
@@ -169,7 +161,7 @@ def _rest() -> Callable[[], float]:
 def crowded_table() -> Table:
     """A table of 40 × 20 u with 195 cylinders: 202 parts with the paddles, the guides and the borders."""
     classic = load_table("classic")
-    low = -20.0 + 2.8  # of the pivots
+    low = -20.0 + 2.8  # x of the pivots [u]
     rows = enumerate(np.arange(-9.5, 18.0, 1.5))
     centers = [(float(x), float(z + 0.8 * (row % 2))) for row, x in rows for z in np.arange(-8.6, 7.9, 1.6)]
     guides = tuple(
@@ -192,7 +184,7 @@ def _changed(table: Table, **board: Any) -> Table:
 
 
 def _calls() -> list[Figure]:
-    """How long one call for one tick of one world takes, as Python sees it."""
+    """Wall time of a call that advances one world by one tick."""
     world = World("classic", seed=1)
     took = np.empty(CALLS)
     for number in range(CALLS):
@@ -209,17 +201,17 @@ def _calls() -> list[Figure]:
 
 
 def _starts() -> list[Figure]:
-    """How long a program takes to its first step, with and without compiled code on disk."""
+    """Time from the start of a program to its first step, with and without compiled code on disk."""
     cold: list[list[float]] = []
     warm: list[list[float]] = []
     for _ in range(STARTS):
         with tempfile.TemporaryDirectory() as folder:
             environment = {**os.environ, "SILVERBALL_CACHE": folder}
-            for kept in (cold, warm):
+            for times in (cold, warm):
                 done = subprocess.run(
                     [sys.executable, "-c", START], env=environment, capture_output=True, text=True, check=True
                 )
-                kept.append([float(word) for word in done.stdout.split()])
+                times.append([float(word) for word in done.stdout.split()])
     return [
         Figure("import silverball", statistics.median(row[0] for row in warm), "s"),
         Figure("to the first step, nothing compiled", statistics.median(row[1] for row in cold), "s"),

@@ -1,4 +1,4 @@
-"""How many frames a second does the step make here?"""
+"""Speed of the step on this machine, in frames of 1/60 s per second."""
 
 from __future__ import annotations
 
@@ -16,19 +16,27 @@ from silverball.table import Table
 from silverball.world import WorldBatch
 
 FRAME_RATE = 60
-HOLD = 6  # frames for which a random button stays as it is
-BOARDS = 16  # distinct random boards of a benchmark on a recipe
-FILL = 2  # balls in every world
+HOLD = 6  # frames between two changes of a random button
+BOARDS = 16  # distinct boards of a benchmark on a recipe
+FILL = 2  # balls per world
+
+
+class Figure(NamedTuple):
+    """One measured figure: its name, its value, and the unit of the value."""
+
+    name: str
+    value: float
+    unit: str
 
 
 class Speed(NamedTuple):
-    """A measured speed, and what it was measured on.
+    """A measured speed, and the conditions of the measurement.
 
     Attributes:
         frames_per_second: Frames of 1/60 s in all worlds per second, median of the rounds.
-        slowest: The same of the slowest round.
-        fastest: The same of the fastest round.
-        balls: Mean number of balls on a board at the start of a round.
+        slowest: Frames per second in the slowest round.
+        fastest: Frames per second in the fastest round.
+        balls: Mean number of balls per board at the start of a round.
     """
 
     frames_per_second: float
@@ -47,7 +55,7 @@ class Speed(NamedTuple):
 
 
 def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -> Speed:
-    """Time calls of `frames` frames each, with two balls in every world at each start and random paddles."""
+    """Time calls of `frames` frames each, with random paddles and two balls per world at each start."""
     boards = boards_of(table)
     batch = WorldBatch([boards[i % len(boards)] for i in range(worlds)], worlds, 0, FRAME_RATE, threads)
     random = np.random.default_rng(0)
@@ -58,7 +66,7 @@ def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -
         actions = random_actions(random, frames, worlds)
         balls.append(float((batch.state["ball"]["id"] != 0).sum() / worlds))
         started = time.perf_counter()
-        batch.run(actions, frames)
+        batch.step_unchecked(actions, frames)
         if index >= 2:
             speeds.append(worlds * frames / (time.perf_counter() - started))
     return Speed(
@@ -79,12 +87,12 @@ def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -
 
 
 def machine() -> str:
-    """What this is measured on, in a few words."""
+    """Processor architecture, number of cores and system of this machine."""
     return f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
 def boards_of(table: Table) -> list[Table]:
-    """The boards of a benchmark: the table, or several boards of a recipe."""
+    """The boards of a benchmark: the table, or `BOARDS` boards of a recipe."""
     if table.random is None:
         return [table]
     from silverball.table import generate_table
@@ -93,7 +101,7 @@ def boards_of(table: Table) -> list[Table]:
 
 
 def random_actions(random: np.random.Generator, frames: int, worlds: int) -> NDArray[np.bool_]:
-    """Random paddles, no jitter: bool [frames, world, 3]."""
+    """Random actions without jitter: bool [frame, world, 3]."""
     held = random.random((-(-frames // HOLD), worlds, 3)) < 0.5
     held[..., 2] = False
     return np.ascontiguousarray(np.repeat(held, HOLD, axis=0)[:frames])

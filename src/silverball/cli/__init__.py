@@ -1,7 +1,8 @@
-"""The command line: `silverball <command>`, thin, one file a command.
+"""The command line, `silverball <command>`: a thin layer with one file for each command.
 
-Every command turns what a person typed into one call of the library. A mistake of a person ends in
-`app.run`: its message is printed alone and the exit code is 2, without a traceback.
+A command turns its arguments into calls of the library and prints the result. `app` collects the commands and
+ends errors, `options` and `console` hold what commands share, `signals` and `streams` make Ctrl-C and closed
+standard streams safe.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from silverball.cli.signals import run_until_stopped
 
 
 def main() -> None:
-    """The entry point of `silverball` and `python -m silverball`."""
+    """Run `silverball` or `python -m silverball`."""
     run_until_stopped(_run)
 
 

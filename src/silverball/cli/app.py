@@ -1,18 +1,22 @@
-"""Which commands are there, and how does a mistake end?
+"""The commands of `silverball`, and how an error ends: one message, exit code 2, no traceback.
 
 The modules of the commands import what they need when they run, so that `silverball --help` is quick.
 """
 
 from __future__ import annotations
 
+import functools
 import sys
 from typing import Any
 
 import typer
+import typer.main
 
+from silverball.cli.ball_time import ball_time
 from silverball.cli.bench import bench
 from silverball.cli.check import check
 from silverball.cli.demo import demo
+from silverball.cli.feel import feel
 from silverball.cli.generate import generate
 from silverball.cli.play import play
 from silverball.cli.replay import replay
@@ -20,12 +24,17 @@ from silverball.cli.scores import scores
 from silverball.cli.show import show
 from silverball.cli.signals import STOPPED, stopped
 from silverball.cli.simulate import simulate
+from silverball.cli.soak import soak
 from silverball.cli.streams import give_up, is_broken_pipe
 from silverball.cli.tables import tables
 from silverball.errors import SilverballError
 from silverball.plain import plain
 
-LONGEST = 1000  # characters of a line of a message; what a person typed may be longer
+LONGEST = 1000  # characters per line of a message; an argument that it quotes may be longer
+RENAMED = {  # options of version 0.1 that are commands now
+    "simulate": {"--soak": "soak", "--feel": "feel", "--ball-time": "ball-time"},
+    "bench": {f"--{name}": f"bench {name}" for name in ("marks", "drawing", "envs", "peers")},
+}
 
 app = typer.Typer(
     add_completion=False,
@@ -33,19 +42,21 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (play, replay, scores, demo, tables, show, check, generate, simulate, bench):
+for command in (
+    play, replay, scores, demo, tables, show, check, generate, simulate, ball_time, feel, soak,
+):  # fmt: skip
     app.command()(command)
-COMMANDS = tuple(command.callback.__name__ for command in app.registered_commands if command.callback)
+app.add_typer(bench, name="bench")
 
 
 @app.callback(invoke_without_command=True)
 def silverball(
     ctx: typer.Context,
-    version: bool = typer.Option(False, "--version", help="Print the version and end."),
+    version: bool = typer.Option(False, "--version", help="Print the version and exit."),
 ) -> None:
     """A pinball table: play it, build it, and run it a million times.
 
-    Without a command, `silverball` opens the window, or makes a demo file where there is no display.
+    Without a command, `silverball` opens the window, or films a demo where there is no display.
     """
     if version:
         from silverball import __version__
@@ -58,22 +69,28 @@ def silverball(
         play_or_demo()
 
 
+@functools.cache
+def main_command() -> Any:
+    """The command of all commands; Typer would build it again for every call."""
+    return typer.main.get_command(app)
+
+
 def run(arguments: list[str]) -> int:
     """Run the command line and return the exit code.
 
-    0: done, or nobody reads on. 2: a mistake of a person, a file or stream that cannot be read or written, or
-    too little memory; one message says which.
+    0: done, or the reader of the output has gone. 1: a negative result, such as a finding of a soak. 2: wrong
+    arguments, a file or stream that cannot be read or written, or too little memory; one message says which.
     130: stopped by Ctrl-C.
     """
     try:
-        code = app(args=arguments, prog_name="silverball", standalone_mode=False)
+        code = main_command().main(arguments, prog_name="silverball", standalone_mode=False)
         sys.stdout.flush()
     except SilverballError as error:
         return complain(str(error))
     except KeyboardInterrupt:
         code = STOPPED
     except typer.Abort as end:
-        if isinstance(end.__cause__, EOFError):  # nobody is asked anything here, so no Ctrl-D ends anything
+        if isinstance(end.__cause__, EOFError):  # no command reads input, so this is not Ctrl-D
             raise end.__cause__ from None
         code = STOPPED
     except (BrokenPipeError, SystemExit) as error:
@@ -87,7 +104,7 @@ def run(arguments: list[str]) -> int:
         where = f"{error.filename}: " if error.filename else ""
         return complain(f"silverball: {where}{error.strerror or error}")
     except MemoryError:
-        return complain("silverball: there is too little memory for this; ask for fewer or smaller things")
+        return complain("silverball: out of memory; ask for less")
     except Exception as error:
         if not hasattr(error, "format_message"):
             raise
@@ -98,7 +115,7 @@ def run(arguments: list[str]) -> int:
 
 
 def complain(message: str) -> int:
-    """Print the message of a mistake, whatever stands in it; its exit code."""
+    """Print an error message, with control characters escaped; returns its exit code."""
     try:
         print("\n".join(map(shortened, plain(message, keep="\n").split("\n"))), file=sys.stderr)
         sys.stderr.flush()
@@ -108,27 +125,42 @@ def complain(message: str) -> int:
 
 
 def shortened(line: str) -> str:
-    """A line with its middle left out if it is very long."""
+    """The line, without its middle if it is longer than `LONGEST`."""
     if len(line) <= LONGEST:
         return line
     return f"{line[: LONGEST // 2]} … {line[-LONGEST // 2 :]}"
 
 
 def usage_message(error: Any, arguments: list[str]) -> str:
-    """One sentence for arguments that do not fit: where, what, what was given, and where to look."""
-    command = next((word for word in arguments if word in COMMANDS), "")
-    name = f"silverball {command}".strip()
-    message = error.format_message().rstrip(".?")
+    """One sentence for wrong arguments: where, what was expected, what was given, and where to look."""
+    context = error.ctx
+    name = context.command_path if context is not None else "silverball"
+    now = new_spelling(arguments)
+    if now is not None:
+        return f"{name}: this is a command of its own now: `silverball {now}`. See `silverball {now} --help`"
+    message = error.format_message().rstrip(".")
     given = given_value(getattr(error, "param", None), arguments)
+    commands = getattr(context and context.command, "commands", None)
     if given is not None:
         message += f", got {given!r}"
-    elif not command and "mean" not in message:
-        message += f"; there are {', '.join(COMMANDS)}"
-    return f"{name}: {message}. `{name} --help` shows what there is"
+    elif commands and message.endswith(("command", "'")):
+        message += f"; the commands are {', '.join(commands)}"
+    return f"{name}: {message}{'' if message.endswith('?') else '.'} See `{name} --help`"
+
+
+def new_spelling(arguments: list[str]) -> str | None:
+    """The command that does what these arguments of version 0.1 did; None if they are none."""
+    command, *options = arguments or [""]
+    for option in options:
+        if option in RENAMED.get(command, ()):
+            return RENAMED[command][option]
+    if command == "bench" and options and options[0].startswith("-"):
+        return "bench step"
+    return None
 
 
 def given_value(parameter: Any, arguments: list[str]) -> str | None:
-    """What was given for an option, if it was given."""
+    """The text that was given for an option; None if it was not given."""
     for option in getattr(parameter, "opts", ()):
         for index, word in enumerate(arguments):
             if word == option and index + 1 < len(arguments):

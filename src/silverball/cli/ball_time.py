@@ -1,43 +1,67 @@
-"""`silverball simulate --ball-time`: how long does a ball live under a player?"""
+"""`silverball ball-time`: measures how long a ball lives under a player."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any
 
-from silverball.cli.say import say, say_json
+from silverball.cli.console import compiling, make_boards, progress_bar, say, say_json
+from silverball.cli.options import (
+    AsJson,
+    FirstSeed,
+    PlayerName,
+    Seconds,
+    TableName,
+    TickRate,
+    Worlds,
+    check_duration,
+)
 
 if TYPE_CHECKING:
     from silverball.metrics.ball_time import BallTimes
-    from silverball.players import PlayerKind
-    from silverball.table import Table
 
 
-def time_of_balls(
-    loaded: Table, table: str, seed: int, seconds: float, kind: PlayerKind, worlds: int, tick_rate: int
-) -> dict[str, Any]:
-    """Watch one ball in each of some worlds, showing progress; the report."""
-    from rich.progress import Progress
+def ball_time(
+    table: TableName = "classic",
+    seed: FirstSeed = 0,
+    seconds: Seconds = 60.0,
+    player: PlayerName = "reflex",
+    worlds: Worlds = 1,
+    tick_rate: TickRate = 240,
+    as_json: AsJson = False,
+) -> None:
+    """Measure how long a ball lives under a player and how much it scores, with 95 % intervals.
 
-    from silverball.cli.console import compiling, errors
-    from silverball.cli.simulate import boards_of
-    from silverball.metrics.ball_time import time_balls
-    from silverball.players import PlayerKind
-    from silverball.world import WorldBatch
+    Each world gets one ball, which is watched until it is lost, scores nothing for 15 s, or the time is over.
 
-    with compiling("plan_worlds" if kind == PlayerKind.PLANNER else "press_all"):
-        time_balls(WorldBatch("classic"), kind, 0.1)
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        batch = WorldBatch(boards_of(loaded, seed, worlds, bar), worlds, seed, tick_rate)
+    Example: `silverball ball-time --table random --worlds 1000 --seconds 600 --player reflex`
+    """
+    from silverball.players.registry import check_name
+    from silverball.table import load_table
+
+    check_duration(seconds, tick_rate)
+    check_name(player)
+    loaded = load_table(table)
+    with compiling("plan_worlds" if player == "planner" else "press_all"):
+        from silverball.metrics.ball_time import time_balls
+        from silverball.world import WorldBatch
+
+        time_balls(WorldBatch("classic"), player if player == "planner" else "idle", 0.1)
+    with progress_bar() as bar:
+        batch = WorldBatch(make_boards(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"watching {worlds} ball{'s' * (worlds > 1)}", total=seconds)
-        times = time_balls(batch, kind, seconds, lambda done: bar.update(task, completed=done))
-    return report_of(times) | {
-        "table": table, "seed": seed, "player": kind.name.lower(), "tick_rate": tick_rate,
+        times = time_balls(batch, player, seconds, lambda done: bar.update(task, completed=done))
+    report = report_of(times) | {
+        "table": table, "seed": seed, "player": player, "tick_rate": tick_rate,
     }  # fmt: skip
+    if as_json:
+        say_json(report)
+    else:
+        print_report(report)
 
 
 def report_of(times: BallTimes) -> dict[str, Any]:
-    """The figures under names for a machine; None where a figure lies beyond the time."""
+    """The figures as JSON holds them; None where a figure lies beyond the time that was watched."""
     report: dict[str, Any] = {}
     for name, value in times._asdict().items():
         if isinstance(value, tuple):
@@ -48,11 +72,8 @@ def report_of(times: BallTimes) -> dict[str, Any]:
     return report
 
 
-def print_ball_times(report: dict[str, Any], as_json: bool) -> None:
-    """The report, for a machine or for people."""
-    if as_json:
-        say_json(report)
-        return
+def print_report(report: dict[str, Any]) -> None:
+    """Print the report, one figure per line."""
     limit = f"beyond {report['seconds']:g}"
 
     def shown(name: str, unit: str, digits: int) -> str:
@@ -67,5 +88,5 @@ def print_ball_times(report: dict[str, Any], as_json: bool) -> None:
     )
     say(f"median life       {shown('median', 's', 1)}")
     say(f"mean life so far  {shown('mean', 's', 1)}")
-    say(f"score of a ball   {shown('score', 'points', 0)}")
-    say(f"score a minute    {shown('score_per_minute', 'points', 0)}")
+    say(f"score per ball    {shown('score', 'points', 0)}")
+    say(f"score per minute  {shown('score_per_minute', 'points', 0)}")

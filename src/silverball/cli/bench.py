@@ -1,82 +1,47 @@
-"""`silverball bench`: how fast is the step here, and how does it compare with other engines?"""
+"""`silverball bench`: measures speed and accuracy, one command for each benchmark."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from silverball.cli.say import say, say_json
+from silverball.cli.console import compiling, errors, progress_bar, say, say_json, say_table
+from silverball.cli.options import LAST_SEED, AsJson, TableName, file_name
+from silverball.errors import OutputError, SilverballError
 
 if TYPE_CHECKING:
-    from silverball.benchmarks.marks import Figure
+    from silverball.benchmarks.speed import Figure
 
 MOST_ACTIONS = 300_000_000  # three bytes each
-ENDINGS = (".png", ".md")
+
+bench = typer.Typer(help="Measure how fast and how exact Silverball is on this machine.")
+
+Rounds = Annotated[
+    int, typer.Option("--rounds", min=1, max=1000, help="Timed rounds; their median is printed.")
+]
+BatchWorlds = Annotated[int, typer.Option("--worlds", min=1, max=1_000_000, help="Worlds in the batch.")]
 
 
-def bench(
-    worlds: int = typer.Option(4096, min=1, max=1_000_000, help="Worlds side by side."),
-    frames: int = typer.Option(60, min=1, max=10_000, help="Frames of 1/60 s in one call."),
-    rounds: int = typer.Option(9, min=1, max=1000, help="Timed calls; the median counts."),
-    threads: int = typer.Option(1, min=1, max=1024, help="Threads; 1 gives the speed of one core."),
-    table: str = typer.Option("random", help="A built-in table or a table file."),
-    peers: bool = typer.Option(
-        False, "--peers", help="Play the same table in pymunk and Box2D too; takes some minutes."
-    ),
-    marks: bool = typer.Option(
-        False, "--marks", help="Measure every place where the step could be slow; takes a minute or two."
-    ),
-    drawing: bool = typer.Option(
-        False, "--drawing", help="Measure how fast pictures are made and drawn; takes a minute."
-    ),
-    envs: bool = typer.Option(
-        False, "--envs", help="Measure the environments for agents, and others that are installed."
-    ),
-    quick: bool = typer.Option(False, "--quick", help="With --peers: a rough look, in ten seconds."),
-    out: list[str] = typer.Option(
-        [],
-        metavar="FILE.png|.md",
-        help="With --peers: also write a plot or a Markdown table; with --envs a table; repeatable.",
-    ),
-    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+@bench.command()
+def step(
+    worlds: BatchWorlds = 4096,
+    frames: Annotated[int, typer.Option(min=1, max=10_000, help="Frames of 1/60 s per call.")] = 60,
+    rounds: Rounds = 9,
+    threads: Annotated[int, typer.Option(min=1, max=1024, help="Threads; 1 gives the speed of a core.")] = 1,
+    table: TableName = "random",
+    as_json: AsJson = False,
 ) -> None:
-    """Measure the speed of the compiled step: frames of 1/60 s, two balls, random paddles.
+    """Measure the step: frames of 1/60 s per second, two balls, random paddles.
 
-    Example: `silverball bench --json`, the places where it could be slow with `silverball bench --marks`,
-    the drawing with `silverball bench --drawing`, the environments for agents with `silverball bench --envs`,
-    or beside other engines with
-    `silverball bench --peers --out peers.png --out peers.md`
+    Example: `silverball bench step --threads 2 --json`
     """
-    from silverball.cli.console import compiling, errors
-    from silverball.errors import SilverballError
-
     if worlds * frames > MOST_ACTIONS:
         raise SilverballError(
-            f"--worlds {worlds} times --frames {frames} are more actions than memory should hold; "
+            f"--worlds {worlds} times --frames {frames} are more actions than fit into memory; "
             f"keep the product below {MOST_ACTIONS:,}"
-        )
-    if peers:
-        if threads != 1 or frames != 60:
-            raise SilverballError(
-                "--peers compares on one core, 60 frames a call; leave --threads and --frames out"
-            )
-        compare(table, worlds, rounds, quick, out, as_json)
-        return
-    if marks:
-        show_marks(rounds, as_json)
-        return
-    if drawing:
-        show_drawing(rounds, as_json)
-        return
-    if envs:
-        show_envs(rounds, out, as_json)
-        return
-    if quick or out:
-        raise SilverballError(
-            "--quick belongs to --peers and --out to --peers and --envs; add one of these or leave them out"
         )
     with compiling():
         from silverball.benchmarks.speed import measure
@@ -90,149 +55,225 @@ def bench(
         return
     say(
         f"{report['frames_per_second'] / 1e6:.2f} million frames/s on {report['threads']} thread(s), "
-        f"the median of {report['rounds']} (slowest {report['slowest'] / 1e6:.2f}, "
+        f"the median of {report['rounds']} rounds (slowest {report['slowest'] / 1e6:.2f}, "
         f"fastest {report['fastest'] / 1e6:.2f})"
     )
     say(
         f"a frame is 1/60 s of one world with {report['balls']:.2f} balls and random paddles; "
-        f"{worlds} worlds, {frames} frames a call, {report['boards']} board(s)"
+        f"{worlds} worlds, {frames} frames per call, {report['boards']} board(s)"
     )
     say(f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}")
 
 
-def show_marks(rounds: int, as_json: bool) -> None:
-    """Measure and show the marks of the step."""
-    from silverball.cli.console import compiling
+@bench.command()
+def marks(rounds: Rounds = 9, as_json: AsJson = False) -> None:
+    """Measure the step in every situation that could be slow, single calls and the start; 1 to 2 minutes.
 
+    Example: `silverball bench marks`
+    """
     with compiling():
         from silverball.benchmarks.marks import measure_marks
-    show_figures(measure_marks, rounds, as_json)
+    show_figures(lambda advance: measure_marks(rounds, advance), as_json)
 
 
-def show_drawing(rounds: int, as_json: bool) -> None:
-    """Measure and show the marks of the drawing."""
-    from silverball.cli.console import compiling
+@bench.command()
+def drawing(rounds: Rounds = 9, as_json: AsJson = False) -> None:
+    """Measure how fast tables are baked and frames are drawn; a minute.
 
+    Example: `silverball bench drawing --rounds 5`
+    """
     with compiling():
         from silverball.benchmarks.drawing import measure_drawing
-    show_figures(measure_drawing, rounds, as_json)
+    show_figures(lambda advance: measure_drawing(rounds, advance), as_json)
 
 
-def show_figures(measure: Callable[..., list[Figure]], rounds: int, as_json: bool) -> None:
-    """Measure with a bar that says what is measured, and show what came of it."""
-    from rich.progress import Progress
+@bench.command()
+def planner(
+    table: TableName = "classic",
+    seed: Annotated[int, typer.Option(min=0, max=LAST_SEED, help="Seed of the game.")] = 3,
+    seconds: Annotated[float, typer.Option(min=0.1, max=86_400.0, help="Length of the game [s].")] = 45.0,
+    branches: Annotated[
+        int | None, typer.Option(min=1, max=1000, help="Branches per decision. [default: the planner's own]")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Measure what a decision of the planner costs at 240 ticks per second.
 
-    from silverball.benchmarks.speed import machine
-    from silverball.cli.console import errors
+    Example: `silverball bench planner --table random`
+    """
+    from silverball.table import load_table
 
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        task = bar.add_task("", total=None)
-        figures = measure(rounds, lambda doing: bar.update(task, description=doing))
-    if as_json:
-        say_json([figure._asdict() for figure in figures])
-        return
-    for figure in figures:
-        say(f"{figure.name:40} {figure.value:8.3g} {figure.unit}")
-    say(f"medians of {rounds} rounds; {machine()}")
+    loaded = load_table(table)
+    with compiling("plan_worlds"):
+        from silverball.benchmarks.planner import measure_planner
+    show_figures(lambda advance: measure_planner(loaded, seed, seconds, branches, advance), as_json)
 
 
-def show_envs(rounds: int, out: list[str], as_json: bool) -> None:
-    """Measure and show the rates of the environments, beside others that are installed."""
-    from rich.progress import Progress
+@bench.command()
+def replays(
+    minutes: Annotated[
+        float, typer.Option(min=0.1, max=1440.0, help="Length of the replay in which is sought [min].")
+    ] = 60.0,
+    as_json: AsJson = False,
+) -> None:
+    """Measure the size of replays, the speed of verifying them, and the time of a seek.
 
-    from silverball.benchmarks.envs import measure as contest
+    Example: `silverball bench replays --minutes 10`
+    """
+    with compiling():
+        from silverball.benchmarks.replays import measure_replays
+    show_figures(lambda advance: measure_replays(minutes, advance), as_json)
+
+
+@bench.command()
+def window(
+    seconds: Annotated[
+        float, typer.Option(min=1.0, max=3600.0, help="Length of the measurement [s].")
+    ] = 60.0,
+    player: Annotated[
+        str | None, typer.Option(help="Watch this player in attract mode instead: planner or reflex.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Measure frame rate, input latency and start-up of the real window, which opens and plays by itself.
+
+    For a first start, set SILVERBALL_CACHE to an empty folder. Without a display, run it under `xvfb-run -a`.
+
+    Example: `silverball bench window --seconds 20 --player planner`
+    """
+    from silverball.benchmarks.window import measure_window
+
+    show_figures(lambda advance: measure_window(seconds, player, advance), as_json)
+
+
+@bench.command()
+def thresholds(
+    episodes: Annotated[
+        int, typer.Option(min=2, max=1_000_000, help="Episodes played in each environment.")
+    ] = 2000,
+    as_json: AsJson = False,
+) -> None:
+    """Measure the return above which each environment counts as solved: that of the trained player.
+
+    Example: `silverball bench thresholds --episodes 2000`
+    """
+    with compiling():
+        from silverball.benchmarks.thresholds import measure_thresholds
+    show_figures(lambda advance: measure_thresholds(episodes, advance), as_json)
+
+
+@bench.command()
+def envs(
+    rounds: Rounds = 9,
+    out: Annotated[
+        list[str], typer.Option(metavar="FILE.md", help="Markdown table to write; may be repeated.")
+    ] = [],  # noqa: B006  (typer copies it)
+    as_json: AsJson = False,
+) -> None:
+    """Measure the environments for agents, beside those of other packages that are installed.
+
+    Example: `silverball bench envs --rounds 5 --out envs.md`
+    """
+    from silverball.benchmarks.envs import measure
     from silverball.benchmarks.envs import table as report
-    from silverball.cli.console import errors
     from silverball.wholefile import write_whole
 
     paths = [output_path(text, (".md",)) for text in out]
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+    with progress_bar() as bar:
         task = bar.add_task("compiling …", total=None)
-        result = contest.run(rounds, lambda doing: bar.update(task, description=doing))
+        result = measure.run(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
         say(*report.as_json(result).splitlines())
     else:
-        show_table(report.terminal_table(result), report.footing(result))
+        say_table(report.terminal_table(result))
+        say(*report.footing(result))
     for path in paths:
         write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
         say(f"wrote {path}", err=True)
 
 
-def show_table(table: Any, lines: list[str]) -> None:
-    """Print a table as wide as it is where nobody looks at a screen, and lines below it."""
-    from rich.console import Console
+@bench.command()
+def peers(
+    worlds: BatchWorlds = 4096,
+    rounds: Rounds = 9,
+    table: TableName = "random",
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Rough figures in ten seconds instead of four minutes.")
+    ] = False,
+    out: Annotated[
+        list[str],
+        typer.Option(metavar="FILE.png|.md", help="Plot or Markdown table to write; may be repeated."),
+    ] = [],  # noqa: B006  (typer copies it)
+    as_json: AsJson = False,
+) -> None:
+    """Compare speed and accuracy with pymunk and Box2D on the same tables, on one core.
 
-    console = Console() if Console().is_terminal else Console(width=200)
-    console.print(table)
-    say(*lines)
-
-
-def compare(table: str, worlds: int, rounds: int, quick: bool, out: list[str], as_json: bool) -> None:
-    """Let all engines that are installed play the same tables, and show what came of it."""
-    from rich.progress import Progress
-
-    from silverball.benchmarks.peers.engines import PEERS, present_peers
-    from silverball.cli.console import compiling, errors
-    from silverball.errors import SilverballError
+    Example: `silverball bench peers --out peers.png --out peers.md`
+    """
+    from silverball.benchmarks.peers.engines import PEERS, installed_peers
     from silverball.table import load_table
 
-    paths = [output_path(text) for text in out]
+    paths = [output_path(text, (".png", ".md")) for text in out]
     loaded = load_table(table)
     if not loaded.paddle:
-        raise SilverballError(f"--table {table}: the comparison presses paddles, and this table has none")
-    engines = present_peers()
+        raise SilverballError(f"--table {table}: the comparison needs paddles, and this table has none")
+    engines = installed_peers()
     for engine in PEERS:
         if engine not in engines:
-            errors.print(engine.missing)
+            errors.print(engine.install_hint)
     with compiling():
-        from silverball.benchmarks.peers import comparison as contest
-        from silverball.benchmarks.peers import plot, report
+        from silverball.benchmarks.peers import comparison, report
+        from silverball.wholefile import write_whole
 
         if any(path.suffix == ".png" for path in paths):
-            plot.require_matplotlib()
-    plan = contest.Plan(worlds=worlds, rounds=rounds)
+            report.require_matplotlib()
+    plan = comparison.Plan(worlds=worlds, rounds=rounds)
     if quick:
-        plan = plan._replace(
-            worlds=min(worlds, 512), rounds=min(rounds, 3), seconds=0.1, calls=1, boards=2, frames=1000,
-            scenes=3, energy_seconds=30,
-        )  # fmt: skip
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        task = bar.add_task("", total=contest.units(plan, engines))
+        plan = plan.shortened()
+    with progress_bar() as bar:
+        task = bar.add_task("", total=comparison.units(plan, engines))
 
         def advance(doing: str) -> None:
             bar.update(task, advance=1, description=doing)
 
-        result = contest.run(loaded, plan, engines, advance)
+        result = comparison.run(loaded, plan, engines, advance)
     if as_json:
         say(*report.as_json(result).splitlines())
     else:
-        show_table(report.terminal_table(result), [*report.conclusions(result), *report.footing(result)])
-    write(paths, result)
-
-
-def output_path(text: str, endings: tuple[str, ...] = ENDINGS) -> Path:
-    """A file to write, whose ending says what."""
-    from silverball.cli.output import file_name
-    from silverball.errors import OutputError
-
-    path = file_name(text)
-    if path.suffix not in endings:
-        raise OutputError(
-            f"{path}: this comparison is written as {' or '.join(endings)}; choose an ending like that"
-        )
-    if not path.absolute().parent.is_dir():
-        raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
-    return path
-
-
-def write(paths: list[Path], result: Any) -> None:
-    """Write the plot and the Markdown table."""
-    from silverball.benchmarks.peers import plot, report
-    from silverball.wholefile import write_whole
-
+        say_table(report.terminal_table(result))
+        say(*report.conclusions(result), *report.footing(result))
     for path in paths:
         if path.suffix == ".png":
-            write_whole(path, lambda place: plot.draw(result, place))
+            write_whole(path, lambda place: report.draw_plot(result, place))
         else:
             write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
         say(f"wrote {path}", err=True)
+
+
+def show_figures(measure: Callable[[Callable[[str], None]], list[Figure]], as_json: bool) -> None:
+    """Measure, with a bar that names what is being measured, and print the figures."""
+    from silverball.benchmarks.speed import machine
+
+    with progress_bar() as bar:
+        task = bar.add_task("", total=None)
+        figures = measure(lambda doing: bar.update(task, description=doing))
+    if as_json:
+        say_json([figure._asdict() for figure in figures])
+        return
+    for figure in figures:
+        say(f"{figure.name:44} {figure.value:10.4g} {figure.unit}")
+    say(machine())
+
+
+def output_path(text: str, endings: tuple[str, ...]) -> Path:
+    """The path of a report, whose ending says its kind.
+
+    Raises:
+        OutputError: The ending is another one, or the folder does not exist.
+    """
+    path = file_name(text)
+    if path.suffix not in endings:
+        raise OutputError(f"{path}: this benchmark is written as {' or '.join(endings)}; use such an ending")
+    if not path.absolute().parent.is_dir():
+        raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
+    return path

@@ -1,20 +1,23 @@
-"""`silverball check FILE`: what is wrong with a table?"""
+"""`silverball check FILE`: reports every problem of a table."""
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
-from silverball.cli.say import say
+from silverball.cli.console import say
 
 
 def check(
-    table: str = typer.Argument(..., metavar="FILE", help="A table file, or the name of a built-in table."),
+    table: Annotated[str, typer.Argument(metavar="FILE", help="Table file, or name of a built-in table.")],
 ) -> None:
-    """Report every problem of a table at once.
+    """Check a table and report all of its problems at once.
 
-    Looks for unknown keys, values out of range, parts that cross, a paddle that touches something while it
-    turns, a board without a way to the gutter, and places where a ball could lie for ever. Exit code 0:
-    none; 2: problems.
+    Finds unknown keys, values out of range, parts that overlap, paddles that touch something while they turn,
+    boards on which a ball cannot reach the gutter, and places where a ball could lie forever.
+
+    Exit codes: 0 no problems, 2 problems.
 
     Example: `silverball check mine.toml`
     """

@@ -1,24 +1,59 @@
-"""What does the terminal show while one waits?
+"""Terminal output of the commands: reports on standard output, progress on standard error.
 
-Progress goes to standard error, so that standard output can be piped.
+A report is printed line by line, as JSON, or as a table. Text from files or from the command line is escaped
+by `plain`, so that a terminal shows control characters instead of executing them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import json
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
+import typer
 from rich.console import Console, RenderableType
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from silverball.plain import plain
+
+if TYPE_CHECKING:
+    from rich.table import Table as RichTable
+
+    from silverball.table import Table
+
+PIPE_WIDTH = 200  # columns of a table where the output is not a terminal
 
 errors = Console(stderr=True, markup=False, highlight=False, emoji=False)
 
 
-class CompilingBar(Progress):
-    """A bar that asks how far the compilation is whenever it is drawn."""
+def say(*lines: str, err: bool = False) -> None:
+    """Print lines to standard output, or to standard error."""
+    for line in lines:
+        typer.echo(plain(line), err=err)
+
+
+def say_json(value: Any, indent: int | None = 2) -> None:
+    """Print a value as JSON, in ASCII."""
+    typer.echo(json.dumps(value, indent=indent))
+
+
+def say_table(table: RichTable) -> None:
+    """Print a table; where the output is not a terminal, it is not folded to 80 columns."""
+    console = Console() if Console().is_terminal else Console(width=PIPE_WIDTH)
+    console.print(table)
+
+
+def progress_bar(*columns: TextColumn) -> Progress:
+    """A progress bar on standard error that is removed at the end; invisible where that is not a terminal."""
+    return Progress(*columns, console=errors, transient=True, disable=not errors.is_terminal)
+
+
+class CompilationBar(Progress):
+    """A bar that reads the progress of the compilation whenever it is drawn."""
 
     def get_renderables(self) -> Iterable[RenderableType]:
-        """What is drawn now."""
+        """Update the task before it is drawn."""
         from silverball.physics.kernel import compiled_share
 
         for task in self.tasks:
@@ -28,15 +63,45 @@ class CompilingBar(Progress):
 
 @contextmanager
 def compiling(kernel: str = "run_worlds", about: str = "ten seconds") -> Iterator[None]:
-    """A bar while the physics is compiled: on the first start only, later ones load it from disk."""
-    from silverball.physics.kernel import cache_folder, forget_old_code, is_compiled
+    """Show a bar while a kernel is compiled: on the first start only, later starts load it from disk.
+
+    Args:
+        kernel: The kernel that takes longest; no bar is shown if it has been compiled before.
+        about: How long the compilation takes, in words.
+    """
+    from silverball.physics.kernel import cache_folder, evict_old_code, is_compiled
 
     if is_compiled(kernel):
         yield
         return
-    forget_old_code()
-    often = "once on this machine" if cache_folder() else "at every start, for its cache cannot be written"
+    evict_old_code()
+    often = "once on this machine" if cache_folder() else "at every start: its cache cannot be written"
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(20), TimeElapsedColumn()
-    with CompilingBar(*columns, console=errors, transient=True, disable=not errors.is_terminal) as bar:
+    with CompilationBar(*columns, console=errors, transient=True, disable=not errors.is_terminal) as bar:
         bar.add_task(f"Compiling the physics, {often} (about {about}) …", total=1.0)
         yield
+
+
+@contextmanager
+def baking() -> Iterator[Callable[[float], None]]:
+    """Show a progress bar while a table is drawn; yields a callback that takes the share done, 0 to 1."""
+    from silverball.drawing.background import is_compiled
+
+    words = "baking the table" if is_compiled() else "compiling the drawing, once on this machine"
+    with progress_bar() as bar:
+        task = bar.add_task(words, total=1.0)
+
+        def advance(share: float) -> None:
+            bar.update(task, completed=share, description="baking the table")
+
+        yield advance
+
+
+def make_boards(table: Table, seed: int, worlds: int, bar: Progress) -> list[Table]:
+    """A board for each world: the table itself, or the boards of consecutive seeds if it is a recipe."""
+    from silverball.table import generate_table
+
+    if table.random is None:
+        return [table] * worlds
+    seeds = bar.track(range(seed, seed + worlds), description="making boards")
+    return [generate_table(number, table) for number in seeds]

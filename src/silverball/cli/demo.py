@@ -1,30 +1,48 @@
-"""`silverball demo`: the program plays by itself, into a file."""
+"""`silverball demo`: films a game that the program plays by itself."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
-from silverball.cli.output import file_name
+from silverball.cli.console import baking, compiling
+from silverball.cli.options import (
+    BoardSeed,
+    Force,
+    PlayerName,
+    Size,
+    TableName,
+    ThemeName,
+    file_name,
+    theme_named,
+)
+
+SEED = 7  # of the board and the game in a demo
 
 
 def demo(
-    out: Path | None = typer.Option(
-        None,
-        parser=file_name,
-        metavar="FILE",
-        help="Ends in .gif, .mp4 or .png; demo.gif in this folder if not given.",
-    ),
-    seconds: float = typer.Option(20.0, min=0.1, max=600.0, help="Of play. A PNG shows the last moment."),
-    table: str = typer.Option("classic", help="A built-in table or a table file."),
-    seed: int = typer.Option(7, min=0, max=2**63 - 1, help="Of the board and of everything random on it."),
-    player: str = typer.Option("planner", help="Who plays: idle, random, reflex, hold, planner or trained."),
-    size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
-    theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
-    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            parser=file_name,
+            metavar="FILE",
+            help="File to write, .gif, .mp4 or .png. [default: demo.gif, or the next free name]",
+        ),
+    ] = None,
+    seconds: Annotated[
+        float,
+        typer.Option(min=0.1, max=600.0, help="Length of the recording [s]; a PNG shows its last frame."),
+    ] = 20.0,
+    table: TableName = "classic",
+    seed: BoardSeed = SEED,
+    player: PlayerName = "planner",
+    size: Size = None,
+    theme: ThemeName = "neon",
+    force: Force = False,
 ) -> None:
-    """Let the program play by itself and make a film of it, with sound in an MP4; no display is needed.
+    """Film a game that the program plays by itself; an MP4 has sound. No display is needed.
 
     Example: `silverball demo --out demo.mp4 --seconds 20`
     """
@@ -36,17 +54,26 @@ def make_demo(
     out: Path,
     seconds: float = 20.0,
     table: str = "classic",
-    seed: int = 7,
+    seed: int = SEED,
     size: int | None = None,
     *,
     player: str = "planner",
     theme: str = "neon",
     force: bool = False,
 ) -> None:
-    """Make a film, or a picture, of the program playing; say where it is."""
-    from silverball.cli.console import compiling
-    from silverball.cli.look import baking, theme_named
-    from silverball.cli.recording import ENDINGS, film_size, shoot
+    """Film a game, or draw its last frame, and print the name of the file.
+
+    Args:
+        out: File to write; its ending says what.
+        seconds: Length of the recording [s].
+        table: Built-in table or table file.
+        seed: Of the board and the game.
+        size: Height of the picture [pixels]; None for that of the kind of file.
+        player: Name of the player.
+        theme: Name of the theme.
+        force: Whether an existing file is overwritten.
+    """
+    from silverball.cli.recording import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.players import make_player
@@ -54,7 +81,7 @@ def make_demo(
 
     look = theme_named(theme)
     check_output(out, ENDINGS, force=force)
-    hands = make_player(player)
+    chosen_player = make_player(player, seed)
     board = load_table(table)
     board_seed = None if board.random is None else seed
     if board.random is not None:
@@ -66,16 +93,16 @@ def make_demo(
         from silverball.app.startup import warm_up
 
         warm_up(board)
-        stage = DemoSession(board, seed, hands)
-        hands.press(stage.game.world)
+        session = DemoSession(board, seed, chosen_player)
+        chosen_player.press(session.game.world)
     with baking() as progress:
         renderer = Renderer(board, picture_size, theme=look, board_seed=board_seed, progress=progress)
-    shoot(out, stage, renderer, seconds)
+    record(out, session, renderer, seconds)
     renderer.close()
 
 
 def free_name(name: str) -> Path:
-    """A name in this folder that no file has: demo.gif, or else demo-2.gif, demo-3.gif and so on."""
+    """The first of demo.gif, demo-2.gif, demo-3.gif … that does not exist in this folder."""
     path = Path(name)
     number = 1
     while path.exists():

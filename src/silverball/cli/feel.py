@@ -1,46 +1,62 @@
-"""`silverball simulate --feel`: how does a table play? Figures from thousands of games."""
+"""`silverball feel`: measures how a table plays, from thousands of games."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from silverball.cli.say import say, say_json
+import typer
+
+from silverball.cli.console import compiling, progress_bar, say, say_json, say_table
+from silverball.cli.options import AsJson, FirstSeed, TableName
+from silverball.plain import plain
 
 if TYPE_CHECKING:
+    from rich.table import Table as RichTable
+
     from silverball.metrics.feel import Feel
 
-# What each figure is called for people, its unit or format, in the order in which they are printed.
+# Figures with an interval, in the order of the report: what they are called, and their format.
 ROWS = {
     "seconds_per_ball": ("seconds per ball", "{:.1f}"),
     "points_per_minute": ("points per minute", "{:,.0f}"),
     "points_per_ball": ("points per ball", "{:,.0f}"),
     "hits_per_second": ("hits per second", "{:.2f}"),
-    "cylinder_hits_per_minute": ("hits of cylinders per minute", "{:.1f}"),
-    "prism_hits_per_minute": ("hits of prisms per minute", "{:.1f}"),
+    "cylinder_hits_per_minute": ("cylinder hits per minute", "{:.1f}"),
+    "prism_hits_per_minute": ("prism hits per minute", "{:.1f}"),
     "strikes_per_minute": ("strikes per minute", "{:.1f}"),
     "strikes_to_top": ("strikes that reach the top", "{:.1%}"),
     "strikes_to_a_cylinder": ("strikes that reach a cylinder", "{:.1%}"),
-    "share_above_half_cap": ("time above half the cap", "{:.1%}"),
+    "share_above_half_cap": ("time above half the speed cap", "{:.1%}"),
     "share_on_a_paddle": ("time on a paddle", "{:.2%}"),
     "share_stuck": ("games with a ball stuck over 5 s", "{:.2%}"),
     "share_without_cylinder": ("games that hit no cylinder", "{:.1%}"),
 }
+# Times [s] without an interval.
 SECONDS = {
     "median_game": "median game",
-    "p95_game": "95 % of the games are shorter than",
+    "p95_game": "95 % of games are shorter than",
     "longest_game": "longest game",
     "longest_stay": "longest stay within half a unit",
     "longest_without_points": "longest time without points",
-    "p95_between_hits": "95 % of the hits come within",
+    "p95_between_hits": "95 % of hits follow within",
 }
 
+SHOWN_PARTS = 3  # of the parts that shots hit first
 
-def run_feel(table: str, seed: int, games: int, as_json: bool) -> None:
-    """Measure the feel of a table and print it."""
-    from rich.progress import Progress
 
-    from silverball.cli.console import compiling, errors
+def feel(
+    table: TableName = "classic",
+    seed: FirstSeed = 0,
+    games: Annotated[int, typer.Option(min=2, max=100_000, help="Games of one ball for each player.")] = 1000,
+    as_json: AsJson = False,
+) -> None:
+    """Measure how a table plays: ball times, scores, shots and dead places, with 95 % intervals.
+
+    Four players play it: idle, random, a beginner and reflex. The same options give the same figures.
+
+    Example: `silverball feel --table classic --games 1000`
+    """
     from silverball.table import load_table
 
     loaded = load_table(table)
@@ -48,35 +64,35 @@ def run_feel(table: str, seed: int, games: int, as_json: bool) -> None:
         from silverball.metrics.feel import measure
 
         measure(load_table("classic"), 1, players=("idle",))
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+    with progress_bar() as bar:
         tasks: dict[str, Any] = {}
 
-        def said(what: str, done: float) -> None:
+        def advance(what: str, done: float) -> None:
             if what not in tasks:
                 tasks[what] = bar.add_task(what, total=1.0)
             bar.update(tasks[what], completed=done)
 
-        feel = measure(loaded, games, seed, progress=said)
-    report = {"table": table, "seed": seed, "games": games, **report_of(feel)}
+        measured = measure(loaded, games, seed, progress=advance)
+    report = {"table": table, "seed": seed, "games": games, **report_of(measured)}
     if as_json:
         say_json(report)
     else:
-        say(*lines_of(report))
+        print_report(report)
 
 
 def report_of(feel: Feel) -> dict[str, Any]:
-    """The figures as JSON holds them: [value, low, high] each, null where there is none."""
+    """The figures as JSON holds them: [value, low, high] each, None where there is no value."""
     from silverball.metrics.feel import hot_cells, shots_as_dict
 
     players = {
         name: {
-            **{key: [plain(part) for part in figure] for key, figure in found.figures.items()},
-            "seconds": {key: plain(value) for key, value in found.longest.items()},
+            **{key: [finite(part) for part in figure] for key, figure in found.figures.items()},
+            "seconds": {key: finite(value) for key, value in found.longest.items()},
             "longest_stay_at": list(found.longest_stay_at),
             "longest_stays_x_z_seconds": [list(cell) for cell in hot_cells(found, feel.table)],
             "cut_short": found.cut_short,
             "strikes_to_cylinders": {
-                key: [plain(part) for part in figure] for key, figure in found.cylinders.items()
+                key: [finite(part) for part in figure] for key, figure in found.cylinders.items()
             },
         }
         for name, found in feel.players.items()
@@ -84,58 +100,86 @@ def report_of(feel: Feel) -> dict[str, Any]:
     return {"players": players, "shots": [shots_as_dict(shots) for shots in feel.shots]}
 
 
-def plain(value: float) -> float | None:
-    """A number that JSON has a word for."""
+def finite(value: float) -> float | None:
+    """The value, or None where JSON has no number for it."""
     return float(value) if math.isfinite(value) else None
 
 
-def lines_of(report: dict[str, Any]) -> list[str]:
-    """The report as lines for people."""
-    players = report["players"]
-    lines = [
-        f"{report['table']}: {report['games']:,} games of one ball for each player, seed {report['seed']}"
-    ]
-    lines += ["", f"{'':36}" + "".join(f"{name:>16}" for name in players)]
+def print_report(report: dict[str, Any]) -> None:
+    """Print the report as tables: the figures, the cylinders that strikes reach, and the shots."""
+    say(f"{report['table']}: {report['games']:,} games of one ball per player, seed {report['seed']}")
+    say_table(figures_table(report["players"]))
+    cylinders = cylinders_table(report["players"])
+    if cylinders.row_count:
+        say_table(cylinders)
+    if report["shots"]:
+        say_table(shots_table(report["shots"]))
+
+
+def new_table(title: str, first: str, columns: list[str]) -> RichTable:
+    """An empty table: the first column names the row, the others hold figures."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD)
+    table.add_column(first, no_wrap=True)
+    for name in columns:
+        table.add_column(name, justify="right")
+    return table
+
+
+def figures_table(players: dict[str, Any]) -> RichTable:
+    """The figures of every player, one column each."""
+    table = new_table("Figures, ± 95 %", "figure", list(players))
     for key, (words, form) in ROWS.items():
-        lines.append(f"{words:36}" + "".join(f"{interval(one[key], form):>16}" for one in players.values()))
+        table.add_row(words, *(interval(one[key], form) for one in players.values()))
     for key, words in SECONDS.items():
-        cells = (one["seconds"][key] for one in players.values())
-        lines.append(f"{words + ' [s]':36}" + "".join(f"{shown(cell, '{:.1f}'):>16}" for cell in cells))
-    lines.append(f"{'games cut short':36}" + "".join(f"{one['cut_short']:>16}" for one in players.values()))
-    lines += ["", "Of the struck balls, those that reach each cylinder:"]
+        seconds = (one["seconds"][key] for one in players.values())
+        table.add_row(f"{words} \\[s]", *("–" if cell is None else f"{cell:.1f}" for cell in seconds))
+    table.add_row("games cut short", *(str(one["cut_short"]) for one in players.values()))
+    return table
+
+
+def cylinders_table(players: dict[str, Any]) -> RichTable:
+    """The share of struck balls that reach each cylinder, by player."""
+    from rich.text import Text
+
+    table = new_table("Struck balls that reach a cylinder", "cylinder", list(players))
     for part in next(iter(players.values()))["strikes_to_cylinders"]:
-        cells = (one["strikes_to_cylinders"][part] for one in players.values())
-        lines.append(f"  {part:34}" + "".join(f"{interval(cell, '{:.1%}'):>16}" for cell in cells))
-    for shots in report["shots"]:
-        lines += ["", *shot_lines(shots)]
-    return lines
+        shares = (one["strikes_to_cylinders"][part] for one in players.values())
+        table.add_row(Text(plain(part)), *(interval(share, "{:.1%}") for share in shares))
+    return table
 
 
-def shot_lines(shots: dict[str, Any]) -> list[str]:
-    """The lines about one paddle's shots."""
-    title = f"Shots of the {shots['paddle']} paddle, ball {shots['way']}:"
-    if shots["directions_deg"] is None:
-        return [f"{title} none"]
-    windows = ", ".join(f"{name} {width:.0f} ms" for name, width in shots["windows_ms"].items())
-    low, high = shots["directions_deg"]
-    met = sorted(shots["first_met"].items(), key=lambda item: -item[1])
-    return [
-        title,
-        f"  longest windows of the press: {windows}",
-        f"  directions {low:.0f} to {high:.0f} deg, {shots['bunched_in_10_deg']:.0%} within 10 deg; "
-        f"{shots['share_to_top']:.0%} reach the top by themselves",
-        "  first met: " + ", ".join(f"{name} {count}" for name, count in met),
-    ]
+def shots_table(shots: list[dict[str, Any]]) -> RichTable:
+    """What each paddle can aim at: a row for every paddle and way of the ball."""
+    from rich.text import Text
+
+    aims = list(shots[0]["windows_ms"])
+    columns = [*(f"{aim} \\[ms]" for aim in aims), "directions \\[°]", "within 10°", "reach the top"]
+    table = new_table("Shots: longest windows of the press, and where they go", "paddle, ball", columns)
+    table.add_column("hit first, most often")
+    for one in shots:
+        name = f"{one['paddle']}, {one['way']}"
+        if one["directions_deg"] is None:
+            table.add_row(name, "none")
+            continue
+        low, high = one["directions_deg"]
+        first = sorted(one["first_met"].items(), key=lambda item: -item[1])
+        table.add_row(
+            name,
+            *(f"{one['windows_ms'][aim]:.0f}" for aim in aims),
+            f"{low:.0f} to {high:.0f}",
+            f"{one['bunched_in_10_deg']:.0%}",
+            f"{one['share_to_top']:.0%}",
+            Text(", ".join(f"{plain(part)} {count}" for part, count in first[:SHOWN_PARTS])),
+        )
+    return table
 
 
 def interval(figure: list[float | None], form: str) -> str:
-    """A figure with its interval, for people."""
+    """A figure with the half width of its interval; a dash where there is none."""
     value, low, high = figure
     if value is None or low is None or high is None:
         return "–"
     return f"{form.format(value).removesuffix('%')} ± {form.format(max(high - value, value - low))}"
-
-
-def shown(value: float | None, form: str) -> str:
-    """A number for people, a dash where there is none."""
-    return "–" if value is None else form.format(value)

@@ -1,23 +1,29 @@
-"""`silverball generate`: a random board as a table file."""
+"""`silverball generate`: writes a random board as a table file."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
-from silverball.cli.say import say
+from silverball.cli.console import say
+from silverball.cli.options import LAST_SEED, Force
 
 
 def generate(
-    seed: int = typer.Option(0, min=0, max=2**63 - 1, help="The same seed always gives the same board."),
-    out: Path | None = typer.Option(
-        None, metavar="FILE.toml", help="Where to write it; without, it is printed."
-    ),
-    recipe: str = typer.Option("random", "--table", help="The recipe: a table with a \\[random] section."),
-    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
+    seed: Annotated[
+        int, typer.Option(min=0, max=LAST_SEED, help="Seed; the same seed always gives the same board.")
+    ] = 0,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE.toml", help="File to write. [default: standard output]")
+    ] = None,
+    recipe: Annotated[
+        str, typer.Option("--table", help="Recipe: a table with a \\[random] section.")
+    ] = "random",
+    force: Force = False,
 ) -> None:
-    """Make a random board: obstacles placed anew for every seed.
+    """Generate a random board: the recipe's obstacles, placed at random.
 
     Example: `silverball generate --seed 7 --out seven.toml`
     """

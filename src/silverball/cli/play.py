@@ -1,11 +1,12 @@
-"""`silverball play`: the window. And what bare `silverball` does."""
+"""`silverball play`: opens the window; bare `silverball` does so too, or films a demo without a display."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from silverball.cli.options import LAST_SEED
 from silverball.errors import NoDisplay
 from silverball.game.view import Mode
 
@@ -16,17 +17,19 @@ DEMO_SECONDS = 20.0
 
 
 def play(
-    table: str | None = typer.Option(
-        None, help="A built-in table or a table file; that of the game if not given: the one chosen last."
-    ),
-    seed: int | None = typer.Option(
-        None, min=0, max=2**63 - 1, help="Of the first board; drawn if not given."
-    ),
-    mode: Mode | None = typer.Option(
-        None, help="Begin this game at once: arcade, or free for the original. Without, the menu comes first."
-    ),
+    table: Annotated[
+        str | None, typer.Option(help="Built-in table or table file. [default: the one chosen last]")
+    ] = None,
+    seed: Annotated[
+        int | None,
+        typer.Option(min=0, max=LAST_SEED, help="Seed of the first board. [default: random]"),
+    ] = None,
+    mode: Annotated[
+        Mode | None,
+        typer.Option(help="Start this game at once, arcade or free (the original). [default: the menu]"),
+    ] = None,
 ) -> None:
-    """Play in a window: A and D move the paddles, Space chooses and brings a ball, F1 shows all keys.
+    """Play in a window: A and D move the paddles, Space selects and launches a ball, F1 shows all keys.
 
     Example: `silverball play --table random --seed 7 --mode free`
     """
@@ -39,18 +42,18 @@ def open_window(
     mode: Mode | None = None,
     replay: Replay | None = None,
 ) -> None:
-    """Open the window and play, telling the terminal while the physics is being compiled."""
+    """Open the window and play; the terminal shows the compilation of the physics meanwhile."""
     from silverball.app.startup import compiling_words
     from silverball.app.window import Window
     from silverball.cli.console import errors
 
     status = errors.status("compiling the physics…")
 
-    def tell() -> None:
+    def show_status() -> None:
         status.update(compiling_words())
         status.start()
 
-    window = Window(table, seed, mode=mode, replay=replay, on_compile=tell, on_ready=status.stop)
+    window = Window(table, seed, mode=mode, replay=replay, on_compile=show_status, on_ready=status.stop)
     try:
         window.run()
     finally:
@@ -58,16 +61,16 @@ def open_window(
 
 
 def play_or_demo() -> None:
-    """Play where there is a display; where there is none, say so and make a demo file instead."""
+    """Play; where there is no display, say so and film a demo instead."""
     try:
         open_window()
     except NoDisplay:
         from silverball.cli.demo import free_name, make_demo
 
         typer.echo(
-            f"There is no display to open a window on; making a film of {DEMO_SECONDS:.0f} seconds of play "
-            "instead (`silverball demo --help` tells more).",
+            f"There is no display to open a window on; filming {DEMO_SECONDS:.0f} seconds of play instead "
+            "(see `silverball demo --help`).",
             err=True,
         )
-        # The planner would play better, but compiling it makes a first start half as long again.
+        # The planner plays better, but its compilation makes a first start 1.5 times as long.
         make_demo(free_name("demo.gif"), DEMO_SECONDS, player="reflex")

@@ -1,4 +1,4 @@
-"""How does play become a film or a picture in a file? The same way for `demo` and for `replay`."""
+"""Recording of a session to a film or a picture, for `demo` and `replay`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from silverball.cli.say import say
+from silverball.cli.console import say
 from silverball.plain import plain
 
 if TYPE_CHECKING:
@@ -18,14 +18,16 @@ if TYPE_CHECKING:
 
 ENDINGS = (".gif", ".mp4", ".png")
 HEIGHTS = {".gif": 720, ".mp4": 1152, ".png": 1152}  # [pixel] if no size is asked for
-GIF_LIMIT = 600_000_000  # pixels of all pictures together: a GIF is packed in memory, a byte or two for each
+GIF_LIMIT = (
+    600_000_000  # pixels of all pictures together; a GIF is compressed in memory, at 1 to 2 bytes each
+)
 
 
 def film_size(out: Path, table: Table, seconds: float, height: int | None) -> tuple[int, int]:
-    """Width and height [pixel] of a film of a table.
+    """Return width and height [pixel] of a film of a table.
 
     Raises:
-        OutputError: A GIF of that size would be too large.
+        OutputError: A GIF of that size and length would be too large.
     """
     from silverball.drawing import best_size
     from silverball.errors import OutputError
@@ -41,11 +43,8 @@ def film_size(out: Path, table: Table, seconds: float, height: int | None) -> tu
     return size
 
 
-def shoot(out: Path, stage: Session, renderer: Renderer, seconds: float, *, quiet: bool = False) -> None:
-    """Film what goes on on a stage with a moving line, and say where it is; of a PNG only the last moment.
-
-    An MP4 has the sounds of the game.
-    """
+def record(out: Path, session: Session, renderer: Renderer, seconds: float, *, quiet: bool = False) -> None:
+    """Record a session to a file with a progress bar: a GIF, an MP4 with sound, or its last moment as PNG."""
     from rich.markup import escape
     from rich.progress import Progress
 
@@ -61,8 +60,10 @@ def shoot(out: Path, stage: Session, renderer: Renderer, seconds: float, *, quie
             bar.update(task, completed=done)
 
         rate = FILM_RATES.get(ending, FILM_RATES[".mp4"])
-        sound = FilmSound(stage.game.table, stage.game.tick_rate, rate) if ending == ".mp4" else None
-        pictures = filmed(stage, renderer, seconds, rate, advance, sound, only_last=ending == ".png")
+        sound = FilmSound(session.game.table, session.game.tick_rate, rate) if ending == ".mp4" else None
+        pictures = session_pictures(
+            session, renderer, seconds, rate, advance, sound, only_last=ending == ".png"
+        )
         if ending == ".png":
             write_picture(out, next(pictures))
         else:
@@ -71,8 +72,8 @@ def shoot(out: Path, stage: Session, renderer: Renderer, seconds: float, *, quie
         say(f"wrote {out}")
 
 
-def filmed(
-    stage: Session,
+def session_pictures(
+    session: Session,
     renderer: Renderer,
     seconds: float,
     rate: float,
@@ -81,35 +82,35 @@ def filmed(
     *,
     only_last: bool = False,
 ) -> Iterator[Picture]:
-    """The pictures of what goes on on a stage.
+    """Advance a session and yield its pictures.
 
     Args:
-        stage: Is moved on.
-        renderer: Of its table.
-        seconds: How long.
-        rate: Pictures for every second of play.
-        advance: Told after each picture how many seconds are done.
-        sound: Collects what is heard.
-        only_last: Whether only the last picture is wanted.
+        session: What is recorded.
+        renderer: A renderer of its table.
+        seconds: Length of the recording [s].
+        rate: Pictures per second.
+        advance: Called after each picture with the seconds that are done.
+        sound: Collects the sound of each picture.
+        only_last: Whether to yield the last picture only.
     """
     from silverball.app.controls import Held
     from silverball.app.score_display import Display
     from silverball.drawing import Moment
 
     nothing = Held((False, False), (False, False))
-    display, world = Display(), stage.game.world
+    display, world = Display(), session.game.world
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
-        stage.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
-        events, news = stage.take_events(), stage.take_news()
+        session.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
+        events, news = session.take_world_events(), session.take_game_events()
         display.tell(news)
-        renderer.note(events, world.tick_rate)
+        renderer.add_events(events, world.tick_rate)
         if sound is not None:
-            sound.note(world, events, stage.game.held, news)
-        dots, moment = display.frame(stage.game.face, number / rate), Moment.of(world)
+            sound.note(world, events, session.game.held, news)
+        dots, moment = display.frame(session.game.view, number / rate), Moment.of(world)
         if not only_last or number == count:
             yield renderer.array(moment, dots)
         else:
             for _ in renderer.effects.trails(moment):
-                pass  # they remember the way of the balls
+                pass  # recorded for the last picture
         advance(number / rate)

@@ -1,14 +1,14 @@
-"""`silverball replay`: watch a game again, verify it, compare it with another, or make a film of it."""
+"""`silverball replay`: watches, verifies, compares or films a recorded game."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from silverball.cli.output import file_name
-from silverball.cli.say import say, say_json
+from silverball.cli.console import baking, compiling, errors, progress_bar, say, say_json
+from silverball.cli.options import Force, Size, ThemeName, file_name, theme_named
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
@@ -16,49 +16,62 @@ if TYPE_CHECKING:
     from silverball.game.replay.verify import Verdict
 
 LAST = "last"
-DIFFERS = 1  # the exit code for a replay that does not lead to what it says
+DIFFERS = 1  # exit code where a replay does not lead to what it records
 
 
 def replay(
-    file: str = typer.Argument(metavar="FILE", help="A replay, or `last` for the game that was played last."),
-    verify: bool = typer.Option(False, "--verify", help="Play it unseen and say whether the same comes out."),
-    against: str | None = typer.Option(
-        None, metavar="OTHER", help="Find the first tick and field in which another replay differs."
-    ),
-    out: Path | None = typer.Option(
-        None, parser=file_name, metavar="FILE", help="Make a film: ends in .gif, .mp4 or .png."
-    ),
-    start: float = typer.Option(0.0, "--from", min=0.0, max=86_400.0, help="Where the film begins [s]."),
-    seconds: float | None = typer.Option(
-        None, min=0.1, max=600.0, help="How much of it to film; a PNG shows the last moment."
-    ),
-    size: int | None = typer.Option(None, min=100, max=4320, help="Height of the picture in pixels."),
-    theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
-    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
-    as_json: bool = typer.Option(False, "--json", help="Print what there is to tell as JSON."),
+    file: Annotated[
+        str, typer.Argument(metavar="FILE", help="Replay file, or `last` for the game that was played last.")
+    ],
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Play it without showing it, and check every recorded result.")
+    ] = False,
+    against: Annotated[
+        str | None,
+        typer.Option(metavar="OTHER", help="Find the first tick and field in which another replay differs."),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(parser=file_name, metavar="FILE", help="Film to write, .gif, .mp4 or .png."),
+    ] = None,
+    start: Annotated[
+        float, typer.Option("--from", min=0.0, max=86_400.0, help="Where in the game the film begins [s].")
+    ] = 0.0,
+    seconds: Annotated[
+        float | None,
+        typer.Option(
+            min=0.1,
+            max=600.0,
+            help="Length of the film [s]; a PNG shows its end. [default: to the end]",
+        ),
+    ] = None,
+    size: Size = None,
+    theme: ThemeName = "neon",
+    force: Force = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on one line.")] = False,
 ) -> None:
-    """Watch a recorded game again, in the window or as a film, or verify that it is true.
+    """Watch a recorded game in the window, film it, verify it, or compare it with another.
 
     Exit codes: 0 done and equal, 1 it differs, 2 it cannot be played.
 
     Example: `silverball replay last --out game.gif --from 10 --seconds 8`
     """
     game = load(file)
-    told = facts(file, game)
+    report = facts(file, game)
     verdict: Verdict | None = None
     if verify:
         verdict = verified(game)
-        told["verify"] = verdict._asdict()
-        tell(as_json, f"{file}: {verdict.message}")
+        report["verify"] = verdict._asdict()
+        say_unless(as_json, f"{file}: {verdict.message}")
     if against is not None and (verdict is None or verdict.ok):
         verdict = compared(game, load(against))
-        told["against"] = {"file": against} | verdict._asdict()
-        tell(as_json, f"{file} and {against}: {verdict.message}")
+        report["against"] = {"file": against} | verdict._asdict()
+        say_unless(as_json, f"{file} and {against}: {verdict.message}")
     if out is not None and (verdict is None or verdict.ok):
         make_film(out, game, start, seconds, size, theme=theme, force=force, quiet=as_json)
-        told["out"] = str(out)
+        report["out"] = str(out)
     if as_json:
-        say_json(told, indent=None)
+        say_json(report, indent=None)
     elif out is None and verdict is None:
         watch(game)
     if verdict is not None and not verdict.ok:
@@ -69,10 +82,8 @@ def load(file: str) -> Replay:
     """The replay of a file, or of the last game.
 
     Raises:
-        SilverballError: There is none, or it cannot be played.
+        SilverballError: There is no such replay, or it cannot be played.
     """
-    from silverball.cli.console import compiling
-
     with compiling():
         from silverball.game.replay.format import Replay
 
@@ -93,7 +104,7 @@ def last_game() -> str | None:
 
 
 def facts(file: str, game: Replay) -> dict[str, Any]:
-    """What a replay says of itself."""
+    """What the head of a replay says, for the JSON report."""
     return {
         "file": file,
         "program": game.program,
@@ -108,27 +119,23 @@ def facts(file: str, game: Replay) -> dict[str, Any]:
     }
 
 
-def tell(as_json: bool, sentence: str) -> None:
-    """Print a sentence, unless JSON is to be printed."""
+def say_unless(as_json: bool, sentence: str) -> None:
+    """Print a sentence, unless the report is JSON."""
     if not as_json:
         say(sentence)
 
 
 def verified(game: Replay) -> Verdict:
-    """Play a replay with a moving line."""
-    from rich.progress import Progress
-
-    from silverball.cli.console import errors
+    """Verify a replay, with a progress bar."""
     from silverball.game.replay.verify import verify
 
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+    with progress_bar() as bar:
         task = bar.add_task("playing", total=game.ticks)
         return verify(game, lambda ticks: bar.update(task, completed=ticks))
 
 
 def compared(game: Replay, other: Replay) -> Verdict:
-    """Play two replays side by side."""
-    from silverball.cli.console import errors
+    """Compare two replays tick by tick."""
     from silverball.game.replay.verify import compare
 
     with errors.status("playing both …"):
@@ -153,14 +160,13 @@ def make_film(
     force: bool,
     quiet: bool = False,
 ) -> None:
-    """Make a film, or a picture of the last moment, of a part of a replay.
+    """Film a part of a replay, or draw its last frame.
 
     Raises:
         SilverballError: The part is empty, or the file cannot be written.
     """
     from silverball.app.sessions import ReplaySession
-    from silverball.cli.look import baking, theme_named
-    from silverball.cli.recording import ENDINGS, film_size, shoot
+    from silverball.cli.recording import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.game.replay.player import ReplayPlayer
@@ -173,7 +179,7 @@ def make_film(
         renderer = Renderer(
             game.table, film_size(out, game.table, length, size), theme=theme_named(theme), progress=progress
         )
-    stage = ReplaySession(ReplayPlayer(game))
-    stage.player.seek(round(start * game.tick_rate))
-    shoot(out, stage, renderer, length, quiet=quiet)
+    session = ReplaySession(ReplayPlayer(game))
+    session.player.seek(round(start * game.tick_rate))
+    record(out, session, renderer, length, quiet=quiet)
     renderer.close()

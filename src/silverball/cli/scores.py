@@ -1,56 +1,73 @@
-"""`silverball scores`: who played best, and is it proven?"""
+"""`silverball scores`: lists the best scores, verifies them by their replays, exports and removes them."""
 
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from silverball.cli.console import compiling, errors, progress_bar
 from silverball.game.view import Mode
 from silverball.plain import plain
 
 if TYPE_CHECKING:
-    from silverball.game.scores.proof import Proof
     from silverball.game.scores.store import Score, ScoreList, Store
+    from silverball.game.scores.verify_score import ScoreVerdict
 
-NAME_LENGTH = 60  # characters of a name that are printed
+NAME_LENGTH = 60  # printed characters of a name
 
 
 def scores(
     ctx: typer.Context,
-    table: str = typer.Option("", help="Of this table only: the name that stands above its scores."),
-    mode: Mode | None = typer.Option(None, help="Of this kind of game only."),
-    limit: int = typer.Option(10, min=1, max=1_000_000, help="The best so many of every table."),
-    verify: bool = typer.Option(False, "--verify", help="Play all replays back; mark what is not proven."),
-    replay: int | None = typer.Option(None, metavar="ID", help="With --export: the number of the score."),
-    export: str = typer.Option("", metavar="FILE", help="Write the replay of a score to a file."),
-    force: bool = typer.Option(False, "--force", help="With --export: overwrite a file that exists."),
-    remove: int | None = typer.Option(None, metavar="ID", help="Remove a score and its replay for ever."),
-    as_json: bool = typer.Option(False, "--json", help="Print a JSON array."),
+    table: Annotated[
+        str, typer.Option(help="Only scores of this table: the name above its scores. [default: all]")
+    ] = "",
+    mode: Annotated[
+        Mode | None, typer.Option(help="Only scores of this kind of game. [default: both]")
+    ] = None,
+    limit: Annotated[
+        int, typer.Option(min=1, max=1_000_000, help="Scores shown per table, best first.")
+    ] = 10,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Play all replays and mark scores that they do not prove.")
+    ] = False,
+    replay: Annotated[
+        int | None, typer.Option(metavar="ID", help="With --export: the ID of the score.")
+    ] = None,
+    export: Annotated[str, typer.Option(metavar="FILE", help="Write the replay of a score to a file.")] = "",
+    force: Annotated[
+        bool, typer.Option("--force", help="With --export: overwrite an existing file.")
+    ] = False,
+    remove: Annotated[
+        int | None, typer.Option(metavar="ID", help="Remove a score and its replay permanently.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON array.")] = False,
 ) -> None:
-    """Show the best scores of every table, or see whether their replays prove them.
+    """List the best scores of every table, or verify them by their replays.
 
-    Scores on random boards stand in one list, with the seed of each board. A score is proven if its replay is
-    whole, is of the very table that stands above it, reaches it, and was not counted before; with --verify
-    all others stand below, with the reason, and the exit code is 1 if there are any. Without --verify the
-    list only says what came of it last.
+    Scores on random boards share one list, which shows the seed of each board. A score is proven if its
+    replay is complete, was played on the table of its list, reaches the score, and does not count twice. With
+    --verify, all other scores are listed last, with the reason; without it, the list shows the result of the
+    last verification.
 
-    Example: `silverball scores --table random`, `silverball scores --verify`, or the replay of score 12 with
-    `silverball scores --replay 12 --export best.replay`
+    Exit codes: 0 done, 1 a score is not proven, 2 the scores cannot be read or changed.
+
+    Example: `silverball scores --table random`
+
+    Example: `silverball scores --replay 12 --export best.replay`
     """
-    from silverball.cli.console import errors
     from silverball.errors import SilverballError
     from silverball.game.scores.store import Store
 
-    refuse_what_does_not_fit(ctx)
+    refuse_conflicts(ctx)
     with Store() as store:
-        if store.trouble and not store.is_blind:
-            errors.print(plain(store.trouble, keep="\n"), soft_wrap=True, markup=False, highlight=False)
-        if remove is not None and not store.keeps:
-            raise SilverballError(f"{store.path}: nothing was changed, for it cannot be written")
+        if store.warning and not store.is_unreadable:
+            errors.print(plain(store.warning, keep="\n"), soft_wrap=True, markup=False, highlight=False)
+        if remove is not None and not store.is_persistent:
+            raise SilverballError(f"{store.path}: nothing was changed: the file cannot be written")
         if verify and not store.has_read:
-            raise SilverballError(f"{store.path}: nothing was verified, for it cannot be read")
+            raise SilverballError(f"{store.path}: nothing was verified: the file cannot be read")
         if remove is not None:
             gone = store.score(remove)
             store.remove(remove)
@@ -59,14 +76,18 @@ def scores(
         elif replay is not None:
             write_replay(store, replay, export, force)
         else:
-            lists = chosen(store, table, mode)
+            lists = select_lists(store, table, mode)
             proofs = verify_all(store, lists, as_json) if verify else None
             show(store, lists, limit, as_json, proofs)
             raise typer.Exit(1 if any(not one.verified for one in (proofs or {}).values()) else 0)
 
 
-def refuse_what_does_not_fit(ctx: typer.Context) -> None:
-    """Refuse options that would change nothing or contradict each other."""
+def refuse_conflicts(ctx: typer.Context) -> None:
+    """Refuse options that contradict each other or have no effect.
+
+    Raises:
+        SilverballError: Options do not go together; the message names them.
+    """
     from silverball.errors import SilverballError
 
     given = {
@@ -87,8 +108,12 @@ def refuse_what_does_not_fit(ctx: typer.Context) -> None:
             raise SilverballError(f"silverball scores: --{other} does not go with --{first}; leave one out")
 
 
-def chosen(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
-    """The lists of a table and mode; all if none is named."""
+def select_lists(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
+    """The lists of a table and mode, or all of them.
+
+    Raises:
+        SilverballError: There are no scores on that table.
+    """
     from silverball.errors import SilverballError
 
     lists = [one for one in store.lists() if mode is None or one.mode == mode]
@@ -99,14 +124,18 @@ def chosen(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
     if not found:
         names = ", ".join(sorted({name(one.table_name) for one in lists})) or "no table yet"
         raise SilverballError(
-            f"--table: there are no such scores on '{name(table)}'; there are some on {names}"
+            f"--table: there are no such scores on '{name(table)}'; there are scores on {names}"
         )
     return found
 
 
 def write_replay(store: Store, id: int, out: str, force: bool) -> None:
-    """Write the replay of a score to a file."""
-    from silverball.cli.output import file_name
+    """Write the replay of a score to a file.
+
+    Raises:
+        OutputError: The file exists, or cannot be written.
+    """
+    from silverball.cli.options import file_name
     from silverball.errors import OutputError
     from silverball.wholefile import write_whole
 
@@ -115,42 +144,40 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     if path.is_dir():
         raise OutputError(f"{shown}: this is a folder; give the name of a file in it")
     if path.exists() and not path.is_file():
-        raise OutputError(f"{shown}: this is no ordinary file; choose another name")
+        raise OutputError(f"{shown}: this is not a regular file; choose another name")
     if path.exists() and not force:
         raise OutputError(f"{shown}: this file exists; choose another name, or overwrite it with --force")
     if not path.absolute().parent.is_dir():
-        raise OutputError(f"{shown}: there is no folder {plain(str(path.parent))}: make it first")
+        raise OutputError(f"{shown}: the folder {plain(str(path.parent))} does not exist; make it first")
     try:
         write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
-    except (OSError, ValueError) as error:  # ValueError: a zero character in the path
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
         reason = getattr(error, "strerror", None) or str(error)
         raise OutputError(f"{shown}: {reason.lower()}") from None
     typer.echo(f"wrote {shown}")
 
 
-def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, Proof]:
-    """Try to prove all scores of some lists, the best first, and mark them; what came of it, by number.
+def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, ScoreVerdict]:
+    """Verify all scores of some lists, best first, and store the results; returns them by score ID.
 
-    A score of another list may be of the same game: those of the same seed are tried too.
+    Scores of other lists with the same seed are verified too: a game counts in one of its scores only.
     """
-    from rich.progress import Progress
-
-    from silverball.cli.console import compiling, errors
-
     with compiling():
-        from silverball.game.scores.proof import Counted, prove
-    every = [(score, one.id) for one in store.lists() for score in store.scores(list_id=one.id, limit=-1)]
+        from silverball.game.scores.verify_score import CountedGames, verify_score
+    all_scores = [
+        (score, one.id) for one in store.lists() for score in store.scores(list_id=one.id, limit=-1)
+    ]
     numbers = {one.id for one in lists}
-    seeds = {(score.seed, score.mode) for score, number in every if number in numbers}
-    tried = sorted((one for one in every if (one[0].seed, one[0].mode) in seeds), key=better_first)
+    seeds = {(score.seed, score.mode) for score, number in all_scores if number in numbers}
+    tried = sorted((one for one in all_scores if (one[0].seed, one[0].mode) in seeds), key=better_first)
     tables = {number: store.table_text(number) for number in {number for _, number in tried}}
-    counted = Counted()
-    proofs: dict[int, Proof] = {}
+    counted = CountedGames()
+    proofs: dict[int, ScoreVerdict] = {}
     try:
-        with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
-            for score, number in bar.track(tried, description="playing back"):
+        with progress_bar() as bar:
+            for score, number in bar.track(tried, description="verifying"):
                 text = store.replay(score.id) if score.has_replay else None
-                proof = prove(score, text, tables[number], counted)
+                proof = verify_score(score, text, tables[number], counted)
                 if number in numbers:
                     proofs[score.id] = proof
                     if not proof.verified and not quiet:
@@ -165,12 +192,12 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, P
 
 
 def better_first(one: tuple[Score, int]) -> tuple[int, int]:
-    """The higher score first, of equal ones the earlier: of one game in two scores the better one counts."""
+    """Sort key: higher scores first, then earlier ones; of two scores of one game the first one counts."""
     return -one[0].score, one[0].id
 
 
 def show(
-    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, Proof] | None
+    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, ScoreVerdict] | None
 ) -> None:
     """Print the best scores of some lists."""
     if as_json:
@@ -187,9 +214,9 @@ def show(
 
 
 def ranked(
-    store: Store, one: ScoreList, limit: int, proofs: dict[int, Proof] | None
+    store: Store, one: ScoreList, limit: int, proofs: dict[int, ScoreVerdict] | None
 ) -> list[tuple[int, Score]]:
-    """The best scores of a list with their places; what was proven just now counts, and not what is noted."""
+    """The best scores of a list with their places; new proofs take precedence over stored ones."""
     if proofs is None:
         return list(enumerate(store.scores(list_id=one.id, limit=limit), 1))
     scores = [
@@ -203,20 +230,20 @@ def ranked(
 def as_object(place: int, score: Score) -> dict[str, Any]:
     """A score for JSON."""
     values = score._asdict() | {"when": score.when.isoformat()}
-    del values["damage"]  # it stands in `why`
+    del values["damage"]  # `why` contains it
     return {"place": place} | values
 
 
 def print_list(
     one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several: bool, is_verified: bool
 ) -> None:
-    """A list as people like to read it; of several of one name the digests tell which is which."""
+    """Print a list as a table; the digest of the table tells lists of the same name apart."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
-    from silverball.game.scores.proof import is_built_in
+    from silverball.game.scores.verify_score import is_built_in
 
     words = [name(one.table_name), name(one.mode)]
     words += ["built-in"] * is_built_in(one.table_digest)
@@ -234,20 +261,20 @@ def print_list(
             str(place), f"{score.score:,}", name(score.initials), str(score.seed),
             score.played("%Y-%m-%d %H:%M"), proof_words(score, is_verified), str(score.id),
         )  # fmt: skip
-        grid.add_row(*map(Text, cells), style="red" if score.is_doubtful else None)
+        grid.add_row(*map(Text, cells), style="red" if score.is_rejected else None)
     Console().print(grid)
     if len(rows) < one.length:
-        typer.echo(f"  and {one.length - len(rows)} more; --limit shows them")
+        typer.echo(f"  and {one.length - len(rows)} more (see --limit)")
 
 
 def proof_words(score: Score, is_verified: bool) -> str:
-    """What is said of the proof of a score: a note of an earlier trial is in the past tense."""
+    """State of the proof, in words; the result of an earlier verification is in the past tense."""
     if score.verified is None:
-        return "not tried" if score.has_replay else "no replay"
+        return "not verified" if score.has_replay else "no replay"
     words = "proven" if score.verified else "not proven"
     return words if is_verified or score.damage else f"was {words}"
 
 
 def name(text: str) -> str:
-    """Text out of the file or from the command line, fit to be printed on a line."""
+    """Text from a file or the command line, escaped and shortened to be printed on one line."""
     return plain(text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}…")

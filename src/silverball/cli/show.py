@@ -1,28 +1,28 @@
-"""`silverball show`: a picture of a table."""
+"""`silverball show`: draws a table into a picture."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated
 
 import typer
 
-from silverball.cli.output import file_name
-from silverball.cli.say import say
+from silverball.cli.console import baking, say
+from silverball.cli.options import BoardSeed, Force, TableName, ThemeName, file_name, theme_named
 
 
 def show(
-    out: Path = typer.Option(..., parser=file_name, metavar="FILE.png", help="Where to write the picture."),
-    table: str = typer.Option("classic", help="A built-in table or a table file."),
-    seed: int = typer.Option(0, min=0, max=2**63 - 1, help="Of the board, if the table makes random ones."),
-    size: int = typer.Option(1152, min=100, max=8640, help="Height of the picture in pixels."),
-    theme: str = typer.Option("neon", help="The look: neon, parlour or clear (for colour-blind eyes)."),
-    force: bool = typer.Option(False, "--force", help="Overwrite a file that exists."),
+    out: Annotated[Path, typer.Option(parser=file_name, metavar="FILE.png", help="Picture to write.")],
+    table: TableName = "classic",
+    seed: BoardSeed = 0,
+    size: Annotated[int, typer.Option(min=100, max=8640, help="Height of the picture [pixels].")] = 1152,
+    theme: ThemeName = "neon",
+    force: Force = False,
 ) -> None:
-    """Draw a table into a picture.
+    """Draw a table into a PNG.
 
     Example: `silverball show --table random --seed 7 --theme parlour --out seven.png`
     """
-    from silverball.cli.look import baking, theme_named
     from silverball.drawing import Moment, Renderer, best_size
     from silverball.export.film import check_output, write_picture
     from silverball.table import generate_table, load_table

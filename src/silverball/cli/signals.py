@@ -1,9 +1,9 @@
-"""What do Ctrl-C, SIGTERM and SIGHUP do? They end a command, in a place where that is safe.
+"""Signal handlers: Ctrl-C, SIGTERM and SIGHUP end a command at a point where that is safe.
 
-Python calls a handler between any two instructions of the main thread. If it raised while a module is being
-imported, an object destroyed or a thread begun, the exception would be swallowed, become a traceback, or
-leave something half made. So the handler looks at what the thread is doing and, if need be, comes again a
-little later. (What is compiled is compiled in another thread, see `physics/compile_thread.py`.)
+Python calls a signal handler between any two instructions of the main thread. An exception raised there while
+a module is imported, an object destroyed or a thread started would be swallowed, become a traceback, or leave
+something half done. The handler therefore inspects the stack of the main thread and, if necessary, sends the
+signal again a moment later. (Kernels are compiled in another thread, see `physics/compile_thread.py`.)
 
 Only the standard library is imported here, and nothing else before the handlers are set.
 """
@@ -21,10 +21,10 @@ import time
 from collections.abc import Callable
 from types import FrameType
 
-AGAIN_SECONDS = 0.02
+RETRY_SECONDS = 0.02
 STOPPED = 130  # the exit code after Ctrl-C
 NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # a terminal that closes must not leave half files behind either
-DELICATE = {  # functions of the standard library that must not be left half done; of all files the last line
+UNINTERRUPTIBLE = {  # functions of the standard library, by file; the last line is for every file
     "threading.py": ("start", "set", "notify", "_release_save", "_acquire_restore"),
     "thread.py": ("submit", "_adjust_thread_count"),
     "subprocess.py": ("__init__",),
@@ -35,19 +35,19 @@ DELICATE = {  # functions of the standard library that must not be left half don
 
 
 def run_until_stopped(command: Callable[[], int]) -> None:
-    """Run a command and end the process with its exit code, 128 + N after signal N."""
+    """Run a command and exit with its exit code, or with 128 + N after signal N."""
     try:
         try:
-            for number in _heard():
+            for number in _handled():
                 signal.signal(number, _stop)
             code = command()
         finally:
-            _hear_nothing()
+            _ignore_signals()
     except KeyboardInterrupt:
-        _hear_nothing()
+        _ignore_signals()
         code = stopped()
     except SystemExit as end:
-        _hear_nothing()
+        _ignore_signals()
         code = end.code if isinstance(end.code, int) else int(end.code is not None)
     except BaseException:
         sys.excepthook(*sys.exc_info())
@@ -56,29 +56,29 @@ def run_until_stopped(command: Callable[[], int]) -> None:
 
 
 def stopped() -> int:
-    """Say that somebody has stopped the program; the exit code."""
+    """Print that the program was stopped; returns the exit code."""
     with contextlib.suppress(OSError, ValueError):
         print("stopped", file=sys.stderr)
     return STOPPED
 
 
-def _heard() -> list[int]:
-    """The signals that end the command: those of this system that whoever has started it wants to be heard.
+def _handled() -> list[int]:
+    """The signals that end the command: those of this system that were not ignored when it was started.
 
-    `nohup` does not want it of SIGHUP, nor a shell of SIGINT for what runs in the background.
+    `nohup` ignores SIGHUP, and a shell ignores SIGINT for what it runs in the background.
     """
     numbers = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
     return [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]
 
 
-def _hear_nothing() -> None:
-    """From here on nothing is interrupted."""
-    for number in _heard():
+def _ignore_signals() -> None:
+    """Ignore further signals."""
+    for number in _handled():
         signal.signal(number, signal.SIG_IGN)
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
-    """End the command, now or a little later."""
+    """Signal handler: end the command, now or a moment later."""
     if not _is_safe(frame):
         _thread.start_new_thread(_send_again, (number,))
     elif number == signal.SIGINT:
@@ -88,8 +88,8 @@ def _stop(number: int, frame: FrameType | None) -> None:
 
 
 def _send_again(number: int) -> None:
-    time.sleep(AGAIN_SECONDS)
-    if hasattr(signal, "pthread_kill"):  # ends a wait of the main thread too
+    time.sleep(RETRY_SECONDS)
+    if hasattr(signal, "pthread_kill"):  # also ends a wait of the main thread
         signal.pthread_kill(threading.main_thread().ident or 0, number)
     else:
         _thread.interrupt_main(signal.Signals(number))
@@ -99,23 +99,26 @@ def _is_safe(frame: FrameType | None) -> bool:
     """Whether an exception may be raised in this frame of the main thread."""
     while frame is not None:
         file, name = os.path.basename(frame.f_code.co_filename), frame.f_code.co_name
-        if file.startswith("<frozen importlib") or name in (*DELICATE.get(file, ()), *DELICATE[""]):
+        if file.startswith("<frozen importlib") or name in (
+            *UNINTERRUPTIBLE.get(file, ()),
+            *UNINTERRUPTIBLE[""],
+        ):
             return False
         frame = frame.f_back
     return True
 
 
 def _leave(code: int) -> None:
-    """End the process."""
+    """Exit the process with an exit code."""
     from silverball.cli.streams import give_up
 
     give_up(sys.stdout)
     give_up(sys.stderr)
     if not any(thread.daemon for thread in threading.enumerate()):
         sys.exit(code)
-    # A thread may be in the compiler, for many seconds more; Python must not be taken down under it.
-    aside = sys.modules.get("silverball.physics.compile_thread")
-    if aside is not None and hasattr(aside, "wait_for_the_compiler"):
-        atexit.unregister(aside.wait_for_the_compiler)
+    # A thread may stay in the compiler for many seconds; Python must not be finalized meanwhile.
+    compile_thread = sys.modules.get("silverball.physics.compile_thread")
+    if compile_thread is not None and hasattr(compile_thread, "wait_for_compiler"):
+        atexit.unregister(compile_thread.wait_for_compiler)
     atexit._run_exitfuncs()
     os._exit(code)

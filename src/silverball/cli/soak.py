@@ -1,45 +1,87 @@
-"""What does `silverball simulate --soak` do and print?"""
+"""`silverball soak`: searches for faults of the solver on random boards."""
 
 from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
-from silverball.cli.say import say, say_json
-from silverball.errors import StateError
+from silverball.cli.console import compiling, progress_bar, say, say_json
+from silverball.cli.options import AsJson, FirstSeed, TickRate, Worlds
+from silverball.errors import SilverballError, StateError
 
 SHOWN_FINDINGS = 10
+
+
+def soak(
+    table: Annotated[
+        str | None,
+        typer.Option(help="Built-in table or table file; not with --hostile.", show_default="random"),
+    ] = None,
+    seed: FirstSeed = 0,
+    frames: Annotated[int, typer.Option(min=1, help="Frames to reach, those of earlier runs included.")] = (
+        10_000_000
+    ),
+    worlds: Worlds = 256,
+    tick_rate: TickRate = 60,
+    hostile: Annotated[bool, typer.Option("--hostile", help="Use boards that break every rule.")] = False,
+    progress: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Progress file. [default: a file in the data folder]"),
+    ] = None,
+    again: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Repeat a finding instead: does it still happen?"),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Try to break the solver: random boards, buttons and speeds, every tick checked independently.
+
+    An interrupted soak continues where it stopped. Each finding is written to a file that --again repeats.
+
+    Exit codes: 0 nothing found, 1 a finding.
+
+    Example: `silverball soak --frames 1000000000`
+    """
+    if again is not None:
+        repeat(again, as_json)
+    if hostile and table is not None:
+        raise SilverballError("silverball soak: --table does not go with --hostile, which makes its own")
+    report = run_soak(
+        "random" if table is None else table, seed, worlds, tick_rate, hostile, frames, progress
+    )
+    if as_json:
+        say_json(report)
+    else:
+        print_report(report)
+    raise typer.Exit(1 if any(report["findings"].values()) else 0)
 
 
 def run_soak(
     table: str, seed: int, worlds: int, tick_rate: int, hostile: bool, frames: int, progress: Path | None
 ) -> dict[str, Any]:
-    """Soak until so many frames are done; what came of it, for `print_soak`."""
-    from rich.progress import Progress
-
-    from silverball.cli.console import compiling, errors
+    """Soak until the total of frames is reached; returns the report."""
     from silverball.game.user_folder import data_folder
     from silverball.table import load_table
 
     recipe = load_table(table)
     with compiling("soak_worlds"):
-        from silverball.soak.campaign import begun, log_name, soak
-        from silverball.soak.rounds import Options, Soaked
+        from silverball.soak import campaign
+        from silverball.soak.rounds import Options, SoakBatch
 
         options = Options(recipe, seed, worlds, tick_rate, hostile)
-        path = progress or data_folder() / "soak" / log_name(options)
-        earlier = begun(options, path)
-        Soaked([load_table("classic")], [seed], tick_rate, hostile).run(1)
+        path = progress or data_folder() / "soak" / campaign.log_name(options)
+        earlier = campaign.load_or_begin(options, path)
+        SoakBatch([load_table("classic")], [seed], tick_rate, hostile).run(1)
     started = time.perf_counter()
     try:
-        with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+        with progress_bar() as bar:
             task = bar.add_task(f"soaking {frames:,} frames", total=frames, completed=earlier.totals.frames)
-            log = soak(options, frames, path, lambda done: bar.update(task, completed=done))
+            log = campaign.soak(options, frames, path, lambda done: bar.update(task, completed=done))
     except KeyboardInterrupt:
-        say(f"what was done is kept in {path}: the same command goes on from there", err=True)
+        say(f"progress is saved in {path}; the same command continues from there", err=True)
         raise
     seconds = time.perf_counter() - started
     return {
@@ -62,12 +104,8 @@ def run_soak(
     }
 
 
-def print_soak(report: dict[str, Any], as_json: bool) -> NoReturn:
-    """Print what came of a soak; it ends with exit code 1 if anything was found."""
-    count = sum(report["findings"].values())
-    if as_json:
-        say_json(report)
-        raise typer.Exit(1 if count else 0)
+def print_report(report: dict[str, Any]) -> None:
+    """Print the report in a few lines."""
     say(
         f"{report['frames']:,} frames of 1/{report['tick_rate']} s on {report['boards']:,} boards "
         f"({report['table']}, seed {report['seed']}), {report['frames_per_second'] / 1e6:.2f} million/s"
@@ -78,22 +116,23 @@ def print_soak(report: dict[str, Any], as_json: bool) -> NoReturn:
     )
     say(", ".join(f"{kind} {number:,}" for kind, number in report["findings"].items()))
     for name in report["files"][:SHOWN_FINDINGS]:
-        say(f"  silverball simulate --soak --again {name}")
-    say(f"kept in {report['progress']}")
-    raise typer.Exit(1 if count else 0)
+        say(f"  silverball soak --again {name}")
+    say(f"progress is saved in {report['progress']}")
 
 
-def soak_again(path: Path, as_json: bool) -> NoReturn:
-    """Do a finding again and say whether it happens; exit code 1 if it does."""
-    from silverball.cli.console import compiling
+def repeat(path: Path, as_json: bool) -> NoReturn:
+    """Repeat a finding and report whether it still happens; exit code 1 if anything is found.
 
+    Raises:
+        StateError: The file is not a finding.
+    """
     with compiling("watched_tick"):
         from silverball.soak.checks import Found
-        from silverball.soak.finding import Finding, again
+        from silverball.soak.finding import Finding, reproduce
 
         finding = Finding.load(path)
         try:
-            found = again(finding)
+            found = reproduce(finding)
         except StateError as error:
             raise StateError(f"{path}: {error}") from None
     happens = found.name.lower() == finding.kind
@@ -103,7 +142,7 @@ def soak_again(path: Path, as_json: bool) -> NoReturn:
     elif happens:
         say(f"{path}: the {finding.kind} of ball {finding.ball} happens again")
     elif found != Found.NOTHING:
-        say(f"{path}: instead of the {finding.kind} there is now: {found.name.lower()}")
+        say(f"{path}: instead of the {finding.kind}, another finding: {found.name.lower()}")
     else:
         say(f"{path}: the {finding.kind} does not happen any more")
     raise typer.Exit(0 if found == Found.NOTHING else 1)

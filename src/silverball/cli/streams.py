@@ -1,9 +1,9 @@
-"""What if a standard stream is closed, full, read by nobody, or knows few characters?
+"""Standard streams: made safe where they are closed, full, broken, or limited to few characters.
 
-A closed one is kept from being taken: else the next file that is opened would get its number, and be
-written into. Who closes standard output and then asks for something that is printed is told so (exit code
-2); without standard input or standard error everything works. A reader who goes away, as `head` does, is no
-error: what is left to say is not wanted, and the exit code is 0.
+The number of a closed stream is reserved: otherwise the next file to be opened would get it, and be written
+to by accident. Printing to a closed standard output is an error (exit code 2); without standard input or
+standard error everything works. A reader that goes away, as `head` does, is not an error: the rest of the
+output is dropped and the exit code is 0.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from typing import Any, NoReturn
 from silverball.errors import OutputError
 
 
-class Closed(io.TextIOBase):
-    """Standard output where there is none."""
+class ClosedOutput(io.TextIOBase):
+    """Stands in for a closed standard output."""
 
     encoding = "utf-8"
 
     def write(self, _text: str) -> NoReturn:
-        """Nothing can be printed.
+        """Refuse to print.
 
         Raises:
             OutputError: Always.
@@ -32,25 +32,25 @@ class Closed(io.TextIOBase):
 
 
 def prepare() -> None:
-    """Make the three streams safe to use; called first of all."""
+    """Make the three streams safe to use; called before anything else."""
     for number in range(3):
         try:
             os.fstat(number)
         except OSError:
-            null = os.open(os.devnull, os.O_RDWR)  # gets the lowest number that is free: this one
+            null = os.open(os.devnull, os.O_RDWR)  # gets the lowest free number: this one
             os.set_inheritable(null, True)
     if sys.stdin is None:
-        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115  (as long as the program)
+        sys.stdin = open(os.devnull, encoding="utf-8")  # noqa: SIM115  (open until the exit)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     if sys.stdout is None:
-        sys.stdout = Closed()
+        sys.stdout = ClosedOutput()
     elif isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="backslashreplace")  # as standard error does by itself
+        sys.stdout.reconfigure(errors="backslashreplace")  # as standard error does by default
 
 
 def give_up(stream: Any) -> None:
-    """Let a stream that cannot be written end in nothing, or Python would try the rest again at the exit."""
+    """Send the rest of a stream that cannot be written to the null device; Python flushes it at the exit."""
     with suppress(OSError):
         stream.flush()
         return
@@ -62,5 +62,5 @@ def give_up(stream: Any) -> None:
 
 
 def is_broken_pipe(error: BaseException) -> bool:
-    """Whether whoever read the output has gone; click and rich end the program then in their own ways."""
+    """Whether the reader of the output has gone; click and rich wrap that in errors of their own."""
     return isinstance(error, BrokenPipeError) or isinstance(error.__context__, BrokenPipeError)

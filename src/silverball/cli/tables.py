@@ -1,8 +1,8 @@
-"""`silverball tables`: what is built in?"""
+"""`silverball tables`: lists the built-in tables."""
 
 from __future__ import annotations
 
-from silverball.cli.say import say
+from silverball.cli.console import say
 
 
 def tables() -> None:
@@ -18,5 +18,5 @@ def tables() -> None:
         if table.random is not None:
             recipe = table.random
             counts = f"{recipe.triangular_prisms} triangular prisms, {recipe.cylinders} cylinders"
-            obstacles = f"{counts}, placed anew for every seed"
+            obstacles = f"{counts}, placed at random for every seed"
         say(f"{name:10} {obstacles}")

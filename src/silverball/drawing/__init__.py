@@ -1,16 +1,18 @@
-"""What a table looks like: a moment of play in, a picture out. There is no window in here.
+"""Pictures of tables in play, ray-marched and composed without a display or a graphics card.
 
-    camera.py, dimensions.py, themes.py   where everything lies, how tall it is, which colours it has
-    scene.py                         the table as arrays, beside the shapes that the physics collides with
-    kernels/                         rays, surfaces and light, compiled
-    bake_table.py, bake_paddles.py             pictures of what stands still, and of paddles at every angle
-    bake_threads.py, picture_provider.py           who bakes, and what comes from the store instead
-    (store.py, pictures.py)
-    sketch.py, background.py         a picture at once, and a better one soon (warm_up.py)
-    compose.py, effects.py           one moment, put together
-    renderer.py                      the face of it all
+    renderer.py                           `Renderer`, and what `World.render` calls
+    camera.py, dimensions.py, themes.py   projection, heights of the parts, colours
+    scene.py                              a table as arrays for the kernels, next to the physics' own shapes
+    kernels/                              rays, surfaces and light, compiled
+    bake_table.py, bake_paddles.py        the table without moving parts; the paddles at every angle
+    bake_threads.py                       the threads that bake
+    picture_provider.py                   baked pictures, cached by picture_cache.py, pictures.py
+    sketch.py                             a picture without compiled code, until the table is baked
+    background.py, warm_up.py             baking and compiling while a game is played
+    compose.py, effects.py                one frame: flashes, paddles, shadows, trails, balls, sparks
+    text.py, dotmatrix/                   texts, and the score display
 
-Works without any display: `Renderer(table, size).array(moment)` is an RGB array.
+`Renderer(table, height=480).render(world)` is an RGB array.
 """
 
 from __future__ import annotations

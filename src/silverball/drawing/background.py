@@ -1,9 +1,9 @@
-"""How does a picture get better while a game is played? A thread bakes, another process compiles.
+"""Baking in the background while a game is played: a thread bakes, and another process compiles.
 
-    compiled code there? (else: a process of low priority makes it)
-    →  still table  →  paddles  →  the empty table
+    compile, if the machine code is not cached  →  the table  →  its paddles  →  the empty table
 
-Compiling holds Python's lock, so it never happens in the game's own process. If it fails, the sketch stays.
+Compiling holds Python's lock, so it runs in a process of its own, at low priority. If it fails, the sketch
+remains.
 """
 
 from __future__ import annotations
@@ -13,38 +13,41 @@ from typing import TYPE_CHECKING
 
 from silverball.background_process import Compiler
 from silverball.drawing.camera import Camera
-from silverball.drawing.picture_cache import Store
+from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.themes import Theme
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
-COMPILE_SECONDS = 1800.0  # after which compiling is given up; 35 s of a processor, if it gets one
+LAST_KERNEL = "draw_ball"  # the last one that a frame calls: once it is compiled, all are
+COMPILE_SECONDS = 1800.0  # after which compiling is given up; it takes 12 to 35 s of processor time
 
 
 class Background:
-    """Makes a painter in the background.
+    """Bakes a table in the background.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        store: Where pictures are kept.
-        is_random: Whether other boards of the same recipe will follow, which share the empty table.
+        theme: Its colours.
+        cache: Where baked pictures are kept.
+        is_random: Whether other boards of the same recipe may follow, which share the empty table.
 
     Attributes:
-        painter: Draws the table at its best; None until it is ready.
-        error: What went wrong, if anything did.
+        painter: Draws the table in full quality; None until it is baked.
+        error: The error that ended the baking, if any.
     """
 
-    def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, is_random: bool) -> None:
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, cache: PictureCache, is_random: bool
+    ) -> None:
         self.painter: Composer | None = None
         self.error: Exception | None = None
         self._table = table
         self._camera = camera
         self._theme = theme
-        self._store = store
+        self._cache = cache
         self._is_random = is_random
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._work, name="silverball drawing", daemon=True)
@@ -52,48 +55,53 @@ class Background:
 
     @property
     def is_done(self) -> bool:
-        """Whether everything is baked, or given up."""
+        """Whether the work has ended, finished or not."""
         return not self._thread.is_alive()
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until everything is baked."""
+        """Wait until everything is baked, or for some seconds."""
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Stop; what is not finished is dropped. Compiling goes on, for the next picture needs it too."""
+        """Cancel what is not finished. Compiling goes on, because the next picture needs it too."""
         self._stop.set()
 
     def _work(self) -> None:
-        from silverball.drawing.bake_threads import StoppedError, Workshop, stand_back
+        from silverball.drawing.bake_threads import BakeCancelled, BakeThreads, lower_priority
 
-        stand_back()
+        lower_priority()
         if not self._compile():
             return
         from silverball.drawing.compose import Composer
-        from silverball.drawing.picture_provider import Studio
+        from silverball.drawing.picture_provider import PictureProvider
 
-        workshop = Workshop(stop=self._stop, is_behind=True)
+        bake_threads = BakeThreads(stop=self._stop, in_background=True)
         try:
-            studio = Studio(self._table, self._camera, self._theme, self._store, workshop)
-            painter = Composer(self._table, self._camera, self._theme, studio.still(), studio.paddle)
+            provider = PictureProvider(self._table, self._camera, self._theme, self._cache, bake_threads)
+            painter = Composer(self._table, self._camera, self._theme, provider.table(), provider.paddle)
             if self._stop.is_set():
                 return
             self.painter = painter
-            studio.bake_paddles()
+            provider.bake_paddles()
             if self._is_random:
-                studio.bake_empty()
-        except StoppedError:
-            studio.save_paddles()
-        except Exception as error:  # the game goes on with the picture that there is
+                provider.bake_empty()
+        except BakeCancelled:
+            provider.save_paddles()
+        except Exception as error:  # the game goes on with the picture it has
             self.error = error
 
     def _compile(self) -> bool:
-        """Whether compiled code is there, after it has been made if need be."""
-        from silverball.drawing.warm_up import is_compiled
-
+        """Compile the drawing if it is not compiled yet; return whether it is now."""
         if is_compiled():
             return True
         return _compiler.finish(self._stop, COMPILE_SECONDS) and is_compiled()
+
+
+def is_compiled() -> bool:
+    """Return whether the machine code of the drawing is on disk."""
+    from silverball.physics import kernel
+
+    return kernel.is_compiled(LAST_KERNEL, kernel.DRAWING)
 
 
 _compiler = Compiler("silverball.drawing.warm_up")  # one for all renderers

@@ -1,7 +1,7 @@
-"""What does the table look like when nothing moves? Its picture, its heights, and what hits add to it.
+"""Baking of a table without its moving parts: its picture, its heights, and the flash of each part.
 
-A random board differs from an empty one only around its obstacles. If the empty board is at hand, nothing
-else is baked, and the result is the same to the last bit.
+A random board differs from the empty board only around its obstacles. If the picture of the empty board is
+given, only these pixels are baked; the result is the same bit for bit.
 """
 
 from __future__ import annotations
@@ -11,32 +11,32 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.bake_threads import Workshop
+from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
 from silverball.drawing.kernels import bake
 from silverball.drawing.kernels.bake import Canvas, new_canvas
 from silverball.drawing.kernels.stage import HALO, Form, Scene
-from silverball.drawing.pictures import Flash, Still
+from silverball.drawing.pictures import BakedTable, HitFlash
 from silverball.drawing.scene import make_scene
 from silverball.drawing.themes import Theme
-from silverball.physics.records import Part
 from silverball.table import Table
+from silverball.world.compile import part_numbers
 
-SLACK = 0.05  # [u] added to a reach, for what lies between two heights that are looked at
-FLASH_REACH = 1.9  # [u] around a part that its flash is baked for
+SLACK = 0.05  # [u] added to a reach, for the heights between two that are tested
+FLASH_REACH = 1.9  # [u] around a part within which its flash is baked
 
 
-def bake_still(
-    table: Table, camera: Camera, theme: Theme, workshop: Workshop, empty: Still | None = None
-) -> Still:
+def bake_table(
+    table: Table, camera: Camera, theme: Theme, bake_threads: BakeThreads, empty: BakedTable | None = None
+) -> BakedTable:
     """Bake a table without paddles and balls.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        workshop: Who does it.
-        empty: The same table without prisms and cylinders, if it is at hand.
+        theme: Its colours.
+        bake_threads: The threads to use.
+        empty: The baked picture of the same table without prisms and cylinders, if there is one.
     """
     scene = make_scene(table, camera, theme)
     canvas = new_canvas(camera.size)
@@ -44,24 +44,24 @@ def bake_still(
     if empty is not None:
         inner = _around_obstacles(scene, camera)
         canvas.mask[:] = _one_wider(inner)
-    workshop.plan(2 * int(canvas.mask.any(axis=1).sum()))
-    workshop.bake(scene, canvas, inner)
+    bake_threads.plan(2 * int(canvas.mask.any(axis=1).sum()))
+    bake_threads.bake(scene, canvas, inner)
     pixels, height = to_bytes(canvas.shown), _rounded(canvas.height)
     if empty is not None and inner is not None:
         pixels = np.where(inner[:, :, None], pixels, empty.pixels)
         height = np.where(inner, height, empty.height)
-    return Still(pixels, height, _flashes(table, scene, camera, canvas, workshop))
+    return BakedTable(pixels, height, _flashes(table, scene, camera, canvas, bake_threads))
 
 
 def without_obstacles(table: Table) -> Table:
-    """The table that all random boards of a recipe share."""
+    """Return the table without prisms and cylinders, which all boards of a recipe share."""
     return table.model_copy(update={"triangular_prism": (), "cylinder": (), "random": None})
 
 
 def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
-    """Colours as RGB bytes, with a fixed fine pattern against bands in slow gradients."""
+    """Convert colours (0 to 1) to RGB bytes, with ordered dither against bands in gradients."""
     rows, columns = shown.shape[:2]
-    # One step of ordered dither; the constants are powers of the plastic number, which spread points evenly
+    # The constants are powers of the plastic number, which spread points evenly
     # over a plane. Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
     row, column = np.arange(rows)[:, None], np.arange(columns)[None, :]
     pattern = ((0.7548776662 * column + 0.5698402910 * row) % 1.0).astype(np.float32)
@@ -70,23 +70,23 @@ def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
 
 
 def _rounded(height: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Heights as the store keeps them, in half precision, so that a picture from there has the same bits."""
+    """Round heights to half precision, as the cache stores them: both give the same picture."""
     return height.astype(np.float16).astype(np.float32)
 
 
 def _around_obstacles(scene: Scene, camera: Camera) -> NDArray[np.bool_]:
-    """The pixels that prisms and cylinders can change: all within the reach of their light."""
+    """Return the pixels that prisms and cylinders can change: all within the reach of their light."""
     width, height = camera.size
     mask = np.zeros((height, width), np.bool_)
     reach = HALO * float(scene.stage[0]["unit"])
-    for look, shape in zip(scene.looks, scene.shapes, strict=True):
-        if look["form"] in (Form.PRISM, Form.CYLINDER):
+    for solid, shape in zip(scene.solids, scene.shapes, strict=True):
+        if solid["form"] in (Form.PRISM, Form.CYLINDER):
             left, top, right, bottom = _box(camera, shape, reach)
             across = np.arange(left, right)[None, :] + 0.5
             down = np.arange(top, bottom)[:, None] + 0.5
-            # A ray passes what is in reach somewhere between the playfield and the greatest height.
+            # A ray crosses the reach of a part at some height between the playfield and the top.
             for share in (0.0, 0.25, 0.5, 0.75, 1.0):
-                x, z = _places(camera, across, down, share * camera.build.top)
+                x, z = _places(camera, across, down, share * camera.dimensions.top)
                 size = shape["reach"] + reach + SLACK
                 mask[top:bottom, left:right] |= (x - shape["x"]) ** 2 + (z - shape["z"]) ** 2 < size**2
     return mask
@@ -95,17 +95,17 @@ def _around_obstacles(scene: Scene, camera: Camera) -> NDArray[np.bool_]:
 def _places(
     camera: Camera, across: NDArray[Any], down: NDArray[Any], y: float
 ) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Where the rays through pixels are at a height; the same as `Camera.to_board`, for many."""
+    """Return (x, z) where the rays through pixels are at height y; `Camera.to_board` for arrays."""
     f = camera.frustum
     u, v = (across - f.across) / f.focal, (f.down - down) / f.focal
-    way = (y - f.eye_y) / (v * f.sine - f.cosine)
-    return f.eye_x + way * (f.sine + v * f.cosine), way * u
+    t = (y - f.eye_y) / (v * f.sine - f.cosine)
+    return f.eye_x + t * (f.sine + v * f.cosine), t * u
 
 
 def _box(camera: Camera, shape: np.void, reach: float) -> tuple[int, int, int, int]:
-    """The pixels (left, top, right, bottom) of a part and what is within a reach of it."""
+    """Return the box of pixels that shows a part and its surroundings within a reach."""
     x, z, size = shape["x"], shape["z"], shape["reach"] + reach
-    return camera.box(x - size, x + size, z - size, z + size, 0.0, camera.build.top)
+    return camera.box(x - size, x + size, z - size, z + size, 0.0, camera.dimensions.top)
 
 
 def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -118,23 +118,22 @@ def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _flashes(
-    table: Table, scene: Scene, camera: Camera, canvas: Canvas, workshop: Workshop
-) -> dict[str, Flash]:
-    names = [f"triangular_prism[{index}]" for index in range(len(table.triangular_prism))]
-    names += [f"cylinder[{index}]" for index in range(len(table.cylinder))]
-    first = Part.FIRST_SHAPE + len(table.slant_wall)
+    table: Table, scene: Scene, camera: Camera, canvas: Canvas, bake_threads: BakeThreads
+) -> dict[str, HitFlash]:
     flashes = {}
-    for index, name in enumerate(names, first):
+    for name, index in part_numbers(table).items():
+        if scene.solids[index]["form"] not in (Form.PRISM, Form.CYLINDER):
+            continue
         reach = FLASH_REACH * float(scene.stage[0]["unit"])
         left, top, right, bottom = _box(camera, scene.shapes[index], reach)
         pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
-        workshop.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
-        flashes[name] = Flash(left, top, _smoothed(pixels))
+        bake_threads.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
+        flashes[name] = HitFlash(left, top, _smoothed(pixels))
     return flashes
 
 
 def _smoothed(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """The mean of each pixel and its eight neighbours: light has no hard edges, and one ray a pixel has."""
+    """Average each pixel with its eight neighbours, to smooth the edges of one ray per pixel."""
     for axis in (0, 1):
         wide = np.pad(pixels.astype(np.uint16), [(1, 1) if a == axis else (0, 0) for a in range(3)], "edge")
         size = pixels.shape[axis]

@@ -1,7 +1,6 @@
-"""Who bakes? A few threads, some rows at a time, so that the work can be stopped at any moment.
+"""The threads that bake pictures, a few rows at a time, so that the work can be cancelled at any moment.
 
-Kernels let go of Python's lock, so a game goes on beside them; on Linux the threads also stand back behind
-it.
+Kernels release Python's lock, so a game runs beside them. On Linux the threads also get a lower priority.
 """
 
 from __future__ import annotations
@@ -20,22 +19,22 @@ from silverball.drawing.kernels import bake
 from silverball.drawing.kernels.bake import Canvas
 from silverball.drawing.kernels.stage import Scene
 
-ROWS = 4  # baked in one call: some 20 ms
-NICENESS = 10  # of threads that bake behind a game
+ROWS = 4  # baked by one call, in about 20 ms
+NICENESS = 10  # of threads that bake while a game is played
 
 
-class StoppedError(Exception):
-    """Nobody wants the picture any more."""
+class BakeCancelled(Exception):
+    """The picture is no longer wanted."""
 
 
-class Workshop:
-    """Bakes, on some threads.
+class BakeThreads:
+    """Bakes pictures on several threads.
 
     Args:
-        threads: How many; None: as many as there are processors.
-        stop: When it is set, the work ends with `StoppedError`.
-        progress: Told the share of the work that is done, 0 to 1.
-        is_behind: Whether a game is played meanwhile.
+        threads: Number of threads; by default one for each processor.
+        stop: Cancels the work when it is set: `bake` and `run_rows` then raise `BakeCancelled`.
+        progress: Called with the share of the planned rows that is done, 0 to 1.
+        in_background: Whether the threads run at low priority.
     """
 
     def __init__(
@@ -44,25 +43,25 @@ class Workshop:
         *,
         stop: threading.Event | None = None,
         progress: Callable[[float], None] = lambda share: None,
-        is_behind: bool = False,
+        in_background: bool = False,
     ) -> None:
         self._threads = threads or os.cpu_count() or 1
         self._stop = stop or threading.Event()
-        self._stand_back = stand_back if is_behind else (lambda: None)
+        self._lower_priority = lower_priority if in_background else (lambda: None)
         self.progress = progress
         self._done = self._planned = 0
 
     def plan(self, rows: int) -> None:
-        """Say how many rows more there will be to bake, for the progress."""
+        """Add to the number of rows that the progress counts as the whole work."""
         self._planned += rows
 
     def bake(self, scene: Scene, canvas: Canvas, inner: NDArray[np.bool_] | None = None) -> None:
-        """Bake what a canvas' mask asks for, and refine it.
+        """Bake the pixels of a canvas' mask, then refine those at edges.
 
         Args:
-            scene: What is seen.
-            canvas: Where to.
-            inner: The pixels to refine, if not all of the mask: a pixel is refined by the look of its
+            scene: The table.
+            canvas: Receives the picture.
+            inner: The pixels to refine; by default all of the mask. Whether a pixel is refined depends on its
                 neighbours, so a patch is baked one pixel wider than it is used.
         """
         rows = np.flatnonzero(canvas.mask.any(axis=1))
@@ -74,29 +73,29 @@ class Workshop:
         self.rows(bake.bake_rows, (scene, refined, canvas.shown.copy(), bake.FINE), first, end)
 
     def rows(self, kernel: Callable[..., None], arguments: tuple[Any, ...], first: int, end: int) -> None:
-        """Call a kernel for the rows first … end − 1, a few at a time, on all threads.
+        """Call kernel(*arguments, first, end) for slices of the rows first … end − 1, on all threads.
 
         Raises:
-            StoppedError: The picture is not wanted any more.
+            BakeCancelled: The work was cancelled.
         """
 
-        def some(row: int) -> None:
+        def bake_slice(row: int) -> None:
             if not self._stop.is_set():
                 kernel(*arguments, row, min(row + ROWS, end))
                 self._advance(min(ROWS, end - row))
 
-        self._all(some, range(first, end, ROWS))
+        self._map(bake_slice, range(first, end, ROWS))
 
-    def _all(self, task: Callable[[int], None], numbers: Iterable[int]) -> None:
+    def _map(self, task: Callable[[int], None], numbers: Iterable[int]) -> None:
         if self._threads == 1:
             for number in numbers:
                 task(number)
         else:
-            with ThreadPoolExecutor(self._threads, "silverball bake", self._stand_back) as pool:
+            with ThreadPoolExecutor(self._threads, "silverball bake", self._lower_priority) as pool:
                 for _ in pool.map(task, numbers):
                     pass
         if self._stop.is_set():
-            raise StoppedError
+            raise BakeCancelled
 
     def _advance(self, rows: int) -> None:
         self._done += rows
@@ -104,7 +103,7 @@ class Workshop:
             self.progress(min(self._done / self._planned, 1.0))
 
 
-def stand_back() -> None:
-    """Let this thread give way to all others. Only Linux can do that for a single thread."""
+def lower_priority() -> None:
+    """Lower the priority of this thread. Only Linux can do that for a single thread."""
     if sys.platform == "linux":
         os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)

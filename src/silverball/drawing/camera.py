@@ -1,13 +1,13 @@
-"""Where does a point of the board lie in the picture, and the other way round?
+"""The camera: from points of the board to pixels and back.
 
 A pinhole camera stands above the player's end and looks up the table. Pixel coordinates (across, down) are
 real numbers; pixel (i, j) covers i … i + 1 and j … j + 1. A point of space is (x, y, z) [u] with y = 0 on the
-playfield. With d the way from the eye to a point, and the camera's unit vectors f (forward), r (right), u
-(up):
+playfield. With d the vector from the eye to a point, and the camera's unit vectors f (forward), r (right)
+and u (up):
 
     across = middle + focal·(d·r)/(d·f),   down = middle − focal·(d·u)/(d·f)
 
-The middle is chosen freely (a shifted lens), so that the board fills its place whatever the picture's size.
+The middle can be anywhere (a shifted lens), so that the board fills its area in a picture of any size.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import pygame
 
-from silverball.drawing.dimensions import Build
+from silverball.drawing.dimensions import Dimensions
 from silverball.table import Board
 
 TILT = math.radians(38.0)  # of the view from straight down
@@ -25,16 +25,16 @@ DISTANCE = 2.8  # of the eye from the board's centre, by the longer side of the 
 PANEL_SHAPE = 5.0  # width by height of the score panel: 160 × 32 dots
 PANEL_LEAST, PANEL_MOST = 0.42, 1.25  # width of the panel, in heights of the board's picture
 MARGIN = 0.012  # of the content's width, left and right of the panel and between panel and board
-DEFAULT_ROOM = 0.004  # around the board, of the content's width
+BOARD_MARGIN = 0.004  # margin around the board, of the content's width
 
 
 class Frustum(NamedTuple):
-    """The camera as plain numbers, as kernels take it.
+    """The camera as plain numbers, for kernels.
 
     Attributes:
-        eye_x: Where the eye is [u]; its z is 0.
-        eye_y: And how high.
-        sine: Of the tilt: forward is (sine, −cosine, 0), up in the picture is (cosine, sine, 0).
+        eye_x: Position of the eye [u]; its z is 0.
+        eye_y: Height of the eye [u].
+        sine: Of the tilt; forward is (sine, −cosine, 0), up in the picture is (cosine, sine, 0).
         cosine: Of the tilt.
         focal: Pixels per unit of (d·r)/(d·f).
         across: Middle of the lens [pixel].
@@ -56,15 +56,15 @@ class Camera:
     Attributes:
         size: Width and height of the picture [pixel].
         board: The board.
-        build: Its heights.
-        panel: Where the score panel is [pixel].
+        dimensions: The heights of its parts.
+        panel: The area of the score panel [pixel].
         frustum: The camera's numbers.
     """
 
     def __init__(self, board: Board, size: tuple[int, int]) -> None:
         self.size = size
         self.board = board
-        self.build = Build.of(board)
+        self.dimensions = Dimensions.of(board)
         content = _Content(board)
         scale = min(size[0] / content.width, size[1] / content.height)
         left = 0.5 * (size[0] - content.width * scale)
@@ -84,24 +84,24 @@ class Camera:
 
     @property
     def scale(self) -> float:
-        """Pixels per unit [u] in the middle of the board, across."""
+        """Pixels per unit [u] across the middle of the board."""
         f = self.frustum
         return f.focal / (f.eye_y * f.cosine - f.eye_x * f.sine)
 
     def to_pixel(self, x: float, z: float, y: float = 0.0) -> tuple[float, float]:
-        """The picture's point (across, down) of a point of space, y above the playfield."""
+        """Return the pixel coordinates (across, down) of a point at height y above the playfield."""
         f = self.frustum
         u, v = _project(x, y, z, f.eye_x, f.eye_y, f.sine, f.cosine)
         return f.across + f.focal * u, f.down - f.focal * v
 
     def ray(self, across: float, down: float) -> tuple[float, float, float]:
-        """The direction (x, y, z) from the eye through a point of the picture, 1 long along `forward`."""
+        """Return the direction (x, y, z) of the ray through a point of the picture, scaled to d·f = 1."""
         f = self.frustum
         u, v = (across - f.across) / f.focal, (f.down - down) / f.focal
         return f.sine + v * f.cosine, v * f.sine - f.cosine, u
 
     def to_board(self, across: float, down: float, y: float = 0.0) -> tuple[float, float]:
-        """The point (x, z) of the plane at height y that is seen at a point of the picture."""
+        """Return the point (x, z) at height y that is seen at a point of the picture."""
         f = self.frustum
         dx, dy, dz = self.ray(across, down)
         way = (y - f.eye_y) / dy
@@ -123,30 +123,31 @@ class Camera:
 
 
 def best_size(board: Board, height: int) -> tuple[int, int]:
-    """Width and height [pixel], both even, of a picture of that height which the table just fills."""
+    """Return width and height [pixel], both even, of a picture that the table just fills."""
     content = _Content(board)
     return max(2, 2 * round(0.5 * height * content.width / content.height)), height - height % 2
 
 
 class _Content:
-    """What must be visible, in units of (d·r)/(d·f): the board, and the panel above it."""
+    """The size of what must be visible, in units of (d·r)/(d·f): the board, and the panel above it."""
 
     def __init__(self, board: Board) -> None:
-        build = Build.of(board)
+        dimensions = Dimensions.of(board)
         stand = _stand(board)
-        long, wide = build.half_length + build.rail, build.half_width + build.rail
+        long, wide = dimensions.half_length + dimensions.rail, dimensions.half_width + dimensions.rail
         points = [
             _project(x, y, z, *stand)
-            for x, low in ((-long, -build.skirt), (long, 0.0))
+            for x, low in ((-long, -dimensions.skirt), (long, 0.0))
             for z in (-wide, wide)
-            for y in (low, build.rail_height)
+            for y in (low, dimensions.rail_height)
         ]
         points += [
-            _project(build.half_length, build.top, z, *stand) for z in (-build.half_width, build.half_width)
+            _project(dimensions.half_length, dimensions.top, z, *stand)
+            for z in (-dimensions.half_width, dimensions.half_width)
         ]
         us, vs = [u for u, _ in points], [v for _, v in points]
-        room = DEFAULT_ROOM * (max(us) - min(us))
-        self.view = (min(us) - room, max(us) + room, min(vs) - room, max(vs) + room)
+        margin = BOARD_MARGIN * (max(us) - min(us))
+        self.view = (min(us) - margin, max(us) + margin, min(vs) - margin, max(vs) + margin)
         self.board_width = self.view[1] - self.view[0]
         board_height = self.view[3] - self.view[2]
         self.panel_width = min(max(self.board_width, PANEL_LEAST * board_height), PANEL_MOST * board_height)
@@ -158,7 +159,7 @@ class _Content:
 
 
 def _stand(board: Board) -> tuple[float, float, float, float]:
-    """Where the camera stands: x and y of the eye, sine and cosine of its tilt."""
+    """Return the pose of the camera: x and y of the eye, sine and cosine of its tilt."""
     extent = max(board.length, board.width)
     sine, cosine = math.sin(TILT), math.cos(TILT)
     return -DISTANCE * extent * sine, DISTANCE * extent * cosine, sine, cosine

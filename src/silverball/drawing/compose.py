@@ -1,9 +1,9 @@
-"""How does a moment of play become a picture? The still table, and on it everything that moves.
+"""Composing of a frame: the baked table, and on it everything that moves.
 
-    lights of hits → paddles → shadows of balls → trails → balls → sparks
+    flashes of hits → paddles → shadows of balls → trails → balls → sparks
 
 Each layer sees what lies below it, heights included, so a ball is hidden by a raised paddle and its shadow
-climbs onto an obstacle. Only the rectangles that the last frame changed are put back before the next one.
+climbs onto an obstacle. Between two frames only the dirty rectangles of the first are restored.
 """
 
 from __future__ import annotations
@@ -18,28 +18,27 @@ from silverball.drawing.camera import Camera
 from silverball.drawing.effects import Effects, Spot
 from silverball.drawing.kernels.chrome import cast_shadow, draw_ball
 from silverball.drawing.kernels.patches import add_light, add_spots, lay_paddle
+from silverball.drawing.kernels.stage import Box
 from silverball.drawing.moment import BallAt, Moment
-from silverball.drawing.pictures import PaddleSprite, Still
+from silverball.drawing.pictures import BakedTable, PaddleSprite
 from silverball.drawing.scene import make_scene
 from silverball.drawing.sketch import Pen, sketch_paddle
 from silverball.drawing.themes import Color, Theme
 from silverball.table import Paddle, Table
 
-MOST_SPOTS = 64  # of one trail or one hit
+MAX_SPOTS = 64  # of one trail, or of the sparks of one hit
 TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
-
-Box = tuple[int, int, int, int]  # left, top, right, bottom [pixel]; the last two excluded
 
 
 class Composer:
-    """Puts moments of one table together.
+    """Draws moments of one table in full quality.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        still: The table when nothing moves.
-        paddle: Gives the sprite of a side's paddle at an angle [deg]; None while it is not baked.
+        theme: Its colours.
+        still: The baked table without moving parts.
+        paddle: Returns the sprite of a side's paddle at an angle [deg], or None while it is not baked.
     """
 
     def __init__(
@@ -47,12 +46,12 @@ class Composer:
         table: Table,
         camera: Camera,
         theme: Theme,
-        still: Still,
+        still: BakedTable,
         paddle: Callable[[str, float], PaddleSprite | None],
     ) -> None:
         self._camera = camera
         self._theme = theme
-        self._still = still
+        self._baked = still
         self._paddle = paddle
         self._paddles: dict[str, Paddle] = {part.side: part for part in table.paddle}
         scene = make_scene(without_obstacles(table), camera, theme)
@@ -62,9 +61,9 @@ class Composer:
         self._frame = np.frombuffer(self._bytes, np.uint8).reshape(height, width, 3)
         self._rows = self._frame.reshape(height, 3 * width)
         self._height = still.height.copy()
-        self._changed: list[Box] = []  # where colours differ from the still table's,
-        self._raised: list[Box] = []  # and where heights do: paddles alone change them
-        self._spots = np.zeros((MOST_SPOTS, 7))
+        self._changed: list[Box] = []  # dirty rectangles of colours,
+        self._raised: list[Box] = []  # and of heights, which only paddles change
+        self._spots = np.zeros((MAX_SPOTS, 7))
         self._before = np.zeros((1, 1, 3), np.uint8)
         self.surface = pygame.image.frombuffer(self._bytes, camera.size, "RGB")
 
@@ -72,10 +71,10 @@ class Composer:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
         for box in self._changed:
             at = _within(box)
-            self._frame[at] = self._still.pixels[at]
+            self._frame[at] = self._baked.pixels[at]
         for box in self._raised:
             at = _within(box)
-            self._height[at] = self._still.height[at]
+            self._height[at] = self._baked.height[at]
         self._changed.clear()
         self._raised.clear()
         for part, strength in effects.flashes(moment.time):
@@ -83,7 +82,7 @@ class Composer:
         for side, angle in zip(("left", "right"), moment.angles, strict=True):
             if side in self._paddles:
                 self._lay_paddle(side, angle)
-        balls = [*moment.balls, *effects.dives(moment.time)]
+        balls = [*moment.balls, *effects.sinking_balls(moment.time)]
         for ball in balls:
             self._shade(ball)
         for trail in effects.trails(moment):
@@ -95,7 +94,7 @@ class Composer:
         return self.surface
 
     def _light_up(self, part: str, strength: float) -> None:
-        flash = self._still.flashes.get(part)
+        flash = self._baked.flashes.get(part)
         if flash is not None:
             rows, columns = flash.pixels.shape[:2]
             flat = flash.pixels.reshape(rows, 3 * columns)
@@ -109,37 +108,39 @@ class Composer:
             corners = paddle.corners(angle)
             xs, zs = [x for x, _ in corners], [z for _, z in corners]
             self._changed.append(
-                self._camera.box(min(xs), max(xs), min(zs), max(zs), 0.0, self._camera.build.paddle_height)
+                self._camera.box(
+                    min(xs), max(xs), min(zs), max(zs), 0.0, self._camera.dimensions.paddle_height
+                )
             )
             sketch_paddle(Pen(self.surface, self._camera), paddle, angle, self._theme)
             return
         lay_paddle(self._frame, self._height, *sprite)
-        rows, columns = sprite.stays.shape
+        rows, columns = sprite.remaining.shape
         box = (sprite.left, sprite.top, sprite.left + columns, sprite.top + rows)
         self._changed.append(box)
         self._raised.append(box)
 
     def _shade(self, ball: BallAt) -> None:
-        r = self._camera.build.ball
+        r = self._camera.dimensions.ball
         box = self._camera.box(
             ball.x - 2.8 * r, ball.x + 2.2 * r, ball.z - 2.2 * r, ball.z + 2.2 * r, 0.0, 2.0 * r
         )
-        cast_shadow(self._frame, self._height, self._stage, ball.x, ball.z, r, *box)
+        cast_shadow(self._frame, self._height, self._stage, (ball.x, ball.z, r), box)
         self._changed.append(box)
 
     def _draw_ball(self, ball: BallAt) -> None:
-        r = self._camera.build.ball
+        r = self._camera.dimensions.ball
         box = self._camera.box(ball.x - r, ball.x + r, ball.z - r, ball.z + r, 0.0, 2.0 * r)
         rows, columns = box[3] - box[1], box[2] - box[0]
         if rows > self._before.shape[0] or columns > self._before.shape[1]:
             self._before = np.zeros((rows + 4, columns + 4, 3), np.uint8)
-        draw_ball(self._frame, self._height, self._before, self._stage, self._inks, ball.x, ball.z, r, *box)
+        draw_ball(self._frame, self._height, self._before, self._stage, self._inks, (ball.x, ball.z, r), box)
         self._changed.append(box)
 
     def _add_spots(self, spots: Sequence[Spot], color: Color, light: float) -> None:
         if not spots:
             return
-        count = min(len(spots), MOST_SPOTS)
+        count = min(len(spots), MAX_SPOTS)
         for row, spot in zip(self._spots, spots, strict=False):
             shine = light * spot.strength
             row[:] = (*spot[:4], shine * color[0], shine * color[1], shine * color[2])
@@ -147,6 +148,6 @@ class Composer:
 
 
 def _within(box: Box) -> tuple[slice, slice]:
-    """The index of a rectangle; what hangs over the frame's left and upper edge is left out."""
+    """Return the slices of a box, without what lies beyond the frame's left and upper edge."""
     left, top, right, bottom = box
     return slice(max(top, 0), max(bottom, 0)), slice(max(left, 0), max(right, 0))

@@ -1,39 +1,40 @@
-"""How tall is everything? The physics knows footprints alone; heights and the cabinet are chosen here.
+"""Heights of the parts and measures of the cabinet, which the physics does not know: it has footprints only.
 
-All in units [u] of the board. Heights go with the ball, so that one of another size still fits what it hits.
-Most obstacles are lower than a ball, so that it is seen behind them and its shadow climbs onto them; rails,
-bumper caps and the apron are taller.
+All in units [u] of the board. Heights scale with the ball. Most obstacles are lower than a ball, so that it
+stays visible behind them and its shadow falls onto them; rails, caps of cylinders and the apron are taller.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
-from silverball.table import Board
+from silverball.table import Board, SlantWall
 
-USUAL_BALL_RADIUS = 0.25  # [u] for which the numbers below were chosen
-RAIL_SHARE = 0.044  # width of the rail, of the board's smaller side
+USUAL_BALL_RADIUS = 0.25  # [u] for which the heights below are given
+RAIL_SHARE = 0.044  # width of the rail, by the board's shorter side
 GREATEST_RAIL = 1.0  # [u]
+TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies on it
 
 
-class Build(NamedTuple):
-    """The heights [u] above the playfield and the widths [u] of what a board is built of.
+class Dimensions(NamedTuple):
+    """Heights above the playfield and widths of everything that is built on a board [u].
 
     Attributes:
-        unit: All heights are multiples of it; 1 for a ball of the usual size.
+        unit: The factor of all heights; 1 for a ball of the usual size.
         half_length: Half of the board along x.
         half_width: Half of the board along z.
-        thickness: Of the borders: their surface lies so far inside the board's edge.
-        rail: How far the rail stands out around the board.
+        thickness: Distance of the borders' surface from the board's edge.
+        rail: Width of the rail outside the board.
         rail_height: Top of the rail.
         wall_height: Top of slant walls and of the corners behind them.
         prism_height: Top of a prism.
-        body_height: Top of a cylinder's body, on which its cap sits.
+        body_height: Top of a cylinder's body, below its cap.
         paddle_height: Top of a paddle.
-        apron_height: Top of the plate under which lost balls roll.
+        apron_height: Top of the apron, the plate that covers the gutter.
         apron_top: The x of its upper edge.
-        skirt: How far the cabinet goes down in front.
-        top: Nothing reaches above this height.
+        skirt: How far the front of the cabinet reaches down.
+        top: Upper bound of all heights.
         ball: Radius of a ball.
     """
 
@@ -54,8 +55,8 @@ class Build(NamedTuple):
     ball: float
 
     @classmethod
-    def of(cls, board: Board) -> Build:
-        """The build of a board."""
+    def of(cls, board: Board) -> Dimensions:
+        """Return the dimensions of a board."""
         shorter = min(board.length, board.width)
         unit = min(board.ball_radius / USUAL_BALL_RADIUS, 0.25 * shorter)
         rail = min(RAIL_SHARE * shorter, GREATEST_RAIL)
@@ -76,3 +77,21 @@ class Build(NamedTuple):
             top=0.95 * unit,
             ball=board.ball_radius,
         )
+
+
+def corner_behind(board: Board, wall: SlantWall) -> tuple[tuple[float, float], ...] | None:
+    """Return the triangle (x, z) [u] that a slant wall from a side border to the top cuts off.
+
+    It is counter-clockwise, and drawn as filled, because no ball can get there. None for every other wall.
+    """
+    half_length, half_width = 0.5 * board.length, 0.5 * board.width
+    for low, high in ((wall.start, wall.end), (wall.end, wall.start)):
+        on_side = math.isclose(abs(low[1]), half_width, abs_tol=TOUCHES_BORDER)
+        on_top = math.isclose(high[0], half_length, abs_tol=TOUCHES_BORDER)
+        if on_side and on_top and low != high:
+            corner = (half_length, math.copysign(half_width, low[1]))
+            turn = (high[1] - low[1]) * (corner[0] - low[0]) - (high[0] - low[0]) * (corner[1] - low[1])
+            if turn == 0.0:
+                return None
+            return (low, high, corner) if turn > 0.0 else (low, corner, high)
+    return None

@@ -1,7 +1,6 @@
-"""What is seen for a while? Hits light up a part and strike sparks, balls leave trails.
+"""Effects that last for a moment: flashes of parts that were hit, sparks, and trails of balls.
 
-All of it is a function of the world's own time, so that a film of the same game always looks the same and a
-paused game holds still.
+All are functions of the world's time, so films of the same game are equal and a paused game stands still.
 """
 
 from __future__ import annotations
@@ -19,19 +18,19 @@ if TYPE_CHECKING:
 FLASH_SECONDS = 0.45
 TRAIL_SECONDS = 0.13
 TRAIL_SPACING = 0.7  # between two spots of a trail, in radii of a ball
-DIVE_SECONDS = 0.2
-BACK = 0.25  # [s] further ahead than a tick lies only what was seen before time was turned back
-LEAST_DIVE_SPEED = 2.0  # [u/s]
-SPARK_SPEED = 6.0  # [u/s] of an impact that strikes sparks
+SINK_SECONDS = 0.2
+MAX_AHEAD = 0.25  # [s]; an event farther in the future is from before the time was set back
+MIN_SINK_SPEED = 2.0  # [u/s]
+SPARK_SPEED = 6.0  # [u/s] of the weakest impact with sparks
 SPARK_SECONDS = 0.38
-MOST_SPARKS = 12  # of one hit
+MAX_SPARKS = 12  # of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
-MOST_HITS = 24  # whose sparks are remembered
-GOLDEN = 0.6180339887498949  # its multiples, without the whole part, are spread evenly over 0 to 1
+MAX_HITS = 24  # whose sparks are remembered
+GOLDEN = 0.6180339887498949  # the fractional parts of its multiples are spread evenly over 0 to 1
 
 
 class Spot(NamedTuple):
-    """A spot of light: place [u], size [u] and strength from 1 (now) to 0 (gone)."""
+    """A spot of light: position and radius [u], and strength from 1 (new) to 0 (gone)."""
 
     x: float
     y: float
@@ -40,7 +39,7 @@ class Spot(NamedTuple):
     strength: float
 
 
-class _Dive(NamedTuple):
+class _SinkingBall(NamedTuple):
     time: float
     x: float
     z: float
@@ -57,37 +56,37 @@ class _Hit(NamedTuple):
 
 
 class Effects:
-    """Remembers the last moments of a game for as long as they are seen.
+    """Remembers the recent hits and paths of a game for as long as they are visible.
 
     Args:
         radius: Of a ball [u].
-        is_full: Whether there are trails and sparks too; else only flashes, and weaker ones.
+        is_full: Whether to show trails and sparks; otherwise only flashes, and weaker ones.
     """
 
     def __init__(self, radius: float = 0.25, *, is_full: bool = True) -> None:
         self.is_full = is_full
         self._radius = radius
         self._hits: dict[str, float] = {}
-        self._sparks: deque[_Hit] = deque(maxlen=MOST_HITS)
-        self._dives: list[_Dive] = []
+        self._sparks: deque[_Hit] = deque(maxlen=MAX_HITS)
+        self._sinking: list[_SinkingBall] = []
         self._paths: dict[int, deque[tuple[float, float, float]]] = {}
 
-    def forget(self) -> None:
-        """Forget everything: another game begins."""
+    def clear(self) -> None:
+        """Forget everything, as another game begins."""
         self._hits.clear()
         self._sparks.clear()
-        self._dives.clear()
+        self._sinking.clear()
         self._paths.clear()
 
-    def note(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Remember what happened."""
+    def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
+        """Remember events of a world; `tick_rate` is in ticks per second."""
         for event in events:
             time = event.tick / tick_rate + event.offset
             if event.kind == "hit":
                 self._hits[event.part] = time
             elif event.kind == "gutter":
-                speed = max(event.speed, LEAST_DIVE_SPEED)
-                self._dives.append(_Dive(time, event.position[0], event.position[2], speed))
+                speed = max(event.speed, MIN_SINK_SPEED)
+                self._sinking.append(_SinkingBall(time, event.position[0], event.position[2], speed))
             if event.kind in ("hit", "ball_hit") and event.speed > SPARK_SPEED:
                 nx, _, nz = event.normal
                 x, z = event.position[0] - nx * self._radius, event.position[2] - nz * self._radius
@@ -95,29 +94,29 @@ class Effects:
                 self._sparks.append(_Hit(time, number, x, z, math.atan2(nx, nz), event.speed))
 
     def flashes(self, time: float) -> Iterator[tuple[str, float]]:
-        """The parts that light up at a time, and how strongly, 1 to 0."""
+        """Yield the parts that flash at a time [s], with a strength from 1 to 0."""
         for part, hit in list(self._hits.items()):
             left = 1.0 - (time - hit) / FLASH_SECONDS
-            if left <= 0.0 or time - hit <= -BACK:
+            if left <= 0.0 or time - hit <= -MAX_AHEAD:
                 del self._hits[part]
             else:
                 strength = min(left, 1.0) ** 2
                 yield part, strength if self.is_full else 0.4 * strength
 
-    def dives(self, time: float) -> Iterator[BallAt]:
-        """Balls on their way under the apron; the world no longer knows them."""
-        self._dives = [dive for dive in self._dives if -BACK < time - dive.time < DIVE_SECONDS]
-        for dive in self._dives:
+    def sinking_balls(self, time: float) -> Iterator[BallAt]:
+        """Yield balls that roll under the apron at a time [s]; the world has removed them already."""
+        self._sinking = [dive for dive in self._sinking if -MAX_AHEAD < time - dive.time < SINK_SECONDS]
+        for dive in self._sinking:
             yield BallAt(0, dive.x - dive.speed * max(time - dive.time, 0.0), dive.z)
 
     def trails(self, moment: Moment) -> Iterator[list[Spot]]:
-        """Note where the balls are, and give the spots of each one's trail."""
+        """Record the positions of the balls, and yield the spots of each trail."""
         for id_ in self._paths.keys() - {ball.id for ball in moment.balls}:
             del self._paths[id_]
         for ball in moment.balls:
             path = self._paths.setdefault(ball.id, deque())
             if path and path[-1][0] > moment.time:
-                path.clear()  # time was turned back
+                path.clear()  # time was set back
             if not path or path[-1][0] < moment.time:
                 path.append((moment.time, ball.x, ball.z))
             while moment.time - path[0][0] > TRAIL_SECONDS:
@@ -126,7 +125,7 @@ class Effects:
                 yield list(self._spots(path, moment.time))
 
     def _spots(self, path: deque[tuple[float, float, float]], now: float) -> Iterator[Spot]:
-        """Spots at even distances along a path, the older the smaller."""
+        """Yield spots at even distances along a path; older ones are smaller."""
         along, spacing = 0.0, TRAIL_SPACING * self._radius
         for (time0, x0, z0), (time1, x1, z1) in zip(path, list(path)[1:], strict=False):
             length = math.hypot(x1 - x0, z1 - z0)
@@ -140,14 +139,14 @@ class Effects:
             along -= length
 
     def sparks(self, time: float) -> Iterator[list[Spot]]:
-        """The sparks of each hard hit: where they are now follows from when they were struck."""
+        """Yield the sparks of each hard hit at a time [s]."""
         if self.is_full:
             for hit in self._sparks:
                 if 0.0 <= time - hit.time < SPARK_SECONDS:
                     yield list(self._sparks_of(hit, time - hit.time))
 
     def _sparks_of(self, hit: _Hit, age: float) -> Iterator[Spot]:
-        for index in range(min(4 + int(hit.speed), MOST_SPARKS)):
+        for index in range(min(4 + int(hit.speed), MAX_SPARKS)):
             chance = (GOLDEN * (index + 1) + 0.317 * hit.number) % 1.0
             other = (7.0 * chance + 0.113 * index) % 1.0
             fresh = 1.0 - age / (SPARK_SECONDS * (0.5 + 0.5 * other))

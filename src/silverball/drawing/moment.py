@@ -1,12 +1,12 @@
-"""What must a picture know of a world? One moment of play, as plain values.
+"""One moment of play as plain values: all that the drawing needs to know about a world.
 
-The drawing asks for nothing else, so that a table can be drawn before the physics is loaded.
+Nothing else of a world is read, so a table can be drawn before the physics is loaded.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 from silverball.table import Table
 
@@ -23,10 +23,10 @@ class BallAt(NamedTuple):
 
 
 class Moment(NamedTuple):
-    """What there is to see at one time.
+    """The state of play at one time.
 
     Attributes:
-        time: Since the world was made [s].
+        time: Since the world was created [s].
         balls: The balls on the board.
         angles: Of the left and the right paddle, up is positive [deg].
         score: Points so far.
@@ -39,23 +39,32 @@ class Moment(NamedTuple):
 
     @classmethod
     def of(cls, world: World) -> Self:
-        """The moment that a world is in."""
-        left, right = world.paddles
-        balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in world.balls)
-        return cls(world.time, balls, (math.degrees(left.angle), math.degrees(right.angle)), world.score)
+        """The present moment of a world."""
+        return cls.of_record(world.records[0], world.tick_rate)
+
+    @classmethod
+    def of_record(cls, record: Any, tick_rate: int) -> Self:
+        """The moment of a WORLD record; `tick_rate` is in ticks per second."""
+        from silverball.world.events import read_balls, read_paddles
+
+        balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in read_balls(record, 0.0))
+        left, right = (math.degrees(paddle.angle) for paddle in read_paddles(record))
+        return cls(int(record["tick"]) / tick_rate, balls, (left, right), int(record["score"]))
 
     @classmethod
     def between(cls, first: Moment, second: Moment, share: float) -> Self:
-        """What there is to see between two moments a tick apart: 0 is the first, 1 the second."""
-        was = {ball.id: ball for ball in first.balls}
+        """Interpolate between two moments a tick apart: share 0 gives the first, 1 the second."""
+        previous = {ball.id: ball for ball in first.balls}
         balls = tuple(
-            ball._replace(x=_mixed(was[ball.id].x, ball.x, share), z=_mixed(was[ball.id].z, ball.z, share))
-            if ball.id in was
+            ball._replace(
+                x=_lerp(previous[ball.id].x, ball.x, share), z=_lerp(previous[ball.id].z, ball.z, share)
+            )
+            if ball.id in previous
             else ball
             for ball in second.balls
         )
-        left, right = (_mixed(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
-        return cls(_mixed(first.time, second.time, share), balls, (left, right), second.score)
+        left, right = (_lerp(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
+        return cls(_lerp(first.time, second.time, share), balls, (left, right), second.score)
 
     @classmethod
     def before(cls, table: Table) -> Self:
@@ -64,5 +73,5 @@ class Moment(NamedTuple):
         return cls(0.0, (), (rest.get("left", 0.0), rest.get("right", 0.0)), 0)
 
 
-def _mixed(first: float, second: float, share: float) -> float:
+def _lerp(first: float, second: float, share: float) -> float:
     return first + share * (second - first)

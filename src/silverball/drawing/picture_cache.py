@@ -1,9 +1,9 @@
-"""Where are baked pictures kept for the next time? In files of the user's cache directory.
+"""The cache of baked pictures: files in the user's cache folder.
 
-A file is named after everything that its picture depends on, the drawing's own sources included, so it can be
-missing but never out of date; it begins with a digest of its name and its content, so a damaged one, or
-another one in its place, is never used. The oldest go when there are too many. A folder that cannot be
-written, a full disk or a damaged file cost time and nothing else.
+The name of a file is a digest of everything that its picture depends on, including the sources of the
+drawing, so a file may be missing but is never out of date. It begins with a digest of its name and content,
+so damaged or exchanged files are detected. The least recently used files are removed when there are too many.
+A read-only folder, a full disk or a damaged file cost time and nothing else.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ PACKAGE = Path(__file__).resolve().parent.parent
 Arrays = dict[str, NDArray[Any]]
 
 
-class Store:
-    """A folder of pictures.
+class PictureCache:
+    """A folder of baked pictures.
 
     Args:
-        folder: Where they lie; None: in the user's cache directory.
-        limit: Bytes that they may take together.
+        folder: The folder; by default one in the user's cache folder.
+        limit: The size of all files together [byte].
     """
 
     def __init__(self, folder: Path | None = None, limit: int = LIMIT) -> None:
@@ -44,33 +44,33 @@ class Store:
         self._limit = limit
 
     def load(self, key: str) -> Arrays | None:
-        """What was saved under a key; None if there is nothing, or nothing whole."""
+        """Return the arrays saved under a key; None if there are none or the file is damaged."""
         path = self.folder / (key + ENDING)
         try:
             if not os.path.lexists(path):
                 return None
-            kept = path.read_bytes() if path.is_file() else b""  # a pipe would wait for ever
-            digest, content = kept[:DIGEST_SIZE], kept[DIGEST_SIZE:]
+            data = path.read_bytes() if path.is_file() else b""  # reading a pipe might never end
+            digest, content = data[:DIGEST_SIZE], data[DIGEST_SIZE:]
             if digest != digest_of(key, content):
                 _remove(path)
                 return None
-            os.utime(path)  # the pictures that are looked at stay longest
+            os.utime(path)  # marks it as used, see _evict
         except OSError:
             return None
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
 
     def save(self, key: str, arrays: Mapping[str, NDArray[Any]]) -> None:
-        """Keep arrays under a key, if that is possible."""
+        """Save arrays under a key, if the disk allows it."""
         content = io.BytesIO()
-        np.savez(content, **arrays)  # type: ignore[arg-type]  # the stubs take the names for options
-        kept = digest_of(key, content.getvalue()) + content.getvalue()
+        np.savez(content, **arrays)  # type: ignore[arg-type]  # the stubs mistake the names for options
+        data = digest_of(key, content.getvalue()) + content.getvalue()
         with contextlib.suppress(OSError):
             self.folder.mkdir(parents=True, exist_ok=True)
-            write_whole(self.folder / (key + ENDING), lambda place: place.write_bytes(kept))
-            self._forget_oldest()
+            write_whole(self.folder / (key + ENDING), lambda place: place.write_bytes(data))
+            self._evict()
 
-    def _forget_oldest(self) -> None:
+    def _evict(self) -> None:
         files = [(path.stat(), path) for path in self.folder.glob("*" + ENDING)]
         total = sum(stat.st_size for stat, _ in files)
         for stat, path in sorted(files, key=lambda file: file[0].st_mtime):
@@ -88,12 +88,12 @@ def _remove(path: Path) -> None:
 
 
 def digest_of(key: str, content: bytes) -> bytes:
-    """What a file begins with."""
+    """Return the first bytes of a file."""
     return hashlib.sha256(key.encode() + b"\0" + content).digest()
 
 
 def usual_folder() -> Path:
-    """The user's folder for pictures."""
+    """Return the user's folder for baked pictures."""
     import platformdirs
 
     base = os.environ.get("SILVERBALL_CACHE") or platformdirs.user_cache_dir("silverball")
@@ -101,7 +101,7 @@ def usual_folder() -> Path:
 
 
 def key_of(*parts: object) -> str:
-    """The name of a picture that depends on these values, which `repr` tells in full, and on our sources."""
+    """Return the key of a picture that depends on these values (by their `repr`) and on our sources."""
     return hashlib.sha256(repr((_sources(), parts)).encode()).hexdigest()[:32]
 
 

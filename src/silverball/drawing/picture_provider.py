@@ -1,7 +1,6 @@
-"""Who sees to it that a picture is there? The store is asked first, else it is baked and stored.
+"""Baked pictures of one table at one size, loaded from the cache or baked and saved.
 
-This is the first module of the drawing that needs compiled code, so it is imported only when something is
-baked or composed.
+This module needs compiled code, so it is imported only when something is baked or composed.
 """
 
 from __future__ import annotations
@@ -9,86 +8,98 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from silverball.drawing.bake_paddles import PaddleBaker, in_turns, is_mirrored, step_count, step_of
-from silverball.drawing.bake_table import bake_still, without_obstacles
-from silverball.drawing.bake_threads import Workshop
+from silverball.drawing.bake_paddles import (
+    PaddleBaker,
+    coarse_to_fine,
+    has_mirrored_paddles,
+    nearest_step,
+    step_count,
+)
+from silverball.drawing.bake_table import bake_table, without_obstacles
+from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.pictures import (
+    BakedTable,
     PaddleSprite,
-    Still,
-    empty_key,
+    empty_table_key,
+    load_baked_table,
     load_paddles,
-    load_still,
     paddle_key,
+    save_baked_table,
     save_paddles,
-    save_still,
-    still_key,
+    table_key,
 )
 
 if TYPE_CHECKING:
     from silverball.drawing.camera import Camera
-    from silverball.drawing.picture_cache import Store
+    from silverball.drawing.picture_cache import PictureCache
     from silverball.drawing.themes import Theme
     from silverball.table import Paddle, Table
 
 
-class Studio:
-    """Makes the pictures of one table at one size.
+class PictureProvider:
+    """Provides the baked pictures of one table at one size.
 
     Args:
         table: A finished table.
         camera: The view of it.
-        theme: Its look.
-        store: Where pictures are kept.
-        workshop: Who bakes.
+        theme: Its colours.
+        cache: Where pictures are kept.
+        bake_threads: The threads that bake.
     """
 
-    def __init__(self, table: Table, camera: Camera, theme: Theme, store: Store, workshop: Workshop) -> None:
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, cache: PictureCache, bake_threads: BakeThreads
+    ) -> None:
         self._table = table
         self._camera = camera
         self._theme = theme
-        self._store = store
-        self._workshop = workshop
+        self._cache = cache
+        self._bake_threads = bake_threads
         self._paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
-        self._is_mirrored = is_mirrored(table, camera)
+        self._has_mirrored_paddles = has_mirrored_paddles(table, camera)
         self._key = paddle_key(table, camera, theme)
-        self._sprites = load_paddles(store, self._key)
+        self._sprites = load_paddles(cache, self._key)
         self._stored = len(self._sprites)
         self._baker: PaddleBaker | None = None
 
-    def still(self) -> Still:
-        """The table when nothing moves."""
-        key = still_key(self._table, self._camera, self._theme)
-        still = load_still(self._store, key)
+    def table(self) -> BakedTable:
+        """Return the table without moving parts; bake it if it is not cached."""
+        key = table_key(self._table, self._camera, self._theme)
+        still = load_baked_table(self._cache, key)
         if still is None:
-            empty = load_still(self._store, empty_key(self._table, self._camera, self._theme))
-            still = bake_still(self._table, self._camera, self._theme, self._workshop, empty)
-            save_still(self._store, key, still)
+            empty = load_baked_table(self._cache, empty_table_key(self._table, self._camera, self._theme))
+            still = bake_table(self._table, self._camera, self._theme, self._bake_threads, empty)
+            save_baked_table(self._cache, key, still)
         return still
 
     def bake_empty(self) -> None:
-        """Bake the empty table for the boards to come, if that is still to be done."""
-        key = empty_key(self._table, self._camera, self._theme)
-        if load_still(self._store, key) is None:
+        """Bake the empty table, for later boards of the same recipe, if it is not cached."""
+        key = empty_table_key(self._table, self._camera, self._theme)
+        if load_baked_table(self._cache, key) is None:
             bare = without_obstacles(self._table)
-            save_still(self._store, key, bake_still(bare, self._camera, self._theme, self._workshop))
+            save_baked_table(
+                self._cache, key, bake_table(bare, self._camera, self._theme, self._bake_threads)
+            )
 
     def paddle(self, side: str, angle: float) -> PaddleSprite | None:
-        """The sprite of a paddle at an angle [deg] if it has been baked."""
-        return self._sprites.get((side, step_of(self._paddles[side], angle)))
+        """Return the sprite of a paddle at an angle [deg]; None if it is not baked yet."""
+        return self._sprites.get((side, nearest_step(self._paddles[side], angle)))
 
     def baked_paddle(self, side: str, angle: float) -> PaddleSprite:
-        """The sprite of a paddle at an angle [deg]; it is baked if need be."""
-        step = step_of(self._paddles[side], angle)
+        """Return the sprite of a paddle at an angle [deg]; bake it if necessary."""
+        step = nearest_step(self._paddles[side], angle)
         if (side, step) not in self._sprites:
             self._bake_paddle(side, step)
         return self._sprites[side, step]
 
     def bake_paddles(self, progress: Callable[[float], None] = lambda share: None) -> None:
-        """Bake all that is missing of the paddles, the stops first, and store them."""
+        """Bake the missing sprites of the paddles, the stops first, and save them."""
         wanted = [
-            (side, step) for side, paddle in self._paddles.items() for step in in_turns(step_count(paddle))
+            (side, step)
+            for side, paddle in self._paddles.items()
+            for step in coarse_to_fine(step_count(paddle))
         ]
-        wanted.sort(key=lambda sprite: in_turns(step_count(self._paddles[sprite[0]])).index(sprite[1]))
+        wanted.sort(key=lambda sprite: coarse_to_fine(step_count(self._paddles[sprite[0]])).index(sprite[1]))
         for number, (side, step) in enumerate(wanted):
             if (side, step) not in self._sprites:
                 self._bake_paddle(side, step)
@@ -96,17 +107,17 @@ class Studio:
         self.save_paddles()
 
     def save_paddles(self) -> None:
-        """Store what has been baked of the paddles."""
+        """Save the sprites baked so far."""
         if len(self._sprites) > self._stored:
-            save_paddles(self._store, self._key, self._sprites)
+            save_paddles(self._cache, self._key, self._sprites)
             self._stored = len(self._sprites)
 
     def _bake_paddle(self, side: str, step: int) -> None:
-        if self._is_mirrored and side == "right":
+        if self._has_mirrored_paddles and side == "right":
             if ("left", step) not in self._sprites:
                 self._bake_paddle("left", step)
             self._sprites["right", step] = self._sprites["left", step].mirrored(self._camera.size[0])
             return
         if self._baker is None:
-            self._baker = PaddleBaker(self._table, self._camera, self._theme, self._workshop)
+            self._baker = PaddleBaker(self._table, self._camera, self._theme, self._bake_threads)
         self._sprites[side, step] = self._baker.bake(side, step)

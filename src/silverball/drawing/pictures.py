@@ -1,6 +1,6 @@
-"""What is a baked picture: the arrays it consists of, and how they lie in the store?
+"""Baked pictures: the arrays they consist of, and how these are stored in the cache.
 
-Nothing here needs compiled code, so a picture that was seen before is on screen before any is loaded.
+Nothing here needs compiled code, so a cached picture is on screen before any code is loaded.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.picture_cache import Store, key_of
+from silverball.drawing.picture_cache import PictureCache, key_of
 from silverball.drawing.themes import Theme
 from silverball.table import Table
 
 
-class Flash(NamedTuple):
-    """What a hit of a part adds to the picture at its brightest.
+class HitFlash(NamedTuple):
+    """The light that a hit of a part adds to the picture, at its brightest.
 
     Attributes:
         left: First column.
@@ -30,18 +30,18 @@ class Flash(NamedTuple):
     pixels: NDArray[np.uint8]
 
 
-class Still(NamedTuple):
-    """A table that stands still.
+class BakedTable(NamedTuple):
+    """A table without moving parts.
 
     Attributes:
         pixels: RGB, uint8 [row, column, 3].
         height: Of the visible surface above the playfield [u], float32 [row, column].
-        flashes: For prisms and cylinders, by their path in the table.
+        flashes: Of prisms and cylinders, by their path in the table.
     """
 
     pixels: NDArray[np.uint8]
     height: NDArray[np.float32]
-    flashes: dict[str, Flash]
+    flashes: dict[str, HitFlash]
 
 
 class PaddleSprite(NamedTuple):
@@ -50,92 +50,92 @@ class PaddleSprite(NamedTuple):
     Attributes:
         left: First column.
         top: First row.
-        stays: How much of what is below stays, uint8 [row, column].
+        remaining: Share of the background that remains, 0 to 255, uint8 [row, column].
         added: RGB to add, uint8 [row, column, 3].
         height: Of the paddle above the playfield [u], float32; −1 where there is none.
     """
 
     left: int
     top: int
-    stays: NDArray[np.uint8]
+    remaining: NDArray[np.uint8]
     added: NDArray[np.uint8]
     height: NDArray[np.float32]
 
     def mirrored(self, width: int) -> PaddleSprite:
-        """The same on the other side of a picture of a width [pixel]."""
+        """Return the mirror image on the other side of a picture of a width [pixel]."""
         return PaddleSprite(
-            width - self.left - self.stays.shape[1],
+            width - self.left - self.remaining.shape[1],
             self.top,
-            np.ascontiguousarray(self.stays[:, ::-1]),
+            np.ascontiguousarray(self.remaining[:, ::-1]),
             np.ascontiguousarray(self.added[:, ::-1]),
             np.ascontiguousarray(self.height[:, ::-1]),
         )
 
 
 Sprites: TypeAlias = dict[tuple[str, int], PaddleSprite]
-"""Paddles by side and step of their swing."""
+"""Sprites by side and step of the swing."""
 
 
-def still_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """The name of the picture of a table that stands still."""
+def table_key(table: Table, camera: Camera, theme: Theme) -> str:
+    """Return the key of a table without moving parts."""
     parts = table.model_dump(include={"name", "board", "slant_wall", "triangular_prism", "cylinder"})
     return key_of("still", parts, camera.size, theme)
 
 
-def empty_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """The name of the picture of the table without its obstacles."""
-    return still_key(table.model_copy(update={"triangular_prism": (), "cylinder": ()}), camera, theme)
+def empty_table_key(table: Table, camera: Camera, theme: Theme) -> str:
+    """Return the key of the table without prisms and cylinders."""
+    return table_key(table.model_copy(update={"triangular_prism": (), "cylinder": ()}), camera, theme)
 
 
 def paddle_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """The name of the pictures of a table's paddles; obstacles play no part in them."""
+    """Return the key of a table's paddles, which do not depend on prisms and cylinders."""
     return key_of("paddles", table.model_dump(include={"board", "slant_wall", "paddle"}), camera.size, theme)
 
 
-def load_still(store: Store, key: str) -> Still | None:
-    """A still picture from the store, if it is there and whole."""
-    arrays = store.load(key)
+def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
+    """Load a baked table; None if it is not cached."""
+    arrays = cache.load(key)
     if arrays is None or not {"pixels", "height"} <= arrays.keys():
         return None
     flashes = {
-        name.removeprefix("flash "): Flash(
+        name.removeprefix("flash "): HitFlash(
             int(arrays["at " + name[6:]][0]), int(arrays["at " + name[6:]][1]), pixels
         )
         for name, pixels in arrays.items()
         if name.startswith("flash ")
     }
-    return Still(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
+    return BakedTable(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
 
 
-def save_still(store: Store, key: str, still: Still) -> None:
-    """Keep a still picture."""
+def save_baked_table(cache: PictureCache, key: str, still: BakedTable) -> None:
+    """Save a baked table."""
     arrays: dict[str, NDArray[Any]] = {"pixels": still.pixels, "height": still.height.astype(np.float16)}
     for name, flash in still.flashes.items():
         arrays["flash " + name] = flash.pixels
         arrays["at " + name] = np.array((flash.left, flash.top))
-    store.save(key, arrays)
+    cache.save(key, arrays)
 
 
-def load_paddles(store: Store, key: str) -> Sprites:
-    """The sprites of paddles from the store, by side and step; none if they are not there."""
-    arrays = store.load(key) or {}
+def load_paddles(cache: PictureCache, key: str) -> Sprites:
+    """Load the sprites of paddles; an empty dict if they are not cached."""
+    arrays = cache.load(key) or {}
     sprites: Sprites = {}
     for name, at in arrays.items():
         if name.startswith("at "):
             _, side, step = name.split()
             sprites[side, int(step)] = PaddleSprite(
-                int(at[0]), int(at[1]), arrays[f"stays {side} {step}"], arrays[f"added {side} {step}"],
+                int(at[0]), int(at[1]), arrays[f"remaining {side} {step}"], arrays[f"added {side} {step}"],
                 arrays[f"height {side} {step}"].astype(np.float32),
             )  # fmt: skip
     return sprites
 
 
-def save_paddles(store: Store, key: str, sprites: Sprites) -> None:
-    """Keep sprites of paddles."""
+def save_paddles(cache: PictureCache, key: str, sprites: Sprites) -> None:
+    """Save the sprites of paddles."""
     arrays: dict[str, NDArray[Any]] = {}
     for (side, step), sprite in sprites.items():
         arrays[f"at {side} {step}"] = np.array((sprite.left, sprite.top))
-        arrays[f"stays {side} {step}"] = sprite.stays
+        arrays[f"remaining {side} {step}"] = sprite.remaining
         arrays[f"added {side} {step}"] = sprite.added
         arrays[f"height {side} {step}"] = sprite.height.astype(np.float16)
-    store.save(key, arrays)
+    cache.save(key, arrays)

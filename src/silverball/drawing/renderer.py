@@ -1,213 +1,245 @@
-"""How does a moment of play become a picture, at once and at its best? The face of the drawing.
+"""Pictures of a table in play: the `Renderer`, and the functions behind `World.render`.
 
 In the foreground (films, pictures for agents, tests) everything is baked before it is needed. In the
-background (a window) there is a picture at once: the one from the store, or a sketch; a thread brings the
-rest, and compiled code is made in another process, for a compiler in a thread would make the game stutter.
+background (a window) there is a picture at once, from the cache or as a sketch; a thread bakes the better
+one. Compiling runs in another process, because a compiler in a thread would make the game stutter.
 """
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Literal, Protocol
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from silverball.drawing.camera import Camera
+from silverball.drawing.camera import Camera, best_size
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.dotmatrix.score_panel import ScorePanel
 from silverball.drawing.effects import Effects
 from silverball.drawing.moment import Moment
-from silverball.drawing.picture_cache import Store
-from silverball.drawing.pictures import load_still, still_key
-from silverball.drawing.sketch import Pen, sketch, sketch_ball, sketch_paddle
+from silverball.drawing.picture_cache import PictureCache
+from silverball.drawing.pictures import load_baked_table, table_key
+from silverball.drawing.sketch import SketchPainter, rgb_surface
 from silverball.drawing.themes import THEMES, Theme
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.background import Background
-    from silverball.drawing.picture_provider import Studio
-    from silverball.world import Event
+    from silverball.drawing.picture_provider import PictureProvider
+    from silverball.world import Event, World
+
+DEFAULT_HEIGHT = 480  # [pixel]
+MAX_RENDERERS = 8  # of `render`; a renderer of the default height takes about 5 MB
 
 
 class Painter(Protocol):
-    """What puts a moment onto a surface of its own."""
+    """Draws a moment onto a surface of its own."""
 
     def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
 
 
 class Renderer:
-    """Draws one table at one size.
+    """Draws one table at one size and in one theme. It needs no display.
+
+    The first renderer of a table bakes its picture, which takes a second or two; baked pictures are saved in
+    the user's cache folder. After that a frame takes a fraction of a millisecond.
 
     Args:
-        table: A finished table.
-        size: Width and height of the picture [pixel]; the table is fitted into it.
-        theme: A name of `THEMES`, or a theme.
-        effects: "full", or "less" for no sparks and trails and weaker flashes.
-        board_seed: Written beside the score if the board was made from it.
-        background: Whether a picture is wanted at once, and the best one as soon as it is baked. Then call
-            `close` when it is wanted no more.
-        progress: Told how much of the baking is done, 0 to 1, in the foreground.
-        store: Where baked pictures are kept; the user's cache directory if not given.
+        table: A finished table, such as `World.table`.
+        size: Width and height of the picture [pixel]; the table is centred in it.
+        height: Height of the picture [pixel], if no size is given; the width follows from the table's shape.
+        theme: "neon", "parlour", "clear", or a `Theme`.
+        effects: "full", or "less" for weaker flashes and neither sparks nor trails.
+        board_seed: Shown beside the score if the board was made from it.
+        background: Return at once and draw a sketch until the table is baked. Call `close` in the end.
+        progress: Called with the share of the baking that is done, 0 to 1; not in the background.
+        cache: Where baked pictures are kept; by default the user's cache folder.
 
     Attributes:
-        apron: The plate below the gutter [pixel], under which no play is seen.
+        apron: The plate below the gutter [pixel], which hides the balls below it.
         score_panel: The panel above the board [pixel], 5 by 1.
+
+    Raises:
+        ValueError: Both size and height are given, or a size or height below 1, or the theme is unknown.
 
     Example:
         >>> import silverball as sb
-        >>> from silverball.drawing import Moment, Renderer
-        >>> table = sb.load_table("classic")
-        >>> Renderer(table, (66, 106)).array(Moment.before(table)).shape
-        (106, 66, 3)
+        >>> world = sb.World("classic", seed=7)
+        >>> renderer = sb.Renderer(world.table, height=160)
+        >>> frames = []
+        >>> for _ in range(3):
+        ...     world.step(left=True, ticks=4)
+        ...     renderer.add_events(world.events, world.tick_rate)  # flashes and sparks of the hits
+        ...     frames.append(renderer.render(world))
+        >>> frames[0].shape, frames[0].dtype
+        ((160, 100, 3), dtype('uint8'))
     """
 
     def __init__(
         self,
         table: Table,
-        size: tuple[int, int],
+        size: tuple[int, int] | None = None,
         *,
+        height: int | None = None,
         theme: str | Theme = "neon",
         effects: Literal["full", "less"] = "full",
         board_seed: int | None = None,
         background: bool = False,
         progress: Callable[[float], None] = lambda share: None,
-        store: Store | None = None,
+        cache: PictureCache | None = None,
     ) -> None:
         self.table = table
-        self.theme = theme if isinstance(theme, Theme) else THEMES[theme]
-        self.camera = Camera(table.board, size)
+        self.theme = _theme(theme)
+        self.camera = Camera(table.board, _size(table, size, height))
         self.effects = Effects(table.board.ball_radius, is_full=effects == "full")
         self.score_panel = self.camera.panel
         self.apron = _apron_area(self.camera)
         self._panel = ScorePanel(self.score_panel, self.theme, table, board_seed)
-        self._store = store or Store()
-        self._studio: Studio | None = None
+        self._cache = cache or PictureCache()
+        self._provider: PictureProvider | None = None
         self._background: Background | None = None
         self._painter: Painter
         if background:
             from silverball.drawing.background import Background
-            from silverball.drawing.lettering import lettering
+            from silverball.drawing.text import lettering
 
-            lettering(table.name, self.camera.build)  # here, for fonts are not made for threads
-            key = still_key(table, self.camera, self.theme)
-            known = load_still(self._store, key)
-            self._painter = Sketcher(table, self.camera, self.theme, None if known is None else known.pixels)
-            self._background = Background(table, self.camera, self.theme, self._store, board_seed is not None)
+            lettering(table.name, self.camera.dimensions)  # cached here, because fonts are not thread-safe
+            key = table_key(table, self.camera, self.theme)
+            known = load_baked_table(self._cache, key)
+            self._painter = SketchPainter(
+                table, self.camera, self.theme, None if known is None else known.pixels
+            )
+            self._background = Background(table, self.camera, self.theme, self._cache, board_seed is not None)
         else:
             self._painter = self._baked(progress)
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn at its best."""
-        self._take_over()
-        return not isinstance(self._painter, Sketcher)
+        """Whether the table is drawn in full quality; a sketch is not."""
+        self._adopt_background()
+        return not isinstance(self._painter, SketchPainter)
 
-    def note(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Tell what happened since the last picture, so that it can be seen in the next ones."""
-        self.effects.note(events, tick_rate)
+    def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
+        """Add events whose flashes and sparks the next pictures show.
+
+        Args:
+            events: What happened since the last picture, such as `World.events`.
+            tick_rate: Ticks per second of the world.
+        """
+        self.effects.add_events(events, tick_rate)
 
     def draw(self, moment: Moment, target: pygame.Surface, dots: Dots | None = None) -> None:
         """Draw a moment onto a surface of the renderer's size.
 
         Args:
-            moment: What there is to see.
+            moment: The state of play.
             target: Any surface; one of 24 bits whose bytes are RGB is fastest.
-            dots: What the score panel shows, a `Dots`; the moment's score if not given.
+            dots: What the score panel shows; by default the moment's score.
         """
         target.blit(self._compose(moment, dots), (0, 0))
 
     def surface(self, moment: Moment, dots: Dots | None = None) -> pygame.Surface:
-        """A moment as a new surface of 24 bits, whose bytes are RGB."""
+        """Draw a moment onto a new surface of 24 bits, whose bytes are RGB."""
         target = rgb_surface(self.camera.size)
         self.draw(moment, target, dots)
         return target
 
+    def render(self, world: World) -> NDArray[np.uint8]:
+        """Draw a world as it is now: RGB, uint8 `[height, width, 3]`.
+
+        Flashes and sparks are shown of events that were passed to `add_events`; balls leave trails from one
+        call to the next.
+        """
+        return self.array(Moment.of(world)).copy()
+
     def array(self, moment: Moment, dots: Dots | None = None) -> NDArray[np.uint8]:
-        """A moment as RGB, uint8, shape [row, column, 3]."""
+        """Draw a moment: RGB, uint8 `[height, width, 3]`, read-only."""
         width, height = self.camera.size
         pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until all that is baked in the background is there, the paddles at every angle too."""
+        """Wait until the background has baked everything, paddles included, or for some seconds."""
         if self._background is not None:
             self._background.wait(seconds)
 
     def close(self) -> None:
-        """End the work in the background; keep what was baked."""
+        """Stop the work in the background, and save what was baked."""
         if self._background is not None:
             self._background.close()
-        if self._studio is not None:
-            self._studio.save_paddles()
+        if self._provider is not None:
+            self._provider.save_paddles()
 
     def _compose(self, moment: Moment, dots: Dots | None) -> pygame.Surface:
-        self._take_over()
+        self._adopt_background()
         surface = self._painter.compose(moment, self.effects)
         self._panel.draw(surface, moment, dots)
         return surface
 
-    def _take_over(self) -> None:
-        """Use what the background has made ready."""
+    def _adopt_background(self) -> None:
+        """Use the better picture once the background has baked it."""
         if self._background is not None and self._background.painter is not None:
             self._painter = self._background.painter
 
     def _baked(self, progress: Callable[[float], None]) -> Painter:
-        from silverball.drawing.bake_threads import Workshop
+        from silverball.drawing.bake_threads import BakeThreads
         from silverball.drawing.compose import Composer
-        from silverball.drawing.picture_provider import Studio
+        from silverball.drawing.picture_provider import PictureProvider
 
-        studio = Studio(self.table, self.camera, self.theme, self._store, Workshop(progress=progress))
-        self._studio = studio
-        return Composer(self.table, self.camera, self.theme, studio.still(), studio.baked_paddle)
+        provider = PictureProvider(
+            self.table, self.camera, self.theme, self._cache, BakeThreads(progress=progress)
+        )
+        self._provider = provider
+        return Composer(self.table, self.camera, self.theme, provider.table(), provider.baked_paddle)
 
 
-class Sketcher:
-    """Draws moments without compiled code.
+_lock = threading.Lock()  # a renderer draws one picture at a time
 
-    Args:
-        table: A finished table.
-        camera: The view of it.
-        theme: Its look.
-        pixels: The still table if it is at hand, RGB [row, column, 3]; else it is sketched.
+
+def render(table: Table, record: Any, tick_rate: int, height: int, theme: str) -> NDArray[np.uint8]:
+    """Draw a WORLD record, without effects of what came before: RGB, uint8 `[height, width, 3]`.
+
+    The renderers of the last few tables are reused, so calls after the first are fast.
     """
-
-    def __init__(
-        self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
-    ) -> None:
-        self._paddles = table.paddle
-        self._theme = theme
-        if pixels is None:
-            pixels = sketch(table, camera, theme)
-        self._still = pygame.image.frombuffer(pixels.tobytes(), camera.size, "RGB")
-        self._surface = rgb_surface(camera.size)
-        self._pen = Pen(self._surface, camera)
-
-    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
-        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
-        self._surface.blit(self._still, (0, 0))
-        for _ in effects.trails(moment):
-            pass  # so that they are there when the better picture comes
-        balls = [*moment.balls, *effects.dives(moment.time)]
-        angles = dict(zip(("left", "right"), moment.angles, strict=True))
-        for ball in balls:
-            sketch_ball(self._pen, ball.x, ball.z)
-        for paddle in self._paddles:
-            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
-        return self._surface
+    with _lock:
+        return _renderer(table, height, theme).array(Moment.of_record(record, tick_rate)).copy()
 
 
-def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
-    """A surface of 24 bits whose bytes are RGB; it needs no display."""
-    return pygame.image.frombuffer(bytearray(3 * size[0] * size[1]), size, "RGB")
+@lru_cache(maxsize=MAX_RENDERERS)
+def _renderer(table: Table, height: int, theme: str) -> Renderer:
+    return Renderer(table, height=height, theme=theme, effects="less")
+
+
+def _theme(theme: str | Theme) -> Theme:
+    if isinstance(theme, Theme):
+        return theme
+    if theme not in THEMES:
+        raise ValueError(f"theme must be one of {', '.join(THEMES)}, or a Theme, got {theme!r}")
+    return THEMES[theme]
+
+
+def _size(table: Table, size: tuple[int, int] | None, height: int | None) -> tuple[int, int]:
+    if size is not None and height is not None:
+        raise ValueError(f"give either size or height, got size {size} and height {height}")
+    if size is None:
+        height = DEFAULT_HEIGHT if height is None else height
+        if height < 2:
+            raise ValueError(f"height must be at least 2 pixels, got {height}")
+        return best_size(table.board, height)[0], height
+    if min(size) < 1:
+        raise ValueError(f"size must be at least 1 by 1 pixel, got {size}")
+    return size
 
 
 def _apron_area(camera: Camera) -> pygame.Rect:
-    build = camera.build
-    side = build.half_width - build.thickness
-    left, top = camera.to_pixel(build.apron_top, -side, build.apron_height)
-    right = camera.to_pixel(build.apron_top, side, build.apron_height)[0]
-    bottom = camera.to_pixel(-build.half_length - build.rail, side, build.rail_height)[1]
+    dimensions = camera.dimensions
+    side = dimensions.half_width - dimensions.thickness
+    left, top = camera.to_pixel(dimensions.apron_top, -side, dimensions.apron_height)
+    right = camera.to_pixel(dimensions.apron_top, side, dimensions.apron_height)[0]
+    bottom = camera.to_pixel(-dimensions.half_length - dimensions.rail, side, dimensions.rail_height)[1]
     return pygame.Rect(round(left), round(top), round(right - left), max(round(bottom - top), 1))

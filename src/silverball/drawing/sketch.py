@@ -1,7 +1,6 @@
-"""What is shown before anything is baked? The same table in flat colours, within a tenth of a second.
+"""A sketch of a table in flat colours, drawn within a tenth of a second and shown until the table is baked.
 
-Everything lies where the baked picture will have it: the same camera, the same heights. Only pygame and NumPy
-are needed, no compiled code.
+It uses the same camera and heights as the baked picture, and needs pygame and NumPy only, no compiled code.
 """
 
 from __future__ import annotations
@@ -15,14 +14,16 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.corner import corner_behind
+from silverball.drawing.dimensions import corner_behind
+from silverball.drawing.effects import Effects
 from silverball.drawing.kernels.stage import Art
-from silverball.drawing.themes import Color, Theme, in_turn
+from silverball.drawing.moment import Moment
+from silverball.drawing.themes import Color, Theme, cycled_color
 from silverball.table import Paddle, SlantWall, Table
 
 Point = tuple[float, float]
-ENLARGED = 2  # the picture is drawn so much larger and shrunk, which smooths its edges,
-MOST_PIXELS = 2_000_000  # unless it is larger than this
+ENLARGED = 2  # the picture is drawn larger by this factor and shrunk, to smooth its edges,
+MAX_PIXELS = 2_000_000  # unless it is larger than this
 CIRCLE = 28  # corners of a circle
 RAYS, EMBLEM_AT, EMBLEM_SIZE, RING_AT = 22, -0.05, 0.105, 0.27  # as in kernels/art.py and kernels/shade.py
 
@@ -30,7 +31,7 @@ RAYS, EMBLEM_AT, EMBLEM_SIZE, RING_AT = 22, -0.05, 0.105, 0.27  # as in kernels/
 def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
     """The table without paddles and balls: RGB, uint8 [row, column, 3]."""
     width, height = camera.size
-    enlarged = ENLARGED if width * height <= MOST_PIXELS else 1
+    enlarged = ENLARGED if width * height <= MAX_PIXELS else 1
     surface = pygame.Surface((max(width * enlarged, 1), max(height * enlarged, 1)), 0, 24)
     surface.fill(theme.room)
     pen = Pen(surface, camera, enlarged)
@@ -49,9 +50,9 @@ class Pen:
     """Draws raised shapes onto a surface.
 
     Args:
-        surface: Where to.
-        camera: Through which they are seen.
-        enlarged: How much larger the surface is than the camera's picture.
+        surface: The target.
+        camera: The view of the board.
+        enlarged: Size of the surface by that of the camera's picture.
     """
 
     def __init__(self, surface: pygame.Surface, camera: Camera, enlarged: int = 1) -> None:
@@ -60,7 +61,7 @@ class Pen:
         self.enlarged = enlarged
 
     def face(self, points: Iterable[tuple[float, float, float]], color: Color) -> None:
-        """A flat face with corners (x, z, y)."""
+        """Draw a flat face with corners (x, z, y) [u]."""
         places = []
         for x, z, y in points:
             across, down = self.camera.to_pixel(x, z, y)
@@ -68,7 +69,7 @@ class Pen:
         pygame.draw.polygon(self.surface, color, places)
 
     def block(self, corners: Sequence[Point], height: float, top: Color, low: float = 0.0) -> None:
-        """A footprint, counter-clockwise, raised to a height; sides that are turned away are left out."""
+        """Draw a counter-clockwise footprint extruded to a height, without its hidden sides."""
         for (x0, z0), (x1, z1) in zip(corners, (*corners[1:], corners[0]), strict=True):
             outward = z0 - z1  # x of the outward normal of a counter-clockwise outline
             if outward < 0.0:
@@ -79,13 +80,13 @@ class Pen:
 
 
 def sketch_paddle(pen: Pen, paddle: Paddle, angle: float, theme: Theme) -> None:
-    """A paddle at an angle [deg]."""
-    pen.block(paddle.corners(angle), pen.camera.build.paddle_height, theme.paddle)
+    """Draw a paddle at an angle [deg]."""
+    pen.block(paddle.corners(angle), pen.camera.dimensions.paddle_height, theme.paddle)
 
 
 def sketch_ball(pen: Pen, x: float, z: float) -> None:
-    """A ball with its shadow."""
-    radius = pen.camera.build.ball
+    """Draw a ball with its shadow."""
+    radius = pen.camera.dimensions.ball
     pen.face(circle(x - 0.5 * radius, z, radius, 0.0), (8, 8, 14))
     across, down = pen.camera.to_pixel(x, z, radius)
     size = max(radius * pen.camera.scale * pen.enlarged, 1.0)
@@ -96,20 +97,20 @@ def sketch_ball(pen: Pen, x: float, z: float) -> None:
 
 
 def dim(color: Color, share: float) -> Color:
-    """A darker (or, above 1, lighter) colour."""
+    """Return a darker (or, above 1, lighter) colour."""
     red, green, blue = (min(round(share * value), 255) for value in color)
     return red, green, blue
 
 
 def circle(x: float, z: float, radius: float, y: float) -> list[tuple[float, float, float]]:
-    """The corners (x, z, y) of a circle, counter-clockwise."""
+    """Return the corners (x, z, y) of a circle, counter-clockwise."""
     turns = [2.0 * math.pi * number / CIRCLE for number in range(CIRCLE)]
     return [(x + radius * math.sin(turn), z + radius * math.cos(turn), y) for turn in turns]
 
 
 def _floor(pen: Pen, table: Table, theme: Theme) -> None:
-    """Ground and rays, worked out for every second pixel of the picture."""
-    camera, build = pen.camera, pen.camera.build
+    """Draw the floor with its rays, computed for every second pixel."""
+    camera, dimensions = pen.camera, pen.camera.dimensions
     width, height = max(camera.size[0] // 2, 1), max(camera.size[1] // 2, 1)
     f = camera.frustum
     u = ((np.arange(width, dtype=np.float32) + 0.5) * camera.size[0] / width - f.across) / f.focal
@@ -117,25 +118,28 @@ def _floor(pen: Pen, table: Table, theme: Theme) -> None:
     way = -f.eye_y / np.minimum(v * f.sine - f.cosine, -1e-3)
     x = (f.eye_x + way * (f.sine + v * f.cosine))[:, None]
     z = way[:, None] * u[None, :]
-    stops = np.array([-build.half_length, 0.0, build.half_length], np.float32)
+    stops = np.array([-dimensions.half_length, 0.0, dimensions.half_length], np.float32)
     paint = np.stack(
         [np.interp(x[:, 0], stops, [color[channel] for color in theme.floor]) for channel in range(3)], axis=1
     )[:, None, :]
     from_x = x - np.float32(EMBLEM_AT * table.board.length)
-    rho = np.hypot(from_x, z) / np.float32(1.1 * build.half_length)
+    rho = np.hypot(from_x, z) / np.float32(1.1 * dimensions.half_length)
     ray = np.clip(0.5 + 4.0 * np.cos(RAYS * np.arctan2(z, from_x)), 0.0, 1.0)
     strength = 0.8 * ray if theme.art is Art.WOOD else (0.5 * np.exp(-1.6 * rho * rho) + 0.1) * ray
     picture = paint + (np.array(theme.ray, np.float32) - paint) * strength[:, :, None]
-    inside = (np.abs(x) < build.half_length) & (np.abs(z) < build.half_width)
+    inside = (np.abs(x) < dimensions.half_length) & (np.abs(z) < dimensions.half_width)
     picture = np.where(inside[:, :, None], picture, np.array(theme.room, np.float32))
     small = pygame.image.frombuffer(picture.clip(0, 255).astype(np.uint8).tobytes(), (width, height), "RGB")
     pen.surface.blit(pygame.transform.smoothscale(small, pen.surface.get_size()), (0, 0))
 
 
 def _emblem(pen: Pen, table: Table, theme: Theme) -> None:
-    """The star where the rays meet, in its ring."""
-    build = pen.camera.build
-    size, x = EMBLEM_SIZE * min(2.0 * build.half_width, build.half_length), EMBLEM_AT * table.board.length
+    """Draw the star where the rays meet, in its ring."""
+    dimensions = pen.camera.dimensions
+    size, x = (
+        EMBLEM_SIZE * min(2.0 * dimensions.half_width, dimensions.half_length),
+        EMBLEM_AT * table.board.length,
+    )
     for share, color in ((1.34, theme.ornament[0]), (1.27, dim(theme.floor[1], 0.5))):
         pen.face(circle(x, 0.0, share * size, 0.0), color)
     star = []
@@ -146,11 +150,15 @@ def _emblem(pen: Pen, table: Table, theme: Theme) -> None:
 
 
 def _rails(pen: Pen, theme: Theme) -> None:
-    """The frame, from the far end to the near one."""
-    build = pen.camera.build
-    long, wide, high = build.half_length + build.rail, build.half_width + build.rail, build.rail_height
-    top, side = build.half_length - build.thickness, build.half_width - build.thickness
-    bottom, foot = -build.half_length, -build.skirt
+    """Draw the frame, from the far end to the near one."""
+    dimensions = pen.camera.dimensions
+    long, wide, high = (
+        dimensions.half_length + dimensions.rail,
+        dimensions.half_width + dimensions.rail,
+        dimensions.rail_height,
+    )
+    top, side = dimensions.half_length - dimensions.thickness, dimensions.half_width - dimensions.thickness
+    bottom, foot = -dimensions.half_length, -dimensions.skirt
     inner, outer = dim(theme.rail, 0.35), dim(theme.rail, 0.5)
     pen.face([(top, -side, 0.0), (top, side, 0.0), (top, side, high), (top, -side, high)], inner)
     for hand in (-1.0, 1.0):
@@ -165,48 +173,52 @@ def _rails(pen: Pen, theme: Theme) -> None:
 
 
 def _apron(pen: Pen, theme: Theme) -> None:
-    build = pen.camera.build
-    long, wide, high = build.half_length + build.rail, build.half_width + build.rail, build.rail_height
-    side = build.half_width - build.thickness
-    plate = [(-build.half_length, -side), (-build.half_length, side), (build.apron_top, side)]
-    pen.block([*plate, (build.apron_top, -side)], build.apron_height, theme.apron)
-    near = -build.half_length
+    dimensions = pen.camera.dimensions
+    long, wide, high = (
+        dimensions.half_length + dimensions.rail,
+        dimensions.half_width + dimensions.rail,
+        dimensions.rail_height,
+    )
+    side = dimensions.half_width - dimensions.thickness
+    plate = [(-dimensions.half_length, -side), (-dimensions.half_length, side), (dimensions.apron_top, side)]
+    pen.block([*plate, (dimensions.apron_top, -side)], dimensions.apron_height, theme.apron)
+    near = -dimensions.half_length
     pen.face([(near, -wide, high), (near, wide, high), (-long, wide, high), (-long, -wide, high)], theme.rail)
 
 
 def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callable[[], None]]]:
-    """How far up each part is, and how it is drawn."""
-    build = pen.camera.build
+    """Yield for each part its x [u] and a function that draws it."""
+    dimensions = pen.camera.dimensions
     for wall in table.slant_wall:
         corner = corner_behind(table.board, wall)
         if corner is not None:
-            yield 1e9, partial(pen.block, corner, 0.8 * build.wall_height, dim(theme.apron, 0.8))
+            yield 1e9, partial(pen.block, corner, 0.8 * dimensions.wall_height, dim(theme.apron, 0.8))
         middle = 0.5 * (wall.start[0] + wall.end[0])
-        yield middle, partial(pen.block, _bar(wall), build.wall_height, theme.wall)
+        yield middle, partial(pen.block, _bar(wall), dimensions.wall_height, theme.wall)
     for index, prism in enumerate(table.triangular_prism):
-        corners, color = prism.corners(), in_turn(theme.prisms, index)
-        yield sum(x for x, _ in corners) / 3.0, partial(pen.block, corners, build.prism_height, color)
+        corners, color = prism.corners(), cycled_color(theme.prisms, index)
+        yield sum(x for x, _ in corners) / 3.0, partial(pen.block, corners, dimensions.prism_height, color)
     for index, cylinder in enumerate(table.cylinder):
         x, z, radius = cylinder.circle()
-        color = in_turn(theme.cylinders, index)
+        color = cycled_color(theme.cylinders, index)
         yield x, partial(_bumper, pen, x, z, radius, color, theme)
 
 
 def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Theme) -> None:
-    build = pen.camera.build
-    unit = build.unit
+    dimensions = pen.camera.dimensions
+    unit = dimensions.unit
     pen.face(circle(x, z, radius + (RING_AT + 0.03) * unit, 0.0), color)
     pen.face(circle(x, z, radius + (RING_AT - 0.03) * unit, 0.0), dim(color, 0.3))
     corners = [(px, pz) for px, pz, _ in circle(x, z, radius, 0.0)]
-    pen.block(corners, build.body_height, dim(theme.steel, 0.85))
+    pen.block(corners, dimensions.body_height, dim(theme.steel, 0.85))
     cap = 0.9 * radius
     for share, tone in ((1.0, dim(color, 0.8)), (0.85, color), (0.22, theme.cap)):
         rise = min(0.42 * cap, 0.45 * unit) * (1.0 - share * share)
-        pen.face(circle(x, z, share * cap, build.body_height + rise), tone)
+        pen.face(circle(x, z, share * cap, dimensions.body_height + rise), tone)
 
 
 def _bar(wall: SlantWall) -> list[Point]:
-    """The outline of a slant wall with its round ends, counter-clockwise."""
+    """Return the outline of a slant wall with its round ends, counter-clockwise."""
     (x0, z0), (x1, z1) = wall.start, wall.end
     direction = math.atan2(x1 - x0, z1 - z0)
     thick = max(wall.thickness, 0.02)
@@ -216,3 +228,67 @@ def _bar(wall: SlantWall) -> list[Point]:
             turn = first + step * math.pi / 6.0
             outline.append((x + thick * math.sin(turn), z + thick * math.cos(turn)))
     return outline
+
+
+class SketchPainter:
+    """Draws moments in sketch quality, without compiled code.
+
+    Args:
+        table: A finished table.
+        camera: The view of it.
+        theme: Its colours.
+        pixels: The baked table if it is cached, RGB [row, column, 3]; else a sketch is drawn.
+    """
+
+    def __init__(
+        self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
+    ) -> None:
+        self._paddles = table.paddle
+        self._theme = theme
+        if pixels is None:
+            pixels = sketch(table, camera, theme)
+        self._baked = pygame.image.frombuffer(pixels.tobytes(), camera.size, "RGB")
+        self._surface = rgb_surface(camera.size)
+        self._pen = Pen(self._surface, camera)
+
+    def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
+        """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
+        self._surface.blit(self._baked, (0, 0))
+        for _ in effects.trails(moment):
+            pass  # recorded for the better picture that follows
+        balls = [*moment.balls, *effects.sinking_balls(moment.time)]
+        angles = dict(zip(("left", "right"), moment.angles, strict=True))
+        for ball in balls:
+            sketch_ball(self._pen, ball.x, ball.z)
+        for paddle in self._paddles:
+            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
+        return self._surface
+
+
+def rgb_surface(size: tuple[int, int]) -> pygame.Surface:
+    """Return a surface of 24 bits whose bytes are RGB; it needs no display."""
+    return pygame.image.frombuffer(bytearray(3 * size[0] * size[1]), size, "RGB")
+
+
+def ball_icon(side: int) -> pygame.Surface:
+    """Return the program's icon, a polished ball on a transparent square of a side [pixel]."""
+    middle, radius = 0.5 * side, 0.46 * side
+    offset = (np.arange(side) + 0.5 - middle) / radius
+    right, down = offset[:, None], offset[None, :]  # surfarray: columns first
+    square = right**2 + down**2
+    out = np.sqrt(np.clip(1.0 - square, 0.0, 1.0))
+    up = -down
+    # The ball mirrors the sky above, a dark horizon, a bright floor, and the lamp.
+    look = 2.0 * out * up
+    gray = np.where(
+        look > 0.05, 0.55 + 0.45 * np.clip(look, 0.0, 1.0), 0.18 + 0.32 * np.clip(-look, 0.0, 1.0)
+    )
+    gray = gray * (0.45 + 0.55 * np.sqrt(out))
+    glint = np.clip(1.0 - ((right + 0.30) ** 2 + (down + 0.38) ** 2) / 0.06, 0.0, 1.0)
+    gray = np.clip(gray + glint, 0.0, 1.0)
+    image = pygame.Surface((side, side), pygame.SRCALPHA)
+    colors, alpha = pygame.surfarray.pixels3d(image), pygame.surfarray.pixels_alpha(image)
+    colors[:] = np.round(255.0 * gray[:, :, None] * np.array([0.96, 0.98, 1.0]))
+    alpha[:] = np.round(255.0 * np.clip((1.0 - np.sqrt(square)) * radius + 0.5, 0.0, 1.0))
+    del colors, alpha
+    return image

@@ -1,6 +1,6 @@
-"""Which looks are there to choose from? All colours of a table, and the few numbers of its materials.
+"""Themes: the colours of a table, and the few numbers of its materials and light.
 
-A colour is (red, green, blue), 0 to 255 each, as on the screen. Parts of a kind take turns through a tuple of
+A colour is (red, green, blue), 0 to 255 each, as on the screen. Parts of a kind cycle through a tuple of
 colours, so that neighbours differ.
 """
 
@@ -16,32 +16,32 @@ Color: TypeAlias = tuple[int, int, int]
 
 @dataclass(frozen=True)
 class Theme:
-    """A look.
+    """The colours and materials of a table.
 
     Attributes:
-        title: What people call it.
-        art: What is painted onto the playfield.
-        frame: What rails and slant walls are made of.
-        floor: Colour of the playfield near the player, in the middle, and at the top.
-        ray: The rays of the playfield.
-        glow: Where the rays meet.
-        ornament: Two colours of lines and inserts of the playfield.
-        heart: The emblem's star.
+        title: Its name in menus.
+        art: The painting on the playfield.
+        frame: The material of rails and slant walls.
+        room: Background around the table.
+        floor: Playfield near the player, in the middle, and at the top.
+        ray: Rays of the playfield.
+        glow: Light where the rays meet.
+        ornament: Lines and inserts of the playfield.
+        heart: Star of the emblem.
         strips: Tubes of light along the rails and along the slant walls.
-        cap: The light pattern on the caps of cylinders.
-        cap_ground: How much of a cap's colour is mixed into white, 0 to 1.
-        ball: What a ball mirrors from straight above.
-        ball_low: What a ball mirrors from low above the table.
-        exposure: All light is multiplied by it.
+        cap: Pattern on the caps of cylinders.
+        cap_ground: How far the pattern goes from the cylinder's colour to `cap`, 0 to 1.
+        ball: Sky overhead that a ball mirrors.
+        ball_low: Sky near the horizon that a ball mirrors.
+        exposure: Factor of all light.
         key: Strength of the lamp that casts shadows.
-        fill: Strength of the light from everywhere.
-        lacquer: How much the playfield mirrors.
-        halo: How strongly parts light up what is around them.
+        fill: Strength of the ambient light.
+        lacquer: Reflectance of the playfield.
+        halo: Strength of the light that parts throw around them.
     """
 
     title: str
     art: Art
-    frame: Frame
     room: Color
     floor: tuple[Color, Color, Color]
     ray: Color
@@ -60,24 +60,24 @@ class Theme:
     cap: Color
     cap_ground: float
     steel: Color
-    ball: Color
     ball_low: Color
     trail: Color
     spark: Color
     panel: Color
     panel_edges: tuple[Color, Color]
     dots: Color
-    exposure: float
     key: float
     fill: float
     lacquer: float
     halo: float
+    frame: Frame = Frame.METAL
+    ball: Color = (255, 255, 255)
+    exposure: float = 1.0
 
 
 NEON = Theme(
     title="Neon",
     art=Art.COSMOS,
-    frame=Frame.METAL,
     room=(9, 8, 17),
     floor=((26, 14, 66), (18, 18, 72), (10, 32, 84)),
     ray=(66, 46, 176),
@@ -96,14 +96,12 @@ NEON = Theme(
     cap=(255, 255, 255),
     cap_ground=0.8,
     steel=(214, 220, 240),
-    ball=(255, 255, 255),
     ball_low=(148, 168, 226),
     trail=(150, 205, 255),
     spark=(255, 226, 160),
     panel=(10, 8, 20),
     panel_edges=((255, 66, 158), (70, 196, 255)),
     dots=(255, 150, 40),
-    exposure=1.0,
     key=1.0,
     fill=0.36,
     lacquer=0.5,
@@ -132,14 +130,12 @@ PARLOUR = Theme(
     cap=(255, 248, 226),
     cap_ground=0.9,
     steel=(236, 206, 140),
-    ball=(255, 255, 255),
     ball_low=(176, 160, 150),
     trail=(255, 240, 200),
     spark=(255, 236, 180),
     panel=(18, 10, 6),
     panel_edges=((226, 172, 84), (140, 70, 36)),
     dots=(255, 176, 60),
-    exposure=1.0,
     key=1.7,
     fill=0.75,
     lacquer=0.35,
@@ -149,7 +145,6 @@ PARLOUR = Theme(
 CLEAR = Theme(
     title="Clear",
     art=Art.PLAIN,
-    frame=Frame.METAL,
     room=(6, 7, 9),
     floor=((20, 24, 34), (24, 28, 40), (28, 34, 48)),
     ray=(34, 40, 58),
@@ -168,14 +163,12 @@ CLEAR = Theme(
     cap=(255, 160, 100),
     cap_ground=0.4,
     steel=(90, 94, 105),
-    ball=(255, 255, 255),
     ball_low=(255, 255, 255),
     trail=(255, 255, 255),
     spark=(255, 255, 255),
     panel=(6, 7, 9),
     panel_edges=((230, 234, 244), (110, 118, 136)),
     dots=(255, 214, 90),
-    exposure=1.0,
     key=1.5,
     fill=0.7,
     lacquer=0.2,
@@ -185,6 +178,19 @@ CLEAR = Theme(
 THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}
 
 
-def in_turn(colors: tuple[Color, ...], index: int) -> Color:
-    """The colour of the part with that number."""
+def cycled_color(colors: tuple[Color, ...], index: int) -> Color:
+    """Return the colour of the part with a number; the colours repeat."""
     return colors[index % len(colors)]
+
+
+# Colours of words, keys and panels that lie over a table of any theme
+ROOM: Color = (7, 6, 13)  # around the table
+
+PANEL: Color = (10, 8, 20)
+PANEL_INNER: Color = (70, 196, 255)
+SCORE: Color = (255, 186, 58)
+LABEL: Color = (112, 220, 255)
+TEXT: Color = (236, 236, 250)
+FAINT_TEXT: Color = (150, 142, 190)
+KEY_FACE: Color = (52, 46, 86)
+KEY_EDGE: Color = (150, 136, 214)

@@ -28,10 +28,11 @@ if [int(number) for number in re.findall(r"\d+", gymnasium.__version__)[:2]] < [
 
 from silverball.envs.observations import GROUPS
 from silverball.envs.options import OPTIONS, Options
+from silverball.envs.rewards import TERMS
 from silverball.envs.single import PinballEnv
 from silverball.envs.vector import PinballVectorEnv
 
-__all__ = ["GROUPS", "IDS", "OPTIONS", "Options", "PinballEnv", "PinballVectorEnv"]
+__all__ = ["GROUPS", "IDS", "OPTIONS", "TERMS", "Options", "PinballEnv", "PinballVectorEnv"]
 
 IDS: dict[str, dict[str, Any]] = {
     "silverball/Pinball-v0": {"table": "random"},
@@ -46,7 +47,7 @@ REWARD_THRESHOLDS = {
     "silverball/PinballPixels-v0": 110.0,
 }
 """The mean return at which an environment with default options counts as solved: that of the trained player,
-rounded down to tens. Source: `python benchmarks/thresholds.py`."""
+rounded down to tens. Source: `silverball bench thresholds`."""
 
 for _id in set(IDS) - set(gymnasium.registry):
     gymnasium.register(

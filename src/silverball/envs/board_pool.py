@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 
 from silverball.envs.observations import CylinderSlot, Field, PrismSlot, fields
 from silverball.envs.options import TableSource
-from silverball.physics.records import LOG, WORLD, Kind, Part, records
+from silverball.physics.records import Kind
 from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
-from silverball.world.compile import Boards, compile_tables
+from silverball.world.compile import Boards, blank_worlds, compile_tables
 
 
 class Pool(NamedTuple):
@@ -133,11 +133,7 @@ def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     layout = fields(
         max(len(table.triangular_prism) for table in tables), max(len(table.cylinder) for table in tables)
     )
-    blanks = records(len(tables), WORLD)
-    for part, side in ((Part.LEFT_PADDLE, 0), (Part.RIGHT_PADDLE, 1)):
-        rest = boards.collider["angle_rest"][boards.board["collider_first"] + part]
-        blanks["paddle"]["angle"][:, side] = rest
-        blanks["paddle"]["angle_commanded"][:, side] = rest
+    blanks = blank_worlds(boards, np.arange(len(tables)))
     return Pool(tables, np.array(seeds, np.int64), boards, blanks, _layouts(boards, layout), layout)
 
 
@@ -164,15 +160,7 @@ class PooledBatch(WorldBatch):
     """A batch of worlds that play on any board of a pool and change boards between episodes."""
 
     def __init__(
-        self, pool: Pool, count: int, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
+        self, pool: Pool, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
     ) -> None:
         """Use these WORLD records and boards [world]; both are changed from outside."""
-        self.count = count
-        self.tick_rate = tick_rate
-        self.threads = threads
-        self.tables = pool.tables
-        self.boards = pool.boards
-        self.board_of = board_of
-        self.state = state
-        self.logs = records(count, LOG)
-        self.tallies = np.zeros((count, max(len(names) for names in pool.boards.names)), np.int64)
+        self._hold(pool.tables, pool.boards, state, board_of, tick_rate, threads)

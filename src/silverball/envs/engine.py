@@ -31,9 +31,9 @@ from silverball.envs.rewards import TERMS, called, called_for_many, resolve_rewa
 from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, ResetMode, StepFlag, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.kernel import AGENTS, SETTINGS, cache_folder, is_compiled, straight
+from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
 from silverball.physics.records import WORLD, Part, records
-from silverball.world.threads import pool_of_threads
+from silverball.world.threads import thread_pool
 
 STATE_FORMAT = 3
 SIGNATURE_SIZE = 16  # [B] of a saved state: a hash of what it must share with the environment
@@ -41,7 +41,7 @@ PREFIX_SIZE = SIGNATURE_SIZE + 8  # [B] with the number of the board
 MIN_SLICE_WORK = 1000  # work below which a thread does not pay: environments, states of one tick each
 PICTURE_WORK = 3  # work of a picture, and of each picture that is copied
 RING_FACTOR = (
-    4  # length of the ring in windows, where the window is the observation; longer rings move less often
+    4  # length of the ring in windows, if the window is the observation; a longer one moves less often
 )
 
 
@@ -90,7 +90,7 @@ class Engine:
         self._work_per_env = options.frame_skip + PICTURE_WORK * pictures
         self._write_addresses()
         _announce_compilation()
-        self.run_task = straight(run_task, self.addresses, 0, 1, 0)
+        self.run_task = bind_types(run_task, self.addresses, 0, 1, 0)
         self.set_unstarted()
 
     def _allocate_state(self, threads: int) -> None:
@@ -105,7 +105,7 @@ class Engine:
         self.episodes = _as_records(episodes, EPISODE)
         self.picture_states = _as_records(picture_states, PICTURE_STATE).reshape(self.count, self.stack)
         state, board = _as_records(worlds, WORLD), board_of.view(np.int64)
-        self.batch = PooledBatch(self.pool, self.count, self.options.tick_rate, threads, state, board)
+        self.batch = PooledBatch(self.pool, self.options.tick_rate, threads, state, board)
         parts = (signatures, board_of, worlds, episodes, picture_states)
         self.state_parts = [part.reshape(self.count, -1) for part in parts]
 
@@ -206,7 +206,7 @@ class Engine:
             self.run_task(self.addresses, 0, self.count, code)
             return
         edges = [self.count * number // threads for number in range(threads + 1)]
-        workers = pool_of_threads(self.batch.threads)
+        workers = thread_pool(self.batch.threads)
         others: list[Future[Any]] = [
             workers.submit(self.run_task, self.addresses, first, end, code)
             for first, end in itertools.pairwise(edges[1:])

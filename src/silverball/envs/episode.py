@@ -19,9 +19,9 @@ from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
 from silverball.envs.state import COUNTS, EPISODE, ResetMode, RulesRecord, StepFlag, Task
 from silverball.physics.balls import create_ball
-from silverball.physics.kernel import inlined, internal, kernel, pasted
-from silverball.physics.random import WORD, threefry
-from silverball.physics.records import BALL_COUNT, WORLD, Fault, Outcome
+from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
+from silverball.physics.portable_math import WORD, threefry
+from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
 from silverball.physics.step import run_worlds
 from silverball.world.single_step import INT, LEFT, RIGHT, array_at
 
@@ -59,7 +59,7 @@ def run_task(addresses: Any, first: int, end: int, task: int) -> tuple[float, in
     return 0.0, 0
 
 
-@pasted
+@ir_inlined
 def step_envs(ptr: Pointers, first: int, end: int) -> tuple[float, int]:
     """Make one step in the environments first … end − 1.
 
@@ -75,10 +75,9 @@ def step_envs(ptr: Pointers, first: int, end: int) -> tuple[float, int]:
                 row = ptr.counts_before_at + (first + index - start) * COUNTS_SIZE
                 copy_bytes(row, ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
             apply_action(ptr, rules, index)
-        run_worlds(
-            views.worlds(ptr), views.boards(ptr), views.board_of(ptr), views.colliders(ptr), views.grid(ptr),
-            views.logs(ptr), views.tallies(ptr), views.held(ptr), start, stop, rules.ticks, rules.tick,
-        )  # fmt: skip
+        lanes = Lanes(views.worlds(ptr), views.board_of(ptr), views.logs(ptr), views.tallies(ptr))
+        geometries = BatchGeometry(views.boards(ptr), views.colliders(ptr), views.grid(ptr))
+        run_worlds(lanes, geometries, views.held(ptr), start, stop, rules.ticks, rules.tick)
         for index in range(start, stop):
             reward, flags = finish_step(ptr, rules, index, first + index - start)
             views.rewards(ptr)[index] = reward
@@ -90,7 +89,7 @@ def step_envs(ptr: Pointers, first: int, end: int) -> tuple[float, int]:
     return reward, flags
 
 
-@pasted
+@ir_inlined
 def reset_envs(ptr: Pointers, first: int, end: int) -> None:
     """Begin the next episode in those of the environments first … end − 1 that are in the mask."""
     rules = views.rules(ptr)[0]
@@ -102,7 +101,7 @@ def reset_envs(ptr: Pointers, first: int, end: int) -> None:
         observe(ptr, rules, index)
 
 
-@pasted
+@ir_inlined
 def observe_envs(ptr: Pointers, first: int, end: int) -> None:
     """Write the observations of the environments first … end − 1 again, after their states were changed."""
     rules = views.rules(ptr)[0]
@@ -180,7 +179,7 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
     return reward, flags
 
 
-@pasted
+@ir_inlined
 def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> float:
     """The weighted sum of the stall and of the growth of the counts; writes these terms, too."""
     stalled = views.episodes(ptr)[index].stalled

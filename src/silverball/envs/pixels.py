@@ -19,7 +19,7 @@ from silverball.envs import pointers as views
 from silverball.envs.pointers import BYTE, Pointers, copy_bytes
 from silverball.envs.state import LIT_BITS, PICTURE_STATE, PictureStateRecord, RasterRecord
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BALL_COUNT, EventKind, Kind, Part
+from silverball.physics.records import BALL_COUNT, ColliderRecord, EventKind, Kind, Part
 from silverball.physics.shapes import distance
 from silverball.world.single_step import array_at
 
@@ -251,7 +251,7 @@ def blend_sprite(
 
 
 @inlined
-def visible_box(raster: RasterRecord, c: Any) -> tuple[int, int, int, int]:
+def visible_box(raster: RasterRecord, c: ColliderRecord) -> tuple[int, int, int, int]:
     """Top, bottom, left and right of a part within the picture; bottom and right are exclusive."""
     top = max(0, int((raster.half_length - c.x - c.reach) * raster.rows))
     bottom = min(raster.height, int((raster.half_length - c.x + c.reach) * raster.rows) + 1)
@@ -303,7 +303,7 @@ def unlight(
 
 
 @kernel
-def count_coverage(raster: RasterRecord, c: Any, samples: int, covered: Any) -> None:
+def count_coverage(raster: RasterRecord, c: ColliderRecord, samples: int, covered: Any) -> None:
     """Count for each pixel how many of its samples × samples points lie within a part."""
     for row in range(raster.height):
         for column in range(raster.width):

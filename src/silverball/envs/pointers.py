@@ -15,7 +15,7 @@ from numba import types
 from numpy.typing import NDArray
 
 from silverball.envs.state import EPISODE, PICTURE_STATE, RASTER, RULES
-from silverball.physics.kernel import SETTINGS, pasted
+from silverball.physics.kernel import SETTINGS, ir_inlined
 from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
 from silverball.world.single_step import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
 
@@ -144,7 +144,7 @@ def _view(name: str) -> Any:
         def view(ptr: Pointers) -> Any:
             return array_at(ptr[address], (ptr[first], ptr[second], ptr[third]), dtype)
 
-    return pasted(view)
+    return ir_inlined(view)
 
 
 rewards, terminated, truncated = _view("rewards"), _view("terminated"), _view("truncated")

@@ -34,8 +34,7 @@ from silverball.envs.state import INFO, ResetMode
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
 from silverball.world import WorldBatch
-from silverball.world.batch import checked_int
-from silverball.world.snapshot import Index, chosen
+from silverball.world.arguments import Index, checked_int, resolve_index
 from silverball.world.threads import cores
 
 RESET_MODES = {
@@ -251,7 +250,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         Returns:
             uint8 [saved, byte]; a row's bytes are what `PinballEnv.save_state` returns.
         """
-        return self._engine.save(chosen(index, self.num_envs))
+        return self._engine.save(resolve_index(index, self.num_envs))
 
     def restore_state(self, state: bytes | NDArray[np.uint8], index: Index = None) -> None:
         """Restore saved states, bit for bit; `observe` returns the observations.
@@ -273,7 +272,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             rows = np.atleast_2d(state)
         else:
             raise StateError(f"state must be what save_state returned, got {type(state).__name__}")
-        where = chosen(index, self.num_envs)
+        where = resolve_index(index, self.num_envs)
         count = len(range(*where.indices(self.num_envs))) if isinstance(where, slice) else len(where)
         if len(rows) not in (1, count):
             raise ValueError(

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import math
 import os
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from silverball.world import WorldBatch
-from silverball.world.events import read_balls, read_events, read_paddles
+from silverball.world.events import read_events
 
 if TYPE_CHECKING:
     import pygame
 
-    from silverball.drawing import Moment, Renderer
+    from silverball.drawing import Renderer
     from silverball.drawing.effects import Effects
 
 SIZE = (330, 680)  # width and height [pixel]
@@ -38,7 +37,7 @@ class Screen:
     def __init__(self, rate: int) -> None:
         import pygame
 
-        from silverball.drawing.icon import ball_icon
+        from silverball.drawing.sketch import ball_icon
         from silverball.video_driver import NOT_A_SCREEN, open_video
 
         remedy = 'render_mode="rgb_array" needs none'
@@ -97,10 +96,12 @@ class Viewer:
 
     def picture(self, index: int) -> NDArray[np.uint8]:
         """The current picture of world `index`, RGB [row, column, 3]."""
+        from silverball.drawing import Moment
+
         board = int(self._batch.board_of[index])
         renderer = self._renderer(board)
         renderer.effects = self._effects_of(index, board)
-        return np.array(renderer.array(self._moment(index)))
+        return np.array(renderer.array(Moment.of_record(self._batch.state[index], self._batch.tick_rate)))
 
     def _effects_of(self, index: int, board: int) -> Effects:
         """The effects of the last moments of a world; a new episode or a restored state clears them."""
@@ -114,7 +115,7 @@ class Viewer:
             before = None
         if before != now:
             height, names = batch.tables[board].board.height, batch.boards.names[board]
-            effects.note(read_events(batch.logs[index], names, height), batch.tick_rate)
+            effects.add_events(read_events(batch.logs[index], names, height), batch.tick_rate)
             self._last_drawn[index] = now
         return effects
 
@@ -126,12 +127,3 @@ class Viewer:
                 del self._renderers[next(iter(self._renderers))]
             self._renderers[board] = Renderer(self._batch.tables[board], SIZE)
         return self._renderers[board]
-
-    def _moment(self, index: int) -> Moment:
-        from silverball.drawing.moment import BallAt, Moment
-
-        record: Any = self._batch.state[index]
-        balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in read_balls(record, 0.0))
-        left, right = (math.degrees(paddle.angle) for paddle in read_paddles(record))
-        time = int(record["tick"]) / self._batch.tick_rate
-        return Moment(time, balls, (left, right), int(record["score"]))

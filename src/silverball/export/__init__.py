@@ -1,1 +1,1 @@
-"""Recordings of play in a file: a PNG picture, a GIF or an MP4 film with sound."""
+"""Recordings of play as files: PNG pictures, GIF films, and MP4 films with sound."""

@@ -1,7 +1,7 @@
-"""How do pictures become a file? PNG for one, GIF or MP4 for many.
+"""Writing of pictures to files: one as PNG, many as GIF or MP4.
 
-A file is written under a temporary name beside its place and renamed when all of it is on the disk: an
-interruption or a full disk leaves nothing, and a file that was there stays as it was.
+A file is written under a temporary name in the same folder and renamed when it is complete, so that after an
+interruption or on a full disk nothing is left behind, and a file that existed before is unchanged.
 """
 
 from __future__ import annotations
@@ -18,31 +18,31 @@ from numpy.typing import NDArray
 
 from silverball.app.sound.mixdown import Soundtrack
 from silverball.errors import OutputError
-from silverball.export.mp4 import require_ffmpeg, write_mp4
+from silverball.export.mp4 import require_av, write_mp4
 from silverball.wholefile import is_special, write_whole
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
 Picture: TypeAlias = NDArray[np.uint8]
-"""RGB, shape [row, column, 3]; rows and columns are even, as video wants them."""
+"""RGB, uint8 [row, column, 3]; H.264 needs an even number of rows and columns."""
 
 FILM_RATES = {".gif": 25, ".mp4": 60}
-"""Pictures per second by ending. A GIF counts in hundredths of a second; every viewer keeps to 4 of them."""
+"""Pictures per second by ending. A GIF counts in hundredths of a second; all viewers support 4 of them."""
 
-PALETTE_PICTURES = 50  # of the beginning of a GIF, from which its colours are chosen
-PALETTE_EVERY = 5
-SHADE_BITS = 2  # lowest bits of a colour that make no other shade when colours are chosen
-COLORS = 255  # one more is kept for "as before"
-DITHER = 5.0  # [level] of the fixed pattern that hides the steps between a GIF's colours
+PALETTE_PICTURES = 50  # at the beginning of a GIF, from which its palette is chosen
+PALETTE_EVERY = 5  # only every fifth of them is used
+SHADE_BITS = 2  # lowest bits of a colour that are ignored when the palette is chosen
+COLORS = 255  # one of 256 is reserved for "unchanged"
+DITHER = 5.0  # [level] amplitude of the dither
 
 
 def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> None:
-    """Say at once, not after a minute of work, that a file cannot be written.
+    """Check before the work, not after a minute of it, that a file can be written.
 
     Raises:
-        OutputError: The ending is unknown, the folder is not there or not writable, or the file exists.
-        MissingExtra: An MP4 needs the package imageio-ffmpeg.
+        OutputError: The ending is unknown, the folder does not exist or is not writable, or the file exists.
+        MissingExtra: An MP4 needs PyAV, and it is not installed.
     """
     allowed = tuple(endings)
     if path.suffix.lower() not in allowed:
@@ -50,17 +50,17 @@ def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> 
             f"{path}: the name must end in {' or '.join(allowed)}, got {path.suffix or 'no ending'!r}"
         )
     if not path.parent.is_dir():
-        raise OutputError(f"{path}: there is no folder {str(path.parent)!r}; make it first")
+        raise OutputError(f"{path}: the folder {str(path.parent)!r} does not exist; create it first")
     if path.is_dir():
         raise OutputError(f"{path}: this is a folder; give the name of a file")
     if is_special(path):
-        raise OutputError(f"{path}: this is no ordinary file; give another name")
+        raise OutputError(f"{path}: this is not a regular file; give another name")
     if path.exists() and not force:
         raise OutputError(f"{path}: this file exists; choose another name, or overwrite it with --force")
     if not os.access(path.parent, os.W_OK):
         raise OutputError(f"{path}: no permission to write into the folder {str(path.parent)!r}")
     if path.suffix.lower() == ".mp4":
-        require_ffmpeg()
+        require_av()
 
 
 def write_picture(path: Path, picture: Picture) -> None:
@@ -82,18 +82,18 @@ def write_film(
     """Write pictures as GIF or MP4, at the rate of `FILM_RATES`.
 
     Args:
-        path: Of the file; its ending says which.
-        pictures: All of one size.
-        sound: Asked after the last picture; a GIF is silent.
+        path: Of the file, ending in .gif or .mp4.
+        pictures: All of the same size.
+        sound: Called after the last picture, for an MP4; by default the film is silent.
 
     Raises:
         OutputError: It cannot be written.
-        MissingExtra: An MP4 needs the package imageio-ffmpeg.
+        MissingExtra: An MP4 needs PyAV, and it is not installed.
     """
     if path.suffix.lower() == ".gif":
         _write_whole(path, lambda place: _write_gif(place, iter(pictures)))
     else:
-        _write_whole(path, lambda place: _write_mp4(place, iter(pictures), sound))
+        _write_whole(path, lambda place: write_mp4(place, pictures, FILM_RATES[".mp4"], sound))
 
 
 def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
@@ -124,10 +124,10 @@ def _write_gif(place: Path, pictures: Iterator[Picture]) -> None:
 
 
 def _palette(pictures: list[Picture]) -> Image:
-    """The colours that suit some pictures best.
+    """Choose a palette for some pictures.
 
-    The floor has a thousand times the pixels of a ball or a paddle and would get nearly all colours; every
-    shade therefore counts by the root of its pixels.
+    The floor has a thousand times the pixels of a ball or a paddle and would get nearly all colours, so every
+    shade is weighted by the square root of its number of pixels.
     """
     from PIL import Image
 
@@ -140,9 +140,9 @@ def _palette(pictures: list[Picture]) -> Image:
 
 
 def _with_palette(picture: Picture, palette: Image, pattern: NDArray[np.int16]) -> Image:
-    """A picture in the colours of a palette.
+    """Convert a picture to a palette.
 
-    The dither is the same in every picture, so that what does not move does not flicker, and packs well.
+    The dither is the same in every picture, so still areas do not flicker, and compress well.
     """
     from PIL import Image
 
@@ -152,21 +152,15 @@ def _with_palette(picture: Picture, palette: Image, pattern: NDArray[np.int16]) 
 
 def _pattern(shape: tuple[int, ...]) -> NDArray[np.int16]:
     row, column = np.arange(shape[0])[:, None], np.arange(shape[1])[None, :]
-    # The same evenly spread points as in canvas.to_bytes, here in whole levels around zero.
+    # The same evenly spread points as in bake_table.to_bytes, here in whole levels around zero.
     even = (0.7548776662 * column + 0.5698402910 * row) % 1.0 - 0.5
     return np.rint(DITHER * even).astype(np.int16)[..., None]
 
 
-def _write_mp4(place: Path, pictures: Iterator[Picture], sound: Callable[[], Soundtrack] | None) -> None:
-    first = next(pictures)
-    size = (first.shape[1], first.shape[0])
-    write_mp4(place, chain([first], pictures), size, FILM_RATES[".mp4"], sound)
-
-
 class _Sink:
-    """A file as Pillow may have it: without a descriptor, into which it would write past Python.
+    """A file without a descriptor, so that Pillow writes through Python.
 
-    Its own writing does not notice when only a part of the bytes finds room.
+    Writing to a descriptor itself, Pillow would not notice when only a part of the bytes is written.
     """
 
     def __init__(self, file: IO[bytes]) -> None:

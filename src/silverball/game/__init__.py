@@ -1,4 +1,1 @@
-"""What does it all mean? Rules make a game of a world: points, balls left, tilt, replays, high scores.
-
-No window in here: the window, the films and the tests are all callers of the same `Game`.
-"""
+"""Games: a world plus rules, with scores, replays and saved states; no window and no clock in here."""

@@ -1,52 +1,57 @@
-"""What does a game make of what happens? Pure functions from an event to points, balls left and news.
+"""The interface between a game and its rules: what rules receive, remember and return.
 
-A `RuleState` is all that the rules remember, `RuleConfig` are the table's numbers in ticks. Every function
-takes both, with the tick, and gives the next standing and the news; nothing here has a state of its own or
-knows
-of a world. Ticks are counted from the game's beginning; the events of a tick carry its number, and what the
-player or the machine does comes before the tick of its number.
+`Rules` is a protocol of pure functions: each takes the configuration and the state, and returns the next
+state and the events to report. `ArcadeRules` and `FreeRules` (`builtin_rules`) implement it; pass your own
+implementation as `Game(..., rules=...)`.
+
+Ticks count from the beginning of the game. An event that happens within a tick carries the number of that
+tick; an action of the player or of the machine comes before the tick whose number it carries.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self, TypeAlias
 
-from silverball.game import tilt
 from silverball.game.view import GameEvent, GameEventKind, Mode
 
 if TYPE_CHECKING:
     from silverball.table import Table
 
 RULES_VERSION = 1
-"""Raised whenever the same table, seed and inputs would give another game than before by these rules."""
+"""Raised whenever the built-in rules give another game than before for the same table, seed and inputs."""
 
-NO_COMBOS = -1  # ticks within which hits make a combo where none do
+NO_COMBOS = -1  # `combo_ticks` of rules without combos
+NAME_LIMIT = 60  # characters of the name of rules
 
 
 class RuleConfig(NamedTuple):
-    """The rules of one game in ticks; see `silverball.table.Arcade` for their meaning.
+    """The numbers of one game, with durations in ticks; see `silverball.table.Arcade` for their meaning.
 
     Attributes:
-        mode: Which game.
-        balls: Of the whole game; 0: as many as one likes.
-        most_balls: On the board at once.
-        save_ticks: A ball lost within so many ticks of its start is given back.
-        saves: So often for one ball.
-        combo_ticks: So long a combo waits for the next hit; negative: there are no combos.
-        combo_step: Hits that raise the factor by one.
-        combo_limit: Its greatest value.
-        double: The factor while two balls are on the board.
-        tilt_decay: Of the swing [tick].
-        tilt_warning: A swing that is warned of.
-        tilt_limit: A swing that is a tilt.
-        warnings: For each ball.
-        un_stick: After so many ticks a still ball is shoved.
-        stall: After so many ticks without a hit that scores every ball is.
+        balls: Balls of the whole game; 0 means any number.
+        max_balls: The most balls on the board at once.
+        save_ticks: A ball lost within this time after its start is given back [ticks].
+        saves: How often one ball is given back.
+        combo_ticks: Time for the next hit of a combo [ticks]; `NO_COMBOS`: there are no combos.
+        combo_step: Hits in a row that raise the multiplier by one.
+        combo_limit: Greatest multiplier of a combo.
+        double: Multiplier while two balls are in play.
+        tilt_decay: Time constant of the tilt bob [ticks].
+        tilt_warning: Swing that causes a warning.
+        tilt_limit: Swing that causes a tilt.
+        warnings: Warnings per ball.
+        unstick_ticks: The machine shoves a ball that has lain still for this time [ticks].
+        stall_ticks: The machine shoves if nothing has scored for this time [ticks].
+        auto_shove: Whether the machine shoves at all.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.RuleConfig.of(sb.load_table("classic"), tick_rate=240).balls
+        3
     """
 
-    mode: Mode
     balls: int
-    most_balls: int
+    max_balls: int
     save_ticks: int
     saves: int
     combo_ticks: int
@@ -57,43 +62,51 @@ class RuleConfig(NamedTuple):
     tilt_warning: float
     tilt_limit: float
     warnings: int
-    un_stick: int
-    stall: int
+    unstick_ticks: int
+    stall_ticks: int
+    auto_shove: bool
 
     @classmethod
-    def of(cls, table: Table, mode: Mode, tick_rate: int) -> Self:
-        """The laws of a game on a table."""
-        arcade, most = table.arcade, table.board.max_balls
-        plays = mode is Mode.ARCADE
+    def of(cls, table: Table, tick_rate: int) -> Self:
+        """The numbers of the table's `[arcade]` section.
+
+        Args:
+            table: The table.
+            tick_rate: Ticks per second.
+        """
+        arcade = table.arcade
         return cls(
-            mode=mode,
-            balls=arcade.balls if plays else 0,
-            most_balls=most,
-            save_ticks=round(arcade.ball_save * tick_rate) if plays else 0,
-            saves=arcade.ball_saves if plays else 0,
-            combo_ticks=round(arcade.combo_window * tick_rate)
-            if plays and arcade.combo_window
-            else NO_COMBOS,
+            balls=arcade.balls,
+            max_balls=table.board.max_balls,
+            save_ticks=round(arcade.ball_save * tick_rate),
+            saves=arcade.ball_saves,
+            combo_ticks=round(arcade.combo_window * tick_rate) if arcade.combo_window else NO_COMBOS,
             combo_step=arcade.combo_step,
             combo_limit=arcade.combo_limit,
-            double=arcade.double if plays else 1,
+            double=arcade.double,
             tilt_decay=arcade.tilt_decay * tick_rate,
             tilt_warning=arcade.tilt_warning,
             tilt_limit=arcade.tilt_limit,
             warnings=arcade.warnings,
-            un_stick=round(arcade.un_stick * tick_rate),
-            stall=round(arcade.stall * tick_rate),
+            unstick_ticks=round(arcade.un_stick * tick_rate),
+            stall_ticks=round(arcade.stall * tick_rate),
+            auto_shove=True,
         )
 
 
 class InPlay(NamedTuple):
-    """A ball of the game.
+    """A ball in play.
 
     Attributes:
-        id: In the world; 0 while it waits to be put back.
-        number: In the game: 1, 2, 3, …
-        safe_until: Lost before this tick it is given back.
-        saves: How often that may still be.
+        id: Its id in the world; 0 while it waits to return to the board.
+        number: Its number in the game: 1, 2, 3, …
+        safe_until: If it is lost before this tick, it is given back.
+        saves: How often it may still be given back.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.InPlay(id=4, number=1, safe_until=960, saves=1).number
+        1
     """
 
     id: int
@@ -103,20 +116,27 @@ class InPlay(NamedTuple):
 
 
 class RuleState(NamedTuple):
-    """All that the rules remember of a game.
+    """Everything that the rules remember of a game; it is part of saved games and of their digests.
 
     Attributes:
-        score: Points so far.
+        score: Points so far, at least 0.
         used: Balls started so far.
-        balls: The balls in play, with those that wait to be put back.
+        balls: The balls in play, including those that wait to return.
         combo: Hits in a row.
-        combo_tick: When the last of them was.
-        warnings: Of the present ball.
-        swing: Of the plumb-bob after the last shove.
-        swing_tick: When that was.
+        combo_tick: The tick of the last of them.
+        warnings: Tilt warnings of the present ball.
+        swing: Swing of the tilt bob after the last shove.
+        swing_tick: The tick of that shove.
         tilted: Whether the paddles are dead.
-        quiet_since: When there last was a hit that scores, or a new ball.
+        quiet_since: The tick of the last hit that scored or of the last new ball: the machine shoves if this
+            was too long ago.
         over: Whether the game has ended.
+        memory: Whatever else rules of your own remember, as a JSON value; never change it in place.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.RuleState(score=10)._replace(score=20).score
+        20
     """
 
     score: int = 0
@@ -130,120 +150,102 @@ class RuleState(NamedTuple):
     tilted: bool = False
     quiet_since: int = 0
     over: bool = False
+    memory: Any = None
 
     @property
     def waiting(self) -> tuple[InPlay, ...]:
-        """The balls that are to be put back."""
+        """The balls that wait to return to the board."""
         return tuple(ball for ball in self.balls if ball.id == 0)
 
 
-Outcome = tuple[RuleState, tuple[GameEvent, ...]]
+Outcome: TypeAlias = tuple[RuleState, tuple[GameEvent, ...]]
+"""What rules return: the next state, and the events to report."""
 
 
-def refusal(laws: RuleConfig, now: RuleState) -> str:
-    """Why the player cannot bring a ball now, as a sentence; empty if nothing in the rules forbids it."""
-    if now.over:
-        return "the game is over; begin a new one to play on"
-    if now.tilted:
-        return "tilt: the next ball comes when the board is empty"
-    if laws.balls and now.used >= laws.balls:
-        return f"no ball is left: this is ball {now.used} of {laws.balls}"
-    if now.waiting and len(now.balls) >= laws.most_balls:
-        return "the ball that was saved comes back first; wait until there is room for it"
-    return ""
+class Rules(Protocol):
+    """The scoring of a game, as `Game(..., rules=...)` takes it.
+
+    All methods are pure: the same arguments give the same result, and the object holds no state of a game.
+    Otherwise replays do not verify and saved games do not continue as they were. To change only some of the
+    built-in rules, derive from `ArcadeRules` or `FreeRules`.
+
+    Attributes:
+        name: Stands in replays and saved games; up to 60 printable characters, not the name of a mode.
+
+    Example:
+        >>> import silverball as sb
+        >>> class Cylinders(sb.ArcadeRules):
+        ...     name = "only cylinders"
+        ...     def hit(self, config, state, tick, points, part):
+        ...         worth = 10 if part.startswith("cylinder") else 0
+        ...         return super().hit(config, state, tick, worth, part)
+        >>> game = sb.Game("classic", seed=7, rules=Cylinders())
+        >>> game.create_ball()
+        >>> game.step(ticks=2400)
+        >>> game.score % 10
+        0
+    """
+
+    @property
+    def name(self) -> str:
+        """The name of the rules."""
+
+    def configure(self, table: Table, tick_rate: int) -> RuleConfig:
+        """The numbers of a game on a table; called once, when the game is made."""
+
+    def refusal(self, config: RuleConfig, state: RuleState) -> str:
+        """Why the player cannot start a ball now, as a sentence; empty if the rules allow it."""
+
+    def started(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
+        """The player has started the ball with this id."""
+
+    def returned(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
+        """The first of the waiting balls is on the board again, with this id."""
+
+    def hit(self, config: RuleConfig, state: RuleState, tick: int, points: int, part: str) -> Outcome:
+        """A ball has hit a part.
+
+        Args:
+            config: The numbers of the game.
+            state: The state before.
+            tick: The tick of the hit.
+            points: The points of the part in the table.
+            part: The path of the part. Empty for hits that did not fit into the event log of the world, as
+                in a jam: `points` is their sum then.
+        """
+
+    def drained(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
+        """The ball with this id has left through the gutter."""
+
+    def shoved(self, config: RuleConfig, state: RuleState, tick: int) -> Outcome:
+        """The player has shoved the table."""
+
+    def multiplier(self, config: RuleConfig, state: RuleState, tick: int) -> int:
+        """The present multiplier of points, for the display."""
 
 
-def started(laws: RuleConfig, now: RuleState, tick: int, ball: int) -> Outcome:
-    """The player has brought a ball, which has this id in the world; only one that comes alone is saved."""
-    saves = laws.saves if not now.balls else 0
-    mine = InPlay(ball, now.used + 1, tick + laws.save_ticks if saves else 0, saves)
-    after = now._replace(used=now.used + 1, balls=(*now.balls, mine), quiet_since=tick)
-    doubles = laws.double > 1 and len(after.balls) > 1
-    return after, (GameEvent(GameEventKind.DOUBLE_ON, tick, laws.double),) if doubles else ()
+def running_combo(config: RuleConfig, state: RuleState, tick: int) -> int:
+    """Hits in a row so far; 0 if the time for the next one is over."""
+    return state.combo if tick - state.combo_tick <= config.combo_ticks else 0
 
 
-def put_back(laws: RuleConfig, now: RuleState, tick: int, ball: int) -> Outcome:
-    """The first of the waiting balls is on the board again, under this id."""
-    back = now.waiting[0]
-    safe = tick + laws.save_ticks if back.saves else 0
-    balls = list(now.balls)
-    balls[balls.index(back)] = back._replace(id=ball, safe_until=safe)
-    return now._replace(balls=tuple(balls), quiet_since=tick), ()
-
-
-def hit(laws: RuleConfig, now: RuleState, tick: int, points: int, part: str) -> Outcome:
-    """A ball has hit a part that is worth points."""
-    now = now._replace(quiet_since=tick)
-    if now.tilted:
-        return now, ()
-    combo = running_combo(laws, now, tick) + 1 if laws.combo_ticks >= 0 else 0
-    now = now._replace(combo=combo, combo_tick=tick)
-    worth = points * multiplier(laws, now, tick)
-    news: tuple[GameEvent, ...] = (GameEvent(GameEventKind.SCORED, tick, worth, part),)
-    if combo > 1:
-        news += (GameEvent(GameEventKind.COMBO, tick, combo, part),)
-    return now._replace(score=now.score + worth), news
-
-
-def running_combo(laws: RuleConfig, now: RuleState, tick: int) -> int:
-    """Hits in a row so far, 0 if the time for the next one is over."""
-    return now.combo if tick - now.combo_tick <= laws.combo_ticks else 0
-
-
-def multiplier(laws: RuleConfig, now: RuleState, tick: int) -> int:
-    """By which points are multiplied: the factor of the combo, and that of two balls."""
-    combo = running_combo(laws, now, tick)
-    factor = min(1 + max(combo - 1, 0) // laws.combo_step, laws.combo_limit)
-    return factor * (laws.double if len(now.balls) > 1 else 1)
-
-
-def drained(laws: RuleConfig, now: RuleState, tick: int, ball: int) -> Outcome:
-    """A ball has left through the gutter."""
-    gone = next((one for one in now.balls if one.id == ball), None)
-    if gone is None:
-        return now, ()
-    others = tuple(one for one in now.balls if one is not gone)
-    if gone.saves and tick < gone.safe_until and not now.tilted:
-        waits = gone._replace(id=0, saves=gone.saves - 1, safe_until=0)
-        saved = (GameEvent(GameEventKind.BALL_SAVED, tick, gone.number),)
-        return now._replace(balls=(*others, waits)), saved
-    news: tuple[GameEvent, ...] = (GameEvent(GameEventKind.BALL_LOST, tick, gone.number),)
-    if laws.double > 1 and len(now.balls) > 1 and len(others) <= 1:
-        news += (GameEvent(GameEventKind.DOUBLE_OFF, tick),)
-    now = now._replace(balls=others)
-    if others:
-        return now, news
-    now = now._replace(tilted=False, warnings=0, combo=0)
-    if laws.balls and now.used >= laws.balls:
-        return now._replace(over=True), (*news, GameEvent(GameEventKind.OVER, tick, now.score))
-    return now, (*news, GameEvent(GameEventKind.BALL_READY, tick, now.used + 1))
-
-
-def shoved(laws: RuleConfig, now: RuleState, tick: int) -> Outcome:
-    """The player shoves the table; in free play that costs nothing."""
-    if laws.mode is Mode.FREE or now.tilted:
-        return now, ()
-    swing = tilt.faded(now.swing, tick - now.swing_tick, laws.tilt_decay) + tilt.SHOVE
-    verdict = tilt.judged(swing, now.warnings, laws.tilt_warning, laws.tilt_limit, laws.warnings)
-    now = now._replace(swing=swing, swing_tick=tick)
-    if verdict is tilt.Verdict.TILT:
-        return now._replace(tilted=True, combo=0), (GameEvent(GameEventKind.TILT, tick),)
-    if verdict is tilt.Verdict.WARNING:
-        now = now._replace(warnings=now.warnings + 1)
-        return now, (GameEvent(GameEventKind.WARNING, tick, now.warnings),)
-    return now, ()
-
-
-def ended(now: RuleState, tick: int) -> Outcome:
-    """The game ends here, whoever wants it."""
-    if now.over:
-        return now, ()
-    return now._replace(over=True), (GameEvent(GameEventKind.OVER, tick, now.score),)
+def ended(state: RuleState, tick: int) -> Outcome:
+    """The game ends here, whatever the rules."""
+    if state.over:
+        return state, ()
+    return state._replace(over=True), (GameEvent(GameEventKind.OVER, tick, state.score),)
 
 
 def points_by_part(table: Table) -> dict[str, int]:
-    """The points for a hit, by the path of the part, as events give it."""
+    """The points of every part in the table, by its path as events give it."""
     points = {f"paddle.{paddle.side}": paddle.points for paddle in table.paddle}
     for kind in ("slant_wall", "triangular_prism", "cylinder"):
         points |= {f"{kind}[{number}]": part.points for number, part in enumerate(getattr(table, kind))}
     return points
+
+
+def is_own_name(name: object) -> bool:
+    """Whether rules that are not built in may have this name."""
+    if not isinstance(name, str) or name != name.strip() or not 0 < len(name) <= NAME_LIMIT:
+        return False
+    return name.isprintable() and name not in {str(mode) for mode in Mode}

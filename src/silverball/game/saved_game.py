@@ -1,50 +1,98 @@
-"""What are the bytes of a saved game? The saved world and the text of the rules, sealed with a checksum."""
+"""The bytes of a saved game: the saved world and the state of the rules, sealed with a checksum.
+
+The state of the rules, of the stuck-ball tracker and of the buttons is kept as JSON. This JSON is part of the
+digests in replays, so its keys keep their names whatever the attributes are called.
+"""
 
 from __future__ import annotations
 
 import json
 import struct
-from typing import Any
+from typing import Any, NamedTuple
 
 from silverball.errors import StateError
 from silverball.game.rules import InPlay, RuleState
-from silverball.game.stuck import Rest, Watch
+from silverball.game.stuck import Rest, StuckTracker
 from silverball.physics import PHYSICS_VERSION
-from silverball.world import saved_world as states
+from silverball.world import saved_world
 
 MAGIC = b"SILVERGM"
 HEADER = struct.Struct("<8sqqq")  # magic, format, physics version, bytes of the world
 
-Own = tuple[bool, bool, bool, bool]  # buttons left and right; shoves to come: the player's, the machine's
+
+class GameState(NamedTuple):
+    """Everything that a game remembers beside its world.
+
+    Attributes:
+        rules: The state of the rules.
+        stuck: The state of the stuck-ball tracker.
+        left: Whether the left button is held.
+        right: Whether the right button is held.
+        shove: Whether a shove of the player comes in the next tick.
+        auto_shove: Whether a shove of the machine comes in the next tick.
+        own_rules: The name of the rules; empty for the built-in ones.
+    """
+
+    rules: RuleState
+    stuck: StuckTracker
+    left: bool
+    right: bool
+    shove: bool
+    auto_shove: bool
+    own_rules: str
+
+    def to_json(self) -> str:
+        """The state as JSON in ASCII; equal states have equal texts."""
+        data = self.rules._asdict() | {"balls": [ball._asdict() for ball in self.rules.balls]}
+        if self.rules.memory is None:
+            del data["memory"]
+        data["watch"] = self.stuck._asdict() | {"rests": [rest._asdict() for rest in self.stuck.rests]}
+        data |= {"left": self.left, "right": self.right, "shove": self.shove, "machine": self.auto_shove}
+        if self.own_rules:
+            data["own_rules"] = self.own_rules
+        return json.dumps(data, separators=(",", ":"))
+
+    @classmethod
+    def from_json(cls, text: str) -> GameState:
+        """The state of a text of `to_json`.
+
+        Raises:
+            ValueError, TypeError, KeyError: The text is not one.
+        """
+        data: dict[str, Any] = json.loads(text)
+        left, right, shove, auto = (bool(data.pop(name)) for name in ("left", "right", "shove", "machine"))
+        own_rules = str(data.pop("own_rules", ""))
+        watch = data.pop("watch")
+        stuck = StuckTracker(tuple(Rest(**rest) for rest in watch.pop("rests")), **watch)
+        balls = tuple(InPlay(**ball) for ball in data.pop("balls"))
+        return cls(RuleState(**data, balls=balls), stuck, left, right, shove, auto, own_rules)
 
 
-def pack_game(mode: str, ended: str, world: bytes, rules_text: str) -> bytes:
-    """A game as bytes."""
-    header = HEADER.pack(MAGIC, states.FORMAT, PHYSICS_VERSION, len(world))
-    words = f"{mode} {ended} {rules_text}".encode("ascii")
-    return states.sealed(header + world + words)
+def pack_game(mode: str, ended: str, world: bytes, state_json: str) -> bytes:
+    """The bytes of a game.
+
+    Args:
+        mode: The mode of the game.
+        ended: How it ended, see `GameCore.ended`.
+        world: The saved world.
+        state_json: What `GameState.to_json` gave.
+    """
+    header = HEADER.pack(MAGIC, saved_world.FORMAT, PHYSICS_VERSION, len(world))
+    words = f"{mode} {ended} {state_json}".encode("ascii")
+    return saved_world.seal(header + world + words)
 
 
-def unpack_game(state: bytes) -> tuple[str, str, bytes, tuple[RuleState, Watch, Own]]:
-    """The mode of a saved game, how it ended, its world and what its rules remember.
+def unpack_game(state: bytes) -> tuple[str, str, bytes, GameState]:
+    """The mode of a saved game, how it ended, its saved world and everything else that it remembers.
 
     Raises:
         StateError: The bytes are damaged or of another version.
     """
-    body = states.opened(state, MAGIC, HEADER, "Game.save")
+    body = saved_world.unseal(state, MAGIC, HEADER, "Game.save")
     *_, size = HEADER.unpack_from(body)
     world, words = body[HEADER.size : HEADER.size + size], body[HEADER.size + size :]
     try:
         mode, ended, text = words.decode("ascii").split(" ", 2)
-        return mode, ended, world, _remembered(json.loads(text))
-    except (ValueError, TypeError, KeyError):
-        raise StateError("the state is damaged: it does not hold what a game remembers") from None
-
-
-def _remembered(data: dict[str, Any]) -> tuple[RuleState, Watch, Own]:
-    own = tuple(bool(data.pop(name)) for name in ("left", "right", "shove", "machine"))
-    watch = data.pop("watch")
-    rests = tuple(Rest(**rest) for rest in watch.pop("rests"))
-    balls = tuple(InPlay(**ball) for ball in data.pop("balls"))
-    left, right, shove, machine = own
-    return RuleState(**data, balls=balls), Watch(rests, **watch), (left, right, shove, machine)
+        return mode, ended, world, GameState.from_json(text)
+    except (ValueError, TypeError, KeyError, AttributeError):
+        raise StateError("the state is damaged: it does not hold the state of a game") from None

@@ -1,8 +1,9 @@
-"""When does the machine shove the balls by itself? When one lies still, or when nothing has scored for long.
+"""Stuck balls: the machine shoves by itself if a ball lies still or if nothing has scored for long.
 
-The game looks four times a second, at ticks that depend on nothing but the tick rate. A ball that is found
-where it was is still: it lies, or it hops on one spot. Where the paddles reach, a ball is the player's while
-a button is held or was let go a moment ago; but who holds it too long without scoring gets a shove too.
+The game checks four times a second, at ticks that depend on the tick rate alone. A ball found where it was
+before is still: it lies, or it hops on one spot. A ball within reach of the paddles belongs to the player
+while a button is held or was released a moment ago; but a player who holds it too long without scoring gets
+a shove too.
 """
 
 from __future__ import annotations
@@ -14,18 +15,18 @@ if TYPE_CHECKING:
 
     from silverball.game.rules import RuleConfig
 
-LOOKS = 4  # a second
-STILL_DISTANCE = 0.03  # [u] a ball that stays within it lies still; it hops by less than 0.001 u
+CHECK_RATE = 4  # checks per second
+STILL_DISTANCE = 0.03  # [u] a ball that stays within it lies still; hopping moves it by less than 0.001 u
 
 
 class Rest(NamedTuple):
     """Where a ball was last seen to move.
 
     Attributes:
-        ball: Its id.
-        x: Up the table [u].
-        z: Across [u].
-        since: The tick of that look.
+        ball: The id of the ball.
+        x: Position up the table [u].
+        z: Position across the table [u].
+        since: The tick of that check.
     """
 
     ball: int
@@ -34,13 +35,13 @@ class Rest(NamedTuple):
     since: int
 
 
-class Watch(NamedTuple):
-    """What is remembered from look to look.
+class StuckTracker(NamedTuple):
+    """What is remembered from check to check.
 
     Attributes:
-        rests: Of every ball on the board.
-        released: When a button was last let go.
-        shoved: When the machine last shoved.
+        rests: One for each ball on the board.
+        released: The tick in which a button was last released.
+        shoved: The tick in which the machine last shoved.
     """
 
     rests: tuple[Rest, ...] = ()
@@ -48,45 +49,47 @@ class Watch(NamedTuple):
     shoved: int = 0
 
 
-def looked(watch: Watch, balls: Iterable[tuple[int, float, float]], tick: int) -> Watch:
-    """The watch after a look at the balls (id, x, z) on the board."""
-    before = {rest.ball: rest for rest in watch.rests}
+def updated(tracker: StuckTracker, balls: Iterable[tuple[int, float, float]], tick: int) -> StuckTracker:
+    """The tracker after a check of the balls (id, x, z) on the board."""
+    before = {rest.ball: rest for rest in tracker.rests}
     rests = []
     for ball, x, z in balls:
-        seen = before.get(ball)
-        lies = seen is not None and abs(x - seen.x) + abs(z - seen.z) < STILL_DISTANCE
-        rests.append(seen if seen is not None and lies else Rest(ball, x, z, tick))
-    return watch._replace(rests=tuple(rests))
+        rest = before.get(ball)
+        is_still = rest is not None and abs(x - rest.x) + abs(z - rest.z) < STILL_DISTANCE
+        rests.append(rest if rest is not None and is_still else Rest(ball, x, z, tick))
+    return tracker._replace(rests=tuple(rests))
 
 
-def still_ball(watch: Watch, laws: RuleConfig, tick: int) -> bool:
-    """Whether a ball lies still for as long as a table lets it."""
-    return any(tick - rest.since >= laws.un_stick for rest in watch.rests)
+def has_still_ball(tracker: StuckTracker, config: RuleConfig, tick: int) -> bool:
+    """Whether a ball has lain still for as long as the table allows."""
+    return any(tick - rest.since >= config.unstick_ticks for rest in tracker.rests)
 
 
-def wants_shove(
-    watch: Watch, laws: RuleConfig, tick: int, *, held: bool, reach: float, quiet_since: int | None
+def needs_shove(
+    tracker: StuckTracker, config: RuleConfig, tick: int, *, held: bool, reach: float, quiet_since: int | None
 ) -> bool:
     """Whether the machine shoves now.
 
     Args:
-        watch: After the look of this tick.
-        laws: Of the game.
-        tick: Now.
+        tracker: After the check of this tick.
+        config: The numbers of the game.
+        tick: The present tick.
         held: Whether a button is held and moves its paddle.
         reach: No paddle reaches a ball above this x [u].
-        quiet_since: When there last was a hit that scores, or a new ball; None: nothing on this table scores.
+        quiet_since: The tick of the last hit that scored or of the last new ball; None: nothing on this
+            table scores.
     """
-    if not watch.rests or tick - watch.shoved < laws.un_stick:
+    if not tracker.rests or tick - tracker.shoved < config.unstick_ticks:
         return False
-    if quiet_since is not None and tick - quiet_since >= laws.stall:
+    if quiet_since is not None and tick - quiet_since >= config.stall_ticks:
         return True
-    caught = held or tick - watch.released < laws.un_stick
+    is_caught = held or tick - tracker.released < config.unstick_ticks
     return any(
-        tick - rest.since >= laws.un_stick and not (caught and rest.x <= reach) for rest in watch.rests
+        tick - rest.since >= config.unstick_ticks and not (is_caught and rest.x <= reach)
+        for rest in tracker.rests
     )
 
 
-def shoved(watch: Watch, tick: int) -> Watch:
-    """The watch after a shove of the machine."""
-    return watch._replace(rests=tuple(rest._replace(since=tick) for rest in watch.rests), shoved=tick)
+def shoved(tracker: StuckTracker, tick: int) -> StuckTracker:
+    """The tracker after a shove of the machine."""
+    return tracker._replace(rests=tuple(rest._replace(since=tick) for rest in tracker.rests), shoved=tick)

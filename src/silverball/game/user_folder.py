@@ -1,4 +1,4 @@
-"""Where do a user's files belong? In the user's data folder, each whole or not at all."""
+"""The data folder of the user, and text files in it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from silverball.wholefile import write_whole
 
 
 def data_folder() -> Path:
-    """The folder for what a player keeps; the environment variable SILVERBALL_DATA names another one."""
+    """The folder for the user's data; the environment variable SILVERBALL_DATA names another one."""
     import platformdirs
 
     return Path(
@@ -17,13 +17,16 @@ def data_folder() -> Path:
     )
 
 
-def keep(text: str, name: str, folder: Path | None = None) -> Path | None:
-    """Write a text into the data folder.
+def write_user_file(text: str, name: str, folder: Path | None = None) -> Path | None:
+    """Write a text file, whole or not at all; a file of this name is replaced.
 
-    A file of that name is replaced in one step, so that there is always a whole one.
+    Args:
+        text: The content.
+        name: The name of the file.
+        folder: Its folder; None: the data folder.
 
     Returns:
-        Where it is, or None where nothing can be written: playing does not depend on it.
+        The path, or None if the file cannot be written: playing does not depend on it.
     """
     path = (folder or data_folder()) / name
     try:

@@ -1,6 +1,6 @@
-"""What does a game tell of itself? Its face, as plain values, and the news since it was last asked.
+"""What a game shows: its view as plain values, and the events that it reports.
 
-The display, the sounds and the films read these two and nothing else of a game.
+The score display, the sounds, the films and your own programs read these and nothing else of a game.
 """
 
 from __future__ import annotations
@@ -10,44 +10,68 @@ from typing import NamedTuple
 
 
 class Mode(StrEnum):
-    """Which game is played."""
+    """The two built-in games; where a mode is expected, its string will do.
 
-    FREE = "free"  # the original: as many balls as one likes, two at a time
-    ARCADE = "arcade"  # three balls, points for combos, tilt, high scores
+    Example:
+        >>> import silverball as sb
+        >>> sb.Mode("free") is sb.Mode.FREE
+        True
+    """
+
+    FREE = "free"  # the original game: any number of balls, two at a time, points without combos
+    ARCADE = "arcade"  # three balls, combos, ball save, tilt and high scores
 
 
 class Phase(StrEnum):
-    """Where a game stands."""
+    """The phase of a game.
 
-    READY = "ready"  # no ball on the board; Space brings one
+    Example:
+        >>> import silverball as sb
+        >>> sb.Game("classic", seed=7).phase is sb.Phase.READY
+        True
+    """
+
+    READY = "ready"  # no ball is in play; `create_ball` starts one
     PLAY = "play"
-    OVER = "over"  # the last ball is gone; nothing moves any more
+    OVER = "over"  # the game has ended; nothing moves any more
 
 
 class GameEventKind(StrEnum):
-    """What there is to tell."""
+    """The kinds of game events.
 
-    BALL_READY = "ball_ready"  # value: the number of the ball that comes next
-    SCORED = "scored"  # value: points of one hit, everything counted in; part: which one was hit
-    COMBO = "combo"  # value: hits in a row, from the second one on
-    DOUBLE_ON = "double_on"  # two balls on the board: points count twice
+    Example:
+        >>> import silverball as sb
+        >>> sb.GameEventKind.TILT.value
+        'tilt'
+    """
+
+    BALL_READY = "ball_ready"  # value: the number of the next ball
+    SCORED = "scored"  # value: the points of one hit, multiplier included; part: the part that was hit
+    COMBO = "combo"  # value: hits in a row, from the second on
+    DOUBLE_ON = "double_on"  # two balls are in play and multiply the points; value: the multiplier
     DOUBLE_OFF = "double_off"
-    BALL_SAVED = "ball_saved"  # a ball lost in its first seconds does not count
-    BALL_LOST = "ball_lost"  # value: the number of the ball that is lost
-    WARNING = "warning"  # value: warnings of this ball so far; one more shove too many is a tilt
-    TILT = "tilt"  # paddles are dead until the board is empty
-    UN_STUCK = "un_stuck"  # a still ball was shoved by the machine
+    BALL_SAVED = "ball_saved"  # a ball lost in its first seconds comes back; value: its number
+    BALL_LOST = "ball_lost"  # value: the number of the ball
+    WARNING = "warning"  # value: tilt warnings of this ball so far
+    TILT = "tilt"  # the paddles are dead until the board is empty
+    UNSTUCK = "unstuck"  # the machine has shoved a ball that lay still
     OVER = "over"  # value: the score
 
 
 class GameEvent(NamedTuple):
-    """One thing that happened in a game.
+    """One event of a game.
 
     Attributes:
-        kind: What happened.
-        tick: When.
-        value: A number that belongs to it, see `GameEventKind`.
-        part: The path of the part that was hit, if one was.
+        kind: The kind of event.
+        tick: The tick in which it happened.
+        value: A number that belongs to it; see `GameEventKind`.
+        part: The path of the part that was hit, such as "cylinder[0]"; empty for other events.
+
+    Example:
+        >>> import silverball as sb
+        >>> game = sb.Game("classic", seed=7)
+        >>> game.events[0].kind
+        <GameEventKind.BALL_READY: 'ball_ready'>
     """
 
     kind: GameEventKind
@@ -57,21 +81,27 @@ class GameEvent(NamedTuple):
 
 
 class GameView(NamedTuple):
-    """What there is to show of a game at one time.
+    """Everything that a display of a game shows, at one moment.
 
     Attributes:
-        mode: Which game.
-        phase: Where it stands.
+        mode: The mode of the game.
+        phase: The phase of the game.
         score: Points so far.
         ball: The number of the present ball, from 1; in free play the balls created so far.
-        balls: Balls of the whole game; 0: as many as one likes.
+        balls: Balls of the whole game; 0 means any number.
         on_board: Balls on the board now.
-        combo: Hits in a row so far, 0 if none or the time for the next one is over.
-        multiplier: By which points are multiplied now.
+        combo: Hits in a row so far; 0 if there are none or the time for the next one is over.
+        multiplier: The present multiplier of points.
         save_left: How long a lost ball would still be given back [s].
         warnings: Tilt warnings of this ball so far.
         tilted: Whether the paddles are dead.
-        most_balls: How many balls the table allows at once.
+        max_balls: The most balls that the table allows at once.
+
+    Example:
+        >>> import silverball as sb
+        >>> view = sb.Game("classic", seed=7).view
+        >>> view.ball, view.balls, view.score
+        (1, 3, 0)
     """
 
     mode: Mode
@@ -85,4 +115,4 @@ class GameView(NamedTuple):
     save_left: float
     warnings: int
     tilted: bool
-    most_balls: int
+    max_balls: int

@@ -1,18 +1,12 @@
-"""How long does a ball live under a player, and how much does it score?
+"""Ball time: how long a ball lives under a player, and how much it scores.
 
-Each world gets one ball, which is watched until it is lost or the time is over. A ball lives only as long as
-it scores: one without points for `STALL` seconds is counted as lost at that moment, so that nobody wins by
-holding it. Balls that outlive the time are *censored*; the median is that of Kaplan and Meier, which takes
-them for what they are, balls that lived at least so long.
-
-Sources: E. L. Kaplan, P. Meier, "Nonparametric estimation from incomplete observations", J. Am. Stat. Assoc.
-53 (1958); interval of the median: R. Brookmeyer, J. Crowley, "A confidence interval for the median survival
-time", Biometrics 38 (1982), with the log-log transformation.
+Each world gets one ball, which is watched until it is lost or the time is over. A ball without points for
+`STALL` seconds counts as lost at that moment, so holding it does not pay. Balls that outlive the time are
+*censored*; the median takes them as balls that lived at least that long (`statistics.median_life`).
 """
 
 from __future__ import annotations
 
-import math
 import time
 from collections.abc import Callable
 from enum import IntEnum
@@ -21,23 +15,23 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.metrics.statistics import Estimate, mean, median_life, ratio
 from silverball.physics.records import BALL, Fault, records
-from silverball.players.batch_policies import deciding
+from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.planner import BRANCHES
 from silverball.players.simple import PlayerKind, press_all
 from silverball.world import WorldBatch
 
-STALL = 15.0  # [s] without points after which a ball is counted as lost; the environments end it alike
-NORMAL_95 = 1.959963984540054  # quantile of the normal distribution: 95 % lie within ± this
+STALL = 15.0  # [s] without points after which a ball counts as lost; the environments end an episode alike
 
 
 class End(IntEnum):
     """How a ball's life ended."""
 
-    ALIVE = 0  # it has not: censored
+    ALIVE = 0  # it has not ended: censored
     DRAINED = 1
     STALLED = 2  # no points for STALL seconds
-    NOT_BORN = 3  # the board had no room
+    NOT_BORN = 3  # the board had no free place
 
 
 LIFE = np.dtype(
@@ -51,19 +45,19 @@ LIFE = np.dtype(
 
 
 class BallTimes(NamedTuple):
-    """What came of it, intervals being those of 95 %.
+    """Lives and points of balls.
 
     Attributes:
-        balls: How many were watched.
-        drained: Lost through the gutter.
-        stalled: Lost by scoring nothing for STALL seconds.
-        alive: Alive at the end of the time.
-        seconds: That each was watched at most [s].
-        median: Of the life [s], with its interval; inf where it lies beyond the time.
-        mean: Of the life up to the time [s], with its interval.
-        score: Points of a ball up to the time, with its interval.
-        score_per_minute: Points in a minute of life, with its interval.
-        wall_seconds: That it took [s].
+        balls: Balls watched.
+        drained: Balls lost through the gutter.
+        stalled: Balls lost by scoring nothing for STALL seconds.
+        alive: Balls alive at the end of the time.
+        seconds: Longest time for which a ball was watched [s].
+        median: Median life [s]; inf where it lies beyond the time.
+        mean: Mean life up to the time [s].
+        score: Points of a ball up to the time.
+        score_per_minute: Points per minute of life.
+        wall_seconds: Real time that it took [s].
     """
 
     balls: int
@@ -71,16 +65,16 @@ class BallTimes(NamedTuple):
     stalled: int
     alive: int
     seconds: float
-    median: tuple[float, float, float]
-    mean: tuple[float, float, float]
-    score: tuple[float, float, float]
-    score_per_minute: tuple[float, float, float]
+    median: Estimate
+    mean: Estimate
+    score: Estimate
+    score_per_minute: Estimate
     wall_seconds: float
 
 
 def time_balls(
     batch: WorldBatch,
-    player: PlayerKind,
+    player: str,
     seconds: float,
     progress: Callable[[float], None] | None = None,
     branches: int = BRANCHES,
@@ -88,18 +82,21 @@ def time_balls(
     """Watch one ball in each world of a batch.
 
     Args:
-        batch: The worlds, without points so far; a ball is created where none has been.
-        player: Who presses.
-        seconds: For which a ball is watched at most [s].
+        batch: Worlds without points; a ball is created where there has been none.
+        player: The name of the player who presses.
+        seconds: Longest time for which a ball is watched [s].
         progress: Called now and then with the simulated seconds so far.
-        branches: That the planner tries at a decision.
+        branches: Futures that the planner tries at a decision.
 
     Returns:
         Lives and points of the balls.
+
+    Raises:
+        PlayerError: No player has that name, or a registered one failed.
     """
     lives = records(batch.count, LIFE)
-    hands = deciding(player, batch, branches)
-    every = 1 if hands is None else hands.every
+    policy, kind = batch_policy(player, batch, branches), kernel_player(player)
+    every = 1 if policy is None else policy.every
     actions = np.zeros((1, batch.count, 3), np.bool_)
     batch.create_balls(batch.state["created"] == 0)
     alive = batch.state["created"] > 0
@@ -107,12 +104,12 @@ def time_balls(
     ticks = round(seconds * batch.tick_rate)
     started = time.perf_counter()
     for done in range(every, ticks + 1, every):
-        if hands is None:
-            _press(batch, player, actions)
+        if policy is None:
+            _press(batch, kind, actions)
         else:
-            hands.decide()
-            actions[0, :, :2] = hands.buttons
-        batch.run(actions, every)
+            policy.decide()
+            actions[0, :, :2] = policy.buttons
+        batch.step_unchecked(actions, every)
         alive = note_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
         if progress is not None and done % batch.tick_rate < every:
             progress(done / batch.tick_rate)
@@ -121,19 +118,19 @@ def time_balls(
     return _summary(lives, seconds, batch.tick_rate, time.perf_counter() - started)
 
 
-def _press(batch: WorldBatch, player: PlayerKind, actions: NDArray[np.bool_]) -> None:
+def _press(batch: WorldBatch, kind: PlayerKind, actions: NDArray[np.bool_]) -> None:
     """Let a simple player choose the next tick's actions of all worlds."""
     boards = batch.boards
     press_all(
-        int(player), batch.state, boards.board, batch.board_of, boards.collider, 1.0 / batch.tick_rate,
+        int(kind), batch.state, boards.board, batch.board_of, boards.collider, 1.0 / batch.tick_rate,
         actions,
     )  # fmt: skip
 
 
 def note_lives(state: Any, lives: Any, alive: NDArray[np.bool_], ticks: int, stall: int) -> NDArray[np.bool_]:
-    """Write down what the last ticks did to the balls; which of them are alive, bool [ball].
+    """Record what the last ticks did to the balls; returns which of them are alive, bool [ball].
 
-    A ball that is counted as lost is taken off its board, so that nobody plays on with it.
+    A ball that counts as lost is removed from its board.
     """
     lives["ticks"][alive] += ticks
     scored = alive & (state["score"] != lives["score"])
@@ -161,49 +158,8 @@ def _summary(lives: Any, seconds: float, tick_rate: int, wall: float) -> BallTim
         alive,
         seconds,
         median_life(times, ended),
-        _mean(times),
-        _mean(points),
-        _ratio(points, times / 60.0),
+        mean(times),
+        mean(points),
+        ratio(points, times / 60.0),
         wall,
     )
-
-
-def median_life(times: NDArray[np.float64], ended: NDArray[np.bool_]) -> tuple[float, float, float]:
-    """The median of Kaplan and Meier with its interval of 95 %.
-
-    Args:
-        times: For how long each was seen alive [s], shape [ball].
-        ended: Whether its life ended then; else it was censored, shape [ball].
-
-    Returns:
-        The median, and the interval's ends [s]; inf where the curve does not come down so far.
-    """
-    survival, variance = 1.0, 0.0
-    found = [math.inf, math.inf, math.inf]  # median, low, high
-    for moment in np.unique(times[ended]):
-        at_risk = int((times >= moment).sum())
-        deaths = int((times[ended] == moment).sum())
-        survival *= 1.0 - deaths / at_risk
-        low = high = 0.0
-        if survival > 0.0:
-            variance += deaths / (at_risk * (at_risk - deaths))
-            spread = NORMAL_95 * math.sqrt(variance) / abs(math.log(survival))
-            low, high = survival ** math.exp(spread), survival ** math.exp(-spread)
-        for place, share in enumerate((survival, low, high)):
-            if share <= 0.5 and found[place] == math.inf:
-                found[place] = float(moment)
-    return found[0], found[1], found[2]
-
-
-def _mean(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    """The mean with its interval by the normal distribution."""
-    mean = float(values.mean())
-    error = NORMAL_95 * float(values.std(ddof=1)) / math.sqrt(len(values)) if len(values) > 1 else math.inf
-    return mean, mean - error, mean + error
-
-
-def _ratio(above: NDArray[np.float64], below: NDArray[np.float64]) -> tuple[float, float, float]:
-    """The ratio of two sums with its interval: the error of a ratio to first order."""
-    ratio = float(above.sum() / below.sum())
-    _, low, high = _mean((above - ratio * below) / below.mean())
-    return ratio, ratio + low, ratio + high

@@ -1,68 +1,31 @@
-"""How does a table play? Figures of its feel, from thousands of simulated games, with 95 % intervals.
+"""The feel of a table: figures from thousands of simulated games and swept shots, with 95 % intervals.
 
 `measure` lets every player play many games of one ball each (`game_traces.py`), sweeps the shots of each
-paddle
-(`shots.py`), and sums up. All of it follows from the table, the seed and the number of games.
+paddle (`shots.py`), and sums up. The result is a function of the table, the seed and the number of games.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from silverball.metrics.game_traces import CELLS, GAPS, TICK_RATE, Games, kind_of, play_games
+from silverball.metrics.game_traces import CELLS, GAPS, TICK_RATE, Games, Over, play_games
 from silverball.metrics.shots import Aim, Shots, shots_of
+from silverball.metrics.statistics import Estimate, ratio, share
+from silverball.physics.records import Kind
 from silverball.table import Table, generate_table
 from silverball.world import WorldBatch
 
 PLAYERS = ("idle", "random", "beginner", "reflex")
-NORMAL = 1.96  # standard deviations on either side that hold 95 %
 STUCK = 5.0  # [s] a ball that stays longer within half a unit is stuck
 BUNCH = 10.0  # [deg] the width within which shots are called bunched
 
 
-class Estimate(NamedTuple):
-    """A figure and the interval that holds the true one with 95 %."""
-
-    value: float
-    low: float
-    high: float
-
-
-def ratio(above: ArrayLike, below: ArrayLike) -> Estimate:
-    """Σ above / Σ below over independent games, neither ever negative; NaN where nothing is below.
-
-    The interval is that of the residuals, above − ratio·below, whose sum is nearly normal.
-    Source: W. G. Cochran, "Sampling Techniques" (1977), chapter 6, the ratio estimate.
-    """
-    a, b = np.asarray(above, np.float64), np.asarray(below, np.float64)
-    total = float(b.sum())
-    if total == 0.0:
-        return Estimate(float("nan"), float("nan"), float("nan"))
-    value = float(a.sum()) / total
-    wide = NORMAL * sqrt(float(((a - value * b) ** 2).sum())) / total
-    return Estimate(value, max(0.0, value - wide), value + wide)
-
-
-def share(count: int, of: int) -> Estimate:
-    """A share of independent cases, right for rare ones too.
-
-    Source: E. B. Wilson, Journal of the American Statistical Association 22 (1927).
-    """
-    if of == 0:
-        return Estimate(float("nan"), float("nan"), float("nan"))
-    p, z = count / of, NORMAL
-    middle = (p + z * z / (2.0 * of)) / (1.0 + z * z / of)
-    wide = z / (1.0 + z * z / of) * sqrt(p * (1.0 - p) / of + z * z / (4.0 * of * of))
-    return Estimate(p, max(0.0, middle - wide), min(1.0, middle + wide))
-
-
 class PlayerFeel(NamedTuple):
-    """How the table plays under one player; the docs say what each figure is good for.
+    """How the table plays under one player; docs/feel.md explains the figures.
 
     Attributes:
         figures: By name, with their intervals.
@@ -70,7 +33,7 @@ class PlayerFeel(NamedTuple):
         longest_stay_at: Where the longest stay was, x and z [u].
         cut_short: Games that did not end by themselves.
         cylinders: Share of the struck balls that met each cylinder, by name; of random boards by number.
-        games: All that came of them, maps included.
+        games: The traces of the games, maps included.
     """
 
     figures: dict[str, Estimate]
@@ -82,12 +45,12 @@ class PlayerFeel(NamedTuple):
 
 
 class Feel(NamedTuple):
-    """What `measure` found.
+    """The result of `measure`.
 
     Attributes:
         table: The table or recipe.
-        players: By name.
-        shots: Of each paddle and way; of a recipe those on the board without its random parts.
+        players: Figures by the name of the player.
+        shots: Shots of each paddle and way; of a recipe those on the board without its random parts.
     """
 
     table: Table
@@ -106,40 +69,59 @@ def measure(
 
     Args:
         table: A table, or a recipe, of which every game gets a board of its own.
-        games: For each player.
-        seed: Of the first game and board.
-        players: Which of PLAYERS.
-        progress: Called with what is done and its share, 0 to 1.
+        games: Games of each player.
+        seed: Seed of the first game and board.
+        players: Some of PLAYERS.
+        progress: Called with the name of the work and the share done, 0 to 1.
     """
-    said = progress or (lambda what, done: None)
+    report = progress or (lambda what, done: None)
     boards = [table] * games
     if table.random is not None:
         boards = []
         for number in range(games):
             boards.append(generate_table(seed + number, table))
-            said("making boards", (number + 1) / games)
+            report("making boards", (number + 1) / games)
     batch = WorldBatch(boards, games, seed, TICK_RATE)
     found = {}
     for name in players:
         played = play_games(
             batch,
-            kind_of(name),
-            lambda done, name=name: said(f"{name} games", done),  # type: ignore[misc]
+            name,
+            lambda done, name=name: report(f"{name} games", done),  # type: ignore[misc]
         )
-        found[name] = _player_feel(boards, played)
+        found[name] = _player_feel(batch, played)
     bare = table.model_copy(update={"random": None})
     ways = [(side, held) for side in ("left", "right") for held in (False, True)]
     shots = (shots_of(bare, side, held) for side, held in ways)
     return Feel(table, found, tuple(one for one in shots if one is not None))
 
 
-def _player_feel(boards: list[Table], games: Games) -> PlayerFeel:
+def hits_of(batch: WorldBatch, hits: NDArray[np.int64], kind: Kind) -> NDArray[np.int64]:
+    """The hits of all parts of a kind.
+
+    Args:
+        batch: The worlds.
+        hits: Hits of each part, [world, part].
+        kind: The kind.
+
+    Returns:
+        Hits, [world].
+    """
+    boards, width = batch.boards, hits.shape[1]
+    is_kind = np.zeros((len(boards.board), width), np.bool_)
+    for row, board in zip(is_kind, boards.board, strict=True):
+        kinds = boards.collider["kind"][board["collider_first"] : board["collider_end"]]
+        row[: len(kinds)] = kinds == kind
+    found: NDArray[np.int64] = (hits * is_kind[batch.board_of]).sum(axis=1)
+    return found
+
+
+def _player_feel(batch: WorldBatch, games: Games) -> PlayerFeel:
     state, game = games.state, games.game
     count = len(game)
     seconds = game["ticks"] / TICK_RATE
-    drained = game["over"] == 1
-    kinds = ("wall", "slant_wall", "paddle", "triangular_prism", "cylinder")
-    hits = sum(state[f"{kind}_hits"] for kind in kinds)
+    drained = game["over"] == Over.DRAINED
+    cylinder_hits = hits_of(batch, games.hits, Kind.CYLINDER)
     minutes = seconds / 60.0
     stay = game["longest_stay"] / TICK_RATE
     where = int(stay.argmax())
@@ -147,13 +129,13 @@ def _player_feel(boards: list[Table], games: Games) -> PlayerFeel:
         "seconds_per_ball": ratio(seconds, drained),
         "points_per_minute": ratio(state["score"], minutes),
         "points_per_ball": ratio(state["score"], drained),
-        "hits_per_second": ratio(hits, seconds),
-        "cylinder_hits_per_minute": ratio(state["cylinder_hits"], minutes),
-        "prism_hits_per_minute": ratio(state["triangular_prism_hits"], minutes),
+        "hits_per_second": ratio(games.hits.sum(axis=1), seconds),
+        "cylinder_hits_per_minute": ratio(cylinder_hits, minutes),
+        "prism_hits_per_minute": ratio(hits_of(batch, games.hits, Kind.TRIANGULAR_PRISM), minutes),
         "share_above_half_cap": ratio(game["fast"], game["ticks"]),
         "share_on_a_paddle": ratio(game["on_paddle"], game["ticks"]),
         "share_stuck": share(int((stay > STUCK).sum()), count),
-        "share_without_cylinder": share(int((state["cylinder_hits"] == 0).sum()), count),
+        "share_without_cylinder": share(int((cylinder_hits == 0).sum()), count),
         "strikes_per_minute": ratio(game["strikes"], minutes),
         "strikes_to_top": ratio(game["to_top"], game["strikes"]),
         "strikes_to_a_cylinder": ratio(game["to_cylinder"], game["strikes"]),
@@ -169,7 +151,7 @@ def _player_feel(boards: list[Table], games: Games) -> PlayerFeel:
         "p95_between_hits": _quantile(games.gaps, 0.95),
     }
     at = (float(game["longest_x"][where]), float(game["longest_z"][where]))
-    return PlayerFeel(figures, longest, at, int((~drained).sum()), _cylinders(boards, games), games)
+    return PlayerFeel(figures, longest, at, int((~drained).sum()), shares_of_cylinders(batch, games), games)
 
 
 def _quantile(gaps: NDArray[np.int64], part: float) -> float:
@@ -178,15 +160,17 @@ def _quantile(gaps: NDArray[np.int64], part: float) -> float:
     return (below + 1) / 10.0 if below < GAPS - 1 else float("inf")
 
 
-def _cylinders(boards: list[Table], games: Games) -> dict[str, Estimate]:
-    """Of the struck balls, the share that met each cylinder."""
-    first = boards[0]
-    offset = 5 + len(first.slant_wall) + len(first.triangular_prism)  # in the order of physics.layout.Part
-    strikes = games.game["strikes"]
-    return {
-        part.name or f"cylinder[{number}]": ratio(games.reached[:, offset + number], strikes)
-        for number, part in enumerate(first.cylinder)
-    }
+def shares_of_cylinders(batch: WorldBatch, games: Games) -> dict[str, Estimate]:
+    """Of the struck balls, the share that met each cylinder of the first board; boards without it aside."""
+    found = {}
+    for number, part in enumerate(batch.tables[0].cylinder):
+        path = f"cylinder[{number}]"
+        columns = [names.index(path) if path in names else -1 for names in batch.boards.names]
+        column = np.array(columns)[batch.board_of]
+        has_it = np.nonzero(column >= 0)[0]
+        reached = games.reached[has_it, column[has_it]]
+        found[part.name or path] = ratio(reached, games.game["strikes"][has_it])
+    return found
 
 
 def hot_cells(feel: PlayerFeel, table: Table, count: int = 3) -> list[tuple[float, float, float]]:
@@ -206,7 +190,7 @@ def hot_cells(feel: PlayerFeel, table: Table, count: int = 3) -> list[tuple[floa
 
 
 def shots_as_dict(shots: Shots) -> dict[str, Any]:
-    """The figures of a paddle's shots, for people and for JSON."""
+    """The figures of a paddle's shots, as JSON holds them."""
     directions, aimed = shots.directions(), shots.shot["direction"][shots.aim != Aim.NOWHERE]
     windows = {aim.name.lower(): shots.window(aim) for aim in (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)}
     struck = shots.shot[shots.shot["launched"] == 1]

@@ -1,8 +1,8 @@
-"""How do whole games go: one ball each, from its creation to the gutter, watched in every tick?
+"""Traces of whole games: one ball each, followed in every tick from its creation to the gutter.
 
-A compiled loop plays thousands of them under one player and keeps, beside the world's own counters, what a
-world does not know of itself: for how long the ball was fast, lay on a paddle, stayed in one place or made
-no points, and where a ball got to that was struck by a paddle.
+A compiled loop plays thousands of them under one player. Besides the world's own counters it records how long
+the ball was fast, lay on a paddle, stayed in one place or made no points, and what a ball reached after a
+paddle had struck it.
 
 Lengths are [u], times are counted in ticks of 1/`TICK_RATE` s. Maps have one cell for each quarter of a unit.
 """
@@ -10,18 +10,33 @@ Lengths are [u], times are counted in ticks of 1/`TICK_RATE` s. Maps have one ce
 from __future__ import annotations
 
 from collections.abc import Callable
+from enum import IntEnum
 from functools import partial
 from math import sqrt
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
-from silverball.physics.kernel import internal, kernel
+from silverball.physics.kernel import as_int, internal, kernel
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.random import uniform
-from silverball.physics.records import EventKind, Fault, Kind, Part, records
+from silverball.physics.portable_math import uniform
+from silverball.physics.records import (
+    BatchGeometry,
+    BoardGeometry,
+    BoardRecord,
+    Colliders,
+    EventKind,
+    Fault,
+    Kind,
+    Lane,
+    Lanes,
+    Part,
+    Places,
+    WorldRecord,
+    records,
+)
 from silverball.physics.step import step_world
 from silverball.players.simple import LOOK_AHEAD, PlayerKind, pressed, strikes
 from silverball.world import WorldBatch
@@ -29,46 +44,57 @@ from silverball.world import WorldBatch
 TICK_RATE = 240
 PADDLES = (int(Part.LEFT_PADDLE), int(Part.RIGHT_PADDLE))
 CONTACTS = (int(EventKind.HIT), int(EventKind.TOUCH))  # with a part
-LONGEST = 600.0  # [s] at which a game is cut short
+LONGEST = 600.0  # [s] after which a game is cut short
 CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
 CELLS = 4  # of a map, along each unit
-GAPS = 200  # bins of the times between two hits, a tenth of a second each, and one for all that is longer
+GAPS = 200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
 STAY = 0.5  # [u] a ball that gets no further than this from where it was has stayed there
 ON_PADDLE = 0.02  # [u] gap below which a ball lies on a paddle or rolls along it; hops are 5e-4 u high
 STRUCK = 5.0  # [u/s] up the table, with which a ball leaves a paddle that has struck it
 CARRY = 0.2  # [s] for which a paddle may carry a ball: contacts within it are one strike
 TOP = 2.0  # [u] below the upper border, where the top of the table begins
 
-# The beginner: sees what the reflex player sees, but answers after a reaction time of his own, and not always
-# as fast. Source: reaction to a seen event takes 150 to 250 ms; the jitter is chosen.
+# The beginner sees what the reflex player sees, but answers after a reaction time, and not always as fast.
+# Source: the reaction to a seen event takes 150 to 250 ms; the jitter is chosen.
 BEGINNER = 3  # beside the numbers of `PlayerKind`
-BEGINNER_KEY = 0xBE61  # sets his random numbers apart from the world's own
-REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once a game
-UNSTEADY = 0.03  # [s] by which he may be early or late, drawn anew for every half second
-MEMORY = 128  # ticks of wishes that he remembers: more than his slowest reaction
+BEGINNER_KEY = 0xBE61  # keeps its random numbers apart from the world's own
+REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once per game
+UNSTEADY = 0.03  # [s] by which it may be early or late, drawn for every half second
+WISH_TICKS = 128  # of wishes that it remembers: more than its slowest reaction
+
+
+class Over(IntEnum):
+    """Whether a game is over."""
+
+    NO = 0
+    DRAINED = 1  # the ball is in the gutter
+    CUT_SHORT = 2  # by the time limit, or there is no ball
+
 
 GAME = np.dtype(
     [
-        ("over", "i8"),  # 0 goes on, 1 the ball is in the gutter, 2 cut short or no ball
+        ("over", "i8"),  # Over
         ("ticks", "i8"), ("fast", "i8"), ("on_paddle", "i8"),  # alive; above half the cap; on a paddle
         ("quiet", "i8"),  # since the last hit
         ("dry", "i8"), ("longest_dry", "i8"),  # without points
         ("at_x", "f8"), ("at_z", "f8"), ("stay", "i8"),  # where it has stayed, and for how long
         ("longest_stay", "i8"), ("longest_x", "f8"), ("longest_z", "f8"),
-        # Of the strike that goes on: its age in ticks (0: none), whether it reached the top, a cylinder or
-        # anything at all.
+        # Of the current strike: its age in ticks (0: none), whether it reached the top, a cylinder or
+        # anything.
         ("struck", "i8"), ("topped", "i8"), ("rung", "i8"), ("met", "i8"),
         ("strikes", "i8"), ("to_top", "i8"), ("to_cylinder", "i8"),
     ],
     align=True,
 )  # fmt: skip
+GameRecord: TypeAlias = Any  # a GAME record
 
 
 class Games(NamedTuple):
-    """What came of many games under one player.
+    """The traces of many games under one player.
 
     Attributes:
         state: The worlds at their end, WORLD records [game].
+        hits: Hits of each part, [game, part].
         game: GAME records [game].
         heat: Ticks that balls spent in each cell of the board, [x, z].
         stays: The longest stay that began in each cell [ticks], [x, z].
@@ -77,6 +103,7 @@ class Games(NamedTuple):
     """
 
     state: NDArray[Any]
+    hits: NDArray[np.int64]
     game: NDArray[Any]
     heat: NDArray[np.int64]
     stays: NDArray[np.int64]
@@ -84,51 +111,15 @@ class Games(NamedTuple):
     reached: NDArray[np.int64]
 
 
-def play_games(
-    batch: WorldBatch,
-    player: int,
-    progress: Callable[[float], None] | None = None,
-    longest: float = LONGEST,
-) -> Games:
-    """Play one ball in each world of a batch, which is as it was afterwards.
+class Traces(NamedTuple):
+    """What is recorded about each game while it is played.
 
-    Args:
-        batch: Worlds at their beginning, TICK_RATE ticks a second.
-        player: A `PlayerKind`, or BEGINNER.
-        progress: Called now and then with the share of the games that are over.
-        longest: The time at which a game is cut short [s].
-
-    Returns:
-        What came of it; the same for the same worlds, on any number of threads.
+    Attributes:
+        game: GAME records [game].
+        wishes: What the beginner wished in the last ticks, bool [game, side, tick].
+        reached: As in `Games`.
+        seen: Whether the ball has met each part since it was struck, [game, part].
     """
-    if batch.tick_rate != TICK_RATE:
-        raise ValueError(f"a feel needs {TICK_RATE} ticks a second, the batch has {batch.tick_rate}")
-    count, beginning = batch.count, batch.save()
-    game: NDArray[Any] = records(count, GAME)
-    wishes = np.zeros((count, 2, MEMORY), np.bool_)
-    reached, seen = np.zeros_like(batch.tallies), np.zeros_like(batch.tallies)
-    board = batch.tables[0].board
-    shape = (int(CELLS * board.length) + 1, int(CELLS * board.width) + 1)
-    heat, stays, gaps = np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(GAPS, np.int64)
-    limit = round(longest * TICK_RATE)
-    left = np.arange(count)
-    while len(left):
-        ticks = max(TICK_RATE, CHUNK_TICKS // len(left))
-        maps: list[tuple[NDArray[np.int64], ...]] = []
-        slice_of = partial(_play_slice, batch, Notes(game, wishes, reached, seen), maps, shape, left)
-        batch.on_threads(partial(slice_of, ticks, limit, int(player)), count * ticks)
-        for more, longer, others in maps:
-            heat, stays, gaps = heat + more, np.maximum(stays, longer), gaps + others
-        left = np.nonzero(game["over"] == 0)[0]
-        if progress is not None:
-            progress(1.0 - len(left) / count)
-    end = batch.state.copy()
-    batch.restore(beginning)
-    return Games(end, game, heat, stays, gaps, reached)
-
-
-class Notes(NamedTuple):
-    """What is written down about each game while it is played; see `play_balls`."""
 
     game: NDArray[Any]
     wishes: NDArray[np.bool_]
@@ -136,86 +127,157 @@ class Notes(NamedTuple):
     seen: NDArray[np.int64]
 
 
+class Maps(NamedTuple):
+    """Sums over games; see `Games`."""
+
+    heat: NDArray[np.int64]
+    stays: NDArray[np.int64]
+    gaps: NDArray[np.int64]
+
+
+class Setup(NamedTuple):
+    """How games are played.
+
+    Attributes:
+        player: A `PlayerKind`, or BEGINNER.
+        limit: Ticks after which a game is cut short.
+        places: The squares of all boards in which balls are created.
+    """
+
+    player: int
+    limit: int
+    places: Places
+
+
+def play_games(
+    batch: WorldBatch,
+    player: str,
+    progress: Callable[[float], None] | None = None,
+    longest: float = LONGEST,
+) -> Games:
+    """Play one ball in each world of a batch; the batch is restored afterwards.
+
+    Args:
+        batch: Worlds at their beginning, TICK_RATE ticks per second.
+        player: The name of a simple player, or "beginner".
+        progress: Called now and then with the share of the games that are over.
+        longest: The time after which a game is cut short [s].
+
+    Returns:
+        The traces; the same for the same worlds, on any number of threads.
+
+    Raises:
+        ValueError: The batch has another tick rate.
+    """
+    if batch.tick_rate != TICK_RATE:
+        raise ValueError(f"games are traced at {TICK_RATE} ticks per second, the batch has {batch.tick_rate}")
+    count, beginning, tallies = batch.count, batch.save(), batch.tallies.copy()
+    batch.tallies[:] = 0
+    kind = BEGINNER if player == "beginner" else int(PlayerKind[player.upper()])
+    setup = Setup(kind, round(longest * TICK_RATE), batch.boards.place)
+    reached, seen = np.zeros_like(batch.tallies), np.zeros_like(batch.tallies)
+    traces = Traces(records(count, GAME), np.zeros((count, 2, WISH_TICKS), np.bool_), reached, seen)
+    board = batch.tables[0].board
+    shape = (int(CELLS * board.length) + 1, int(CELLS * board.width) + 1)
+    heat, stays, gaps = _empty_maps(shape)
+    left = np.arange(count)
+    while len(left):
+        ticks = max(TICK_RATE, CHUNK_TICKS // len(left))
+        parts: list[Maps] = []
+        slice_of = partial(_play_slice, batch, traces, setup, parts, shape, left, ticks)
+        batch.on_threads(slice_of, count * ticks)
+        for part in parts:
+            heat, stays, gaps = heat + part.heat, np.maximum(stays, part.stays), gaps + part.gaps
+        left = np.nonzero(traces.game["over"] == Over.NO)[0]
+        if progress is not None:
+            progress(1.0 - len(left) / count)
+    end, hits = batch.state.copy(), batch.tallies.copy()
+    batch.restore(beginning)
+    batch.tallies[:] = tallies
+    return Games(end, hits, traces.game, heat, stays, gaps, reached)
+
+
+def _empty_maps(shape: tuple[int, int]) -> Maps:
+    return Maps(np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(GAPS, np.int64))
+
+
 def _play_slice(
-    batch: WorldBatch, notes: Notes, maps: list[tuple[NDArray[np.int64], ...]], shape: tuple[int, int],
-    left: NDArray[np.int64], ticks: int, limit: int, player: int, first: int, end: int,
+    batch: WorldBatch, traces: Traces, setup: Setup, parts: list[Maps], shape: tuple[int, int],
+    left: NDArray[np.int64], ticks: int, first: int, end: int,
 ) -> None:  # fmt: skip
     """Play a slice of the games that are left, with maps of its own, so that threads do not share any."""
-    mine = np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(GAPS, np.int64)
+    maps = _empty_maps(shape)
     chosen = left[first * len(left) // batch.count : end * len(left) // batch.count]
-    boards = batch.boards
-    play_balls(
-        batch.state, boards.board, batch.board_of, boards.collider, boards.grid, boards.place, batch.logs,
-        batch.tallies, *notes, *mine, chosen, ticks, limit, 1.0 / TICK_RATE, player,
-    )  # fmt: skip
-    maps.append(mine)
+    play_balls(batch.lanes, batch.geometries, traces, maps, setup, chosen, ticks)
+    parts.append(maps)
 
 
 @kernel
 def play_balls(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, places: Any, logs: Any, tallies: Any,
-    games: Any, wishes: Any, reached: Any, seen: Any, heat: Any, stays: Any, gaps: Any,
-    chosen: Any, ticks: int, limit: int, tick: float, player: int,
-) -> None:  # fmt: skip
-    """Play the `chosen` worlds on by a number of ticks, or to the end of their games, `limit` ticks at most.
-
-    The first arguments are as in `play_worlds`, the others as in `Games`; `wishes` [world, side, tick] is
-    what the beginner remembers, `seen` [world, part] what the ball has met since it was struck.
-    """
+    lanes: Lanes, geometries: BatchGeometry, traces: Traces, maps: Maps, setup: Setup, chosen: Any, ticks: int
+) -> None:
+    """Play the `chosen` worlds on by a number of ticks, or to the end of their games."""
+    colliders, tick = geometries.colliders, 1.0 / TICK_RATE
     for number in range(len(chosen)):
         index = chosen[number]
-        world, log, tally, game = worlds[index], logs[index], tallies[index], games[index]
-        board = boards[board_of[index]]
+        world, log, game = lanes.worlds[index], lanes.logs[index], traces.game[index]
+        board = geometries.boards[lanes.board_of[index]]
+        lane = Lane(world, log, lanes.tallies[index])
+        geometry = BoardGeometry(board, colliders, geometries.grid)
         ball = world.ball[0]
         for _ in range(ticks):
-            if game.over != 0:
+            if game.over != Over.NO:
                 break
             log.count, log.lost = 0, 0
             if game.ticks == 0:
-                create_ball(world, board, colliders, places, log)
+                create_ball(world, board, colliders, setup.places, log)
                 game.at_x, game.at_z = ball.x, ball.z
                 log.count = 0
-            if player == BEGINNER:
-                left, right = beginner_presses(world, board, colliders, wishes[index], tick)
+            if setup.player == BEGINNER:
+                left, right = beginner_presses(world, board, colliders, traces.wishes[index], tick)
             else:
-                left, right = pressed(player, world, board, colliders, tick)
+                left, right = pressed(setup.player, world, board, colliders, tick)
             score = world.score
-            step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
+            step_world(lane, geometry, left, right, False, tick)
             game.ticks += 1
-            follow_hits(game, board, colliders, ball, log, reached[index], seen[index], gaps)
+            follow_hits(lane, geometry, game, traces.reached[index], traces.seen[index], maps.gaps)
             game.dry = game.dry + 1 if world.score == score else 0
             game.longest_dry = max(game.longest_dry, game.dry)
             if ball.id == 0:
-                game.over = 1
-            elif game.ticks >= limit or world.fault != Fault.NONE:
-                game.over = 2
+                game.over = as_int(Over.DRAINED)
+            elif game.ticks >= setup.limit or world.fault != Fault.NONE:
+                game.over = as_int(Over.CUT_SHORT)
             else:
-                follow_ball(game, world, board, colliders, heat, stays)
+                follow_ball(game, world, board, colliders, maps)
 
 
 @kernel
-def beginner_presses(world: Any, board: Any, colliders: Any, wishes: Any, tick: float) -> tuple[bool, bool]:
-    """The buttons (left, right) that the beginner holds in the next tick: what he wished a reaction ago.
+def beginner_presses(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, wishes: Any, tick: float
+) -> tuple[bool, bool]:
+    """The buttons (left, right) that the beginner holds in the next tick: its wish of one reaction time ago.
 
-    He knows that he is slow, and looks ahead by his usual reaction.
+    It allows for being slow and looks ahead by its usual reaction time.
     """
     key = world.seed ^ BEGINNER_KEY
     reaction = REACTION[0] + (REACTION[1] - REACTION[0]) * uniform(key, 0 + 0)
     half_second = int(world.tick * tick / 0.5)
     late = UNSTEADY * (2.0 * uniform(key, 1 + half_second) - 1.0)
-    now = world.tick % MEMORY
+    now = world.tick % WISH_TICKS
     for side in range(2):
         c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
         wishes[side, now] = strikes(world, board, c, LOOK_AHEAD + reaction)
-    then = (world.tick - int((reaction + late) / tick)) % MEMORY
+    then = (world.tick - int((reaction + late) / tick)) % WISH_TICKS
     return wishes[0, then], wishes[1, then]
 
 
 @internal
 def follow_hits(
-    game: Any, board: Any, colliders: Any, ball: Any, log: Any, reached: Any, seen: Any, gaps: Any
+    lane: Lane, geometry: BoardGeometry, game: GameRecord, reached: Any, seen: Any, gaps: Any
 ) -> None:
-    """Take down the hits of a tick: how long after the last one, and what a struck ball has met."""
+    """Record the hits of a tick: how long after the last one, and what a struck ball has met."""
+    ball, log = lane.world.ball[0], lane.log
+    first = geometry.board.collider_first
     game.quiet += 1
     if game.struck > 0:
         game.struck += 1
@@ -225,20 +287,20 @@ def follow_hits(
             continue
         if event.part in PADDLES:
             # A paddle that carries a ball meets it again and again: that is one strike.
-            goes_on = 0 < game.struck <= int(CARRY * TICK_RATE) and game.met == 0
+            is_same_strike = 0 < game.struck <= int(CARRY * TICK_RATE) and game.met == 0
             if ball.vx > STRUCK:
                 game.struck = 1
-                if not goes_on:
+                if not is_same_strike:
                     game.strikes += 1
                     game.topped, game.rung, game.met = 0, 0, 0
                     for part in range(len(seen)):
                         seen[part] = 0
-            elif not goes_on:
+            elif not is_same_strike:
                 game.struck = 0
         elif event.kind == EventKind.HIT and game.struck > 0 and seen[event.part] == 0:
             seen[event.part], game.met = 1, 1
             reached[event.part] += 1
-            if colliders[board.collider_first + event.part].kind == Kind.CYLINDER and game.rung == 0:
+            if geometry.colliders[first + event.part].kind == Kind.CYLINDER and game.rung == 0:
                 game.rung = 1
                 game.to_cylinder += 1
         if event.kind == EventKind.HIT:
@@ -247,10 +309,12 @@ def follow_hits(
 
 
 @internal
-def follow_ball(game: Any, world: Any, board: Any, colliders: Any, heat: Any, stays: Any) -> None:
-    """Take down where the ball is after a tick, how fast, and for how long it has stayed there."""
+def follow_ball(
+    game: GameRecord, world: WorldRecord, board: BoardRecord, colliders: Colliders, maps: Maps
+) -> None:
+    """Record where the ball is after a tick, how fast, and for how long it has stayed there."""
     ball = world.ball[0]
-    heat[int(CELLS * (ball.x + board.half_length)), int(CELLS * (ball.z + board.half_width))] += 1
+    maps.heat[int(CELLS * (ball.x + board.half_length)), int(CELLS * (ball.z + board.half_width))] += 1
     if ball.vx * ball.vx + ball.vz * ball.vz > 0.25 * board.speed_cap * board.speed_cap:
         game.fast += 1
     if ball.x < board.paddle_top:
@@ -268,11 +332,6 @@ def follow_ball(game: Any, world: Any, board: Any, colliders: Any, heat: Any, st
         game.at_x, game.at_z, game.stay = ball.x, ball.z, 0
     game.stay += 1
     row, column = int(CELLS * (game.at_x + board.half_length)), int(CELLS * (game.at_z + board.half_width))
-    stays[row, column] = max(stays[row, column], game.stay)
+    maps.stays[row, column] = max(maps.stays[row, column], game.stay)
     if game.stay > game.longest_stay:
         game.longest_stay, game.longest_x, game.longest_z = game.stay, game.at_x, game.at_z
-
-
-def kind_of(name: str) -> int:
-    """The number of a player by name; "beginner" is known here only."""
-    return BEGINNER if name == "beginner" else int(PlayerKind[name.upper()])

@@ -1,4 +1,4 @@
-"""Where does a shot go, and how exactly must one press for it?
+"""Shots of a paddle: where they go, and how exactly one must press for them.
 
 A ball comes to a paddle in one of two ways that every player knows: it rolls down the guide onto the resting
 paddle, or it has been held on the raised paddle, which is dropped, and rolls down that. The button is pressed
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
 from silverball.physics.balls import put_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import NOTHING, EventKind, records
+from silverball.physics.records import NOTHING, BatchGeometry, BoardGeometry, EventKind, Lane, Lanes, records
 from silverball.physics.step import step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
@@ -28,11 +28,11 @@ WAIT = 2.5  # [s] for which the raised paddle holds the ball before it is droppe
 PRESSES = 2.0  # [s] over which the moment of the press is swept
 HOLD = 0.3  # [s] for which the button is held
 AFTER = 3.0  # [s] after the press, for which a shot is followed
-START = 1.5  # [u] up the guide from its lower end, where the ball is let go; less on a shorter guide
+START = 1.5  # [u] up the guide from its lower end, where the ball is released; less on a shorter guide
 CLEAR = 0.002  # [u] between the ball and the guide there
-LOW, HIGH = 2.0, 5.0  # [u] the two x at which is taken down where a shot crosses them
-AIMED = 3.0  # [u] beyond the paddles' reach: what a shot meets from there on, it was aimed at
-MIDDLE = 0.16  # of the board's width: what comes nearer to the middle than this is a shot to the middle
+LOW, HIGH = 2.0, 5.0  # [u] the two x at which the crossing of a shot is recorded
+AIMED = 3.0  # [u] beyond the paddles' reach: a shot was aimed at what it meets from there on
+MIDDLE = 0.16  # of the board's width: a shot that comes nearer to the middle than this is one to the middle
 DEGREES = 180.0 / np.pi
 
 
@@ -50,10 +50,10 @@ SHOT = np.dtype(
         ("press", "i8"),  # the tick of the press
         ("launched", "i8"),  # whether the ball left the paddles' reach upwards
         ("direction", "f8"), ("speed", "f8"),  # there [deg], [u/s]
-        ("first", "i8"),  # the part that it met first after the press, paddles aside; or NOTHING
+        ("first", "i8"),  # the part that it met first after the press, other than paddles; or NOTHING
         ("first_x", "f8"), ("first_z", "f8"),  # where
         ("low_z", "f8"), ("high_z", "f8"),  # z at which it first crossed LOW and HIGH upwards, NaN if never
-        ("clean", "i8"),  # whether it came to something to aim at, or to LOW, before it met anything else
+        ("clean", "i8"),  # whether it reached something to aim at, or LOW, before it met anything else
         ("aim_z", "f8"),  # where that was
         ("highest", "f8"),  # x that it reached before a paddle met it again
     ],
@@ -81,9 +81,9 @@ class Shots(NamedTuple):
     top: float
 
     def window(self, aim: Aim) -> tuple[float, float]:
-        """For how long, without a gap, a press makes a shot of this aim [ms], and since when [ms].
+        """The longest time without a gap in which a press makes a shot of this aim, and its beginning [ms].
 
-        The time counts from the first press that strikes the ball up the table; NaN if none does.
+        The beginning counts from the first press that strikes the ball up the table; NaN if none does.
         """
         struck = np.nonzero(self.shot["launched"])[0]
         best, since, run = 0, -1, 0
@@ -130,17 +130,15 @@ def shots_of(table: Table, side: str, held: bool) -> Shots | None:
         return None
     count = round(PRESSES * TICK_RATE)
     batch = WorldBatch(table, count, 0, TICK_RATE)
-    shot: NDArray[Any] = records(count, SHOT)
-    shot["press"] = np.arange(count) + (round(WAIT * TICK_RATE) if held else 0)
     wait = round(WAIT * TICK_RATE) if held else 0
-    x, z = start_on(wall, table)
+    shot: NDArray[Any] = records(count, SHOT)
+    shot["press"] = np.arange(count) + wait
+    approach = Approach(*start_on(wall, table), side == "left", wait)
+    lanes, geometries = batch.lanes, batch.geometries
     batch.on_threads(
-        lambda first, end: shoot(
-            batch.state, batch.boards.board, batch.boards.collider, batch.boards.grid, batch.logs,
-            batch.tallies, shot, first, end, x, z, side == "left", wait, 1.0 / TICK_RATE,
-        ),
+        lambda first, end: shoot(lanes, geometries, shot, approach, first, end, 1.0 / TICK_RATE),
         count * count,
-    )  # fmt: skip
+    )
     third = MIDDLE * table.board.width
     aim_z, aim = shot["aim_z"], np.full(count, int(Aim.NOWHERE))
     good = shot["clean"] == 1
@@ -150,27 +148,41 @@ def shots_of(table: Table, side: str, held: bool) -> Shots | None:
     return Shots(side, held, shot, aim, batch.boards.names[0], 0.5 * table.board.length - TOP)
 
 
+class Approach(NamedTuple):
+    """How the ball comes to the paddle.
+
+    Attributes:
+        x: Where it starts at rest [u].
+        z: Where it starts at rest [u].
+        left: Whether the left button is pressed, rather than the right one.
+        wait: Ticks for which the button is held at first.
+    """
+
+    x: float
+    z: float
+    left: bool
+    wait: int
+
+
 @kernel
 def shoot(
-    worlds: Any, boards: Any, colliders: Any, grid: Any, logs: Any, tallies: Any,
-    shots: Any, first: int, end: int, x: float, z: float, left: bool, wait: int, tick: float,
-) -> None:  # fmt: skip
-    """Play one shot in each of the worlds first … end − 1, all on the first board.
-
-    The ball starts at rest at (x, z). The button is held for `wait` ticks, then pressed at the shot's tick.
-    """
-    board = boards[0]
+    lanes: Lanes, geometries: BatchGeometry, shots: Any, approach: Approach, first: int, end: int, tick: float
+) -> None:
+    """Play one shot in each of the worlds first … end − 1, all on the first board."""
+    board, left = geometries.boards[0], approach.left
+    geometry = BoardGeometry(board, geometries.colliders, geometries.grid)
     for index in range(first, end):
-        world, log, tally, shot = worlds[index], logs[index], tallies[index], shots[index]
+        world, log, shot = lanes.worlds[index], lanes.logs[index], shots[index]
+        lane = Lane(world, log, lanes.tallies[index])
         log.count, log.lost = 0, 0
-        put_ball(world, board, log, 0, x, z, 0.0, 0.0)
+        put_ball(world, board, log, 0, approach.x, approach.z, 0.0, 0.0)
         ball = world.ball[0]
         shot.first, shot.low_z, shot.high_z, shot.highest = NOTHING + 0, np.nan, np.nan, -board.half_length
         for now in range(shot.press + int(AFTER / tick)):
             log.count, log.lost = 0, 0
-            up = now < wait or shot.press <= now < shot.press + int(HOLD / tick)
+            up = now < approach.wait or shot.press <= now < shot.press + int(HOLD / tick)
             before = ball.x
-            step_world(world, board, colliders, grid, log, tally, up and left, up and not left, False, tick)
+            step_world(lane, geometry, up and left, up and not left, False, tick)
             if ball.id == 0:
                 break
             if now < shot.press:

@@ -1,11 +1,19 @@
 """One exact, compiled step of a pinball table.
 
-Read `step.py` first: it is the whole simulation on one screen. `layout.py` is what it moves. `skip_ahead.py`
-says for how long nothing happens; `contact.py` with `grid.py`, `flight.py`, `paddle.py` and `shapes.py` finds
-the next contact; `bounce.py` and `friction.py` say what a contact does, `motion.py` how a ball moves until
-then: sliding, slipping or rolling. `validation.py` looks at states that come from elsewhere; `audit.py` and
-`regions.py` look for balls inside anything and share no code with the rest. Nothing in here knows of tables,
-windows or players; it imports numpy and numba, and platformdirs for the place of compiled code.
+Read `step.py` first: it is the whole simulation on one screen. Then:
+
+* `records.py`: the records that the step reads and writes
+* `skip_ahead.py`: for how many ticks nothing happens
+* `contact.py`, on `broad_phase.py`, `flight.py`, `paddle.py` and `shapes.py`: the next contact of a ball
+* `bounce.py`, `friction.py`: what a contact does to a ball
+* `motion.py`: how a ball moves between contacts: sliding, slipping or rolling
+* `balls.py`: creating, shoving and separating balls
+* `validation.py`: checks of states that come from outside
+* `audit.py`: an independent check for balls inside parts; it shares no code with the solver
+* `kernel.py`, with `code_cache.py` and `compile_thread.py`: how kernels are compiled and cached
+
+The physics knows nothing of tables, windows or players. It imports numpy and numba, and platformdirs for the
+cache of compiled code.
 
 `PHYSICS_VERSION` is raised whenever the same table, seed and inputs would give other bits than before.
 """

@@ -1,23 +1,30 @@
-"""Is a ball inside anything? A second opinion that shares no code with the solver.
+"""Audit: how deep a ball is inside a part, computed without any code of the solver.
 
-The solver trusts `shapes.py`; this check does not. It takes a part's corners alone, turns a paddle's with
-the library's sine, finds the nearest point of each side by clamping the foot, and tells inside from outside
-by the signs of three cross products. A part whose box lies further away than a ball's radius is passed over.
-It runs only where somebody asks for it: in tests, soaks and `silverball simulate`.
+The solver trusts `shapes.py`; this check does not. It uses a part's corners alone, turns a paddle's with the
+library's sine, finds the nearest point of each side by clamping the foot, and tells inside from outside by
+the signs of three cross products. A part whose bounding box is further away than a ball's radius is culled.
+It runs only in tests, soaks and `silverball simulate`.
 """
 
 from __future__ import annotations
 
 from math import cos, hypot, inf, sin, sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.records import BALL_COUNT, Kind, Part
+from silverball.physics.records import (
+    BALL_COUNT,
+    BoardRecord,
+    ColliderRecord,
+    Colliders,
+    Kind,
+    Part,
+    WorldRecord,
+)
 
 
 @kernel
 def side_gap(x: float, z: float, px: float, pz: float, qx: float, qz: float) -> float:
-    """Distance of (x, z) from the segment p → q: the foot's share of the way is clamped to 0 … 1."""
+    """Compute the distance of (x, z) from the segment p → q by clamping the foot's share to 0 … 1."""
     wx, wz = qx - px, qz - pz
     share = ((x - px) * wx + (z - pz) * wz) / (wx * wx + wz * wz)
     share = min(1.0, max(0.0, share))
@@ -26,7 +33,7 @@ def side_gap(x: float, z: float, px: float, pz: float, qx: float, qz: float) -> 
 
 @kernel
 def is_right_of(x: float, z: float, px: float, pz: float, qx: float, qz: float) -> bool:
-    """Whether (x, z) lies to the right of the way p → q, as the player sees it."""
+    """Whether (x, z) lies to the right of the line p → q, as the player sees it."""
     return (qz - pz) * (x - px) - (qx - px) * (z - pz) < 0.0
 
 
@@ -34,7 +41,7 @@ def is_right_of(x: float, z: float, px: float, pz: float, qx: float, qz: float) 
 def corners_gap(
     x: float, z: float, px: float, pz: float, qx: float, qz: float, rx: float, rz: float
 ) -> float:
-    """Distance of (x, z) from the triangle p q r (counter-clockwise), negative inside."""
+    """Compute the distance of (x, z) from the triangle p q r (counter-clockwise), negative inside."""
     near = min(side_gap(x, z, px, pz, qx, qz), side_gap(x, z, qx, qz, rx, rz), side_gap(x, z, rx, rz, px, pz))
     outside = (
         is_right_of(x, z, px, pz, qx, qz)
@@ -45,8 +52,8 @@ def corners_gap(
 
 
 @kernel
-def part_gap(c: Any, angle: float, x: float, z: float) -> float:
-    """Distance of (x, z) from a part, a paddle standing at `angle` [rad]; infinite for a border."""
+def part_gap(c: ColliderRecord, angle: float, x: float, z: float) -> float:
+    """Compute the distance of (x, z) from a part, a paddle at `angle` [rad]; infinite for a border."""
     if c.kind == Kind.CYLINDER:
         return hypot(x - c.x, z - c.z) - c.radius
     if c.kind == Kind.SLANT_WALL:
@@ -55,15 +62,15 @@ def part_gap(c: Any, angle: float, x: float, z: float) -> float:
         return corners_gap(x, z, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
     if c.kind != Kind.PADDLE:
         return inf
-    # Turn the ball the other way round instead of the three corners; the right paddle is seen in the mirror.
+    # Turn the ball backwards instead of the three corners; the right paddle is mirrored.
     s, k = sin(-angle), cos(-angle)
     dx, dz = x - c.x, (z - c.z) * c.side
     return corners_gap(k * dx + s * dz, k * dz - s * dx, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
 
 
 @kernel
-def gap_to(c: Any, part: int, angle: float, x: float, z: float) -> float:
-    """Distance of (x, z) from any part, the borders included; `part` is its number on the board."""
+def gap_to(c: ColliderRecord, part: int, angle: float, x: float, z: float) -> float:
+    """Compute the distance of (x, z) from any part, borders included; `part` is its number on the board."""
     if part == Part.LEFT_WALL:
         return z - c.z
     if part == Part.RIGHT_WALL:
@@ -74,8 +81,8 @@ def gap_to(c: Any, part: int, angle: float, x: float, z: float) -> float:
 
 
 @kernel
-def box(c: Any) -> tuple[float, float, float, float]:
-    """The least and greatest x, the least and greatest z of a part that stands still [u]."""
+def box(c: ColliderRecord) -> tuple[float, float, float, float]:
+    """Compute the bounding box of a stationary part: least and greatest x, least and greatest z [u]."""
     if c.kind == Kind.CYLINDER:
         return c.x - c.radius, c.x + c.radius, c.z - c.radius, c.z + c.radius
     low_x, high_x = min(c.x0, c.x1), max(c.x0, c.x1)
@@ -86,14 +93,14 @@ def box(c: Any) -> tuple[float, float, float, float]:
 
 
 @inlined
-def is_off(c: Any, x: float, z: float, radius: float) -> bool:
-    """Whether (x, z) is further than `radius` from the box of a part that stands still."""
+def is_outside_box(c: ColliderRecord, x: float, z: float, radius: float) -> bool:
+    """Whether (x, z) is further than `radius` from the bounding box of a stationary part."""
     low_x, high_x, low_z, high_z = box(c)
     return x < low_x - radius or x > high_x + radius or z < low_z - radius or z > high_z + radius
 
 
 @inlined
-def is_out_of_reach(c: Any, x: float, z: float, radius: float) -> bool:
+def is_out_of_reach(c: ColliderRecord, x: float, z: float, radius: float) -> bool:
     """Whether (x, z) is further than `radius` from all that a paddle can sweep, or there is no paddle."""
     if c.kind != Kind.PADDLE:
         return True
@@ -103,8 +110,8 @@ def is_out_of_reach(c: Any, x: float, z: float, radius: float) -> bool:
 
 
 @kernel
-def depth_in_borders(board: Any, colliders: Any, x: float, z: float) -> float:
-    """How deep a ball at (x, z) is inside a border [u]; 0 if it is not."""
+def depth_in_borders(board: BoardRecord, colliders: Colliders, x: float, z: float) -> float:
+    """Compute how deep a ball at (x, z) is inside a border [u]; 0 if it is not."""
     first, radius = board.collider_first, board.ball_radius
     return max(
         0.0,
@@ -115,27 +122,27 @@ def depth_in_borders(board: Any, colliders: Any, x: float, z: float) -> float:
 
 
 @kernel
-def depth_in_standing(board: Any, colliders: Any, x: float, z: float) -> float:
-    """How deep a ball at (x, z) is inside a part that stands still [u]; 0 if it is not."""
+def depth_in_stationary(board: BoardRecord, colliders: Colliders, x: float, z: float) -> float:
+    """Compute how deep a ball at (x, z) is inside a stationary part [u]; 0 if it is not."""
     depth, radius = 0.0, board.ball_radius
     for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
         c = colliders[index]
-        if not is_off(c, x, z, radius):
+        if not is_outside_box(c, x, z, radius):
             depth = max(depth, radius - part_gap(c, 0.0, x, z))
     return depth
 
 
 @kernel
-def depth_in_paddle(c: Any, angle: float, x: float, z: float, radius: float) -> float:
-    """How deep a ball at (x, z) is inside a paddle that stands at `angle` [rad]; 0 if it is not [u]."""
+def depth_in_paddle(c: ColliderRecord, angle: float, x: float, z: float, radius: float) -> float:
+    """Compute how deep a ball at (x, z) is inside a paddle at `angle` [rad]; 0 if it is not [u]."""
     if is_out_of_reach(c, x, z, radius):
         return 0.0
     return max(0.0, radius - part_gap(c, angle, x, z))
 
 
 @kernel
-def depth_in_each_other(world: Any, radius: float) -> float:
-    """How deep the two balls are inside each other [u]; 0 if they are not."""
+def depth_in_other_ball(world: WorldRecord, radius: float) -> float:
+    """Compute how deep the two balls are inside each other [u]; 0 if they are not."""
     a, b = world.ball[0], world.ball[1]
     if a.id == 0 or b.id == 0:
         return 0.0
@@ -143,16 +150,16 @@ def depth_in_each_other(world: Any, radius: float) -> float:
 
 
 @kernel
-def deepest(world: Any, board: Any, colliders: Any) -> float:
-    """How deep any ball is inside any part, border or other ball [u]; 0 if none is."""
-    depth = depth_in_each_other(world, board.ball_radius)
+def deepest(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> float:
+    """Compute how deep any ball is inside any part, border or other ball [u]; 0 if none is."""
+    depth = depth_in_other_ball(world, board.ball_radius)
     paddles = board.collider_first + Part.LEFT_PADDLE
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
         depth = max(depth, depth_in_borders(board, colliders, ball.x, ball.z))
-        depth = max(depth, depth_in_standing(board, colliders, ball.x, ball.z))
+        depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
         for side in range(2):
             angle = world.paddle[side].angle
             inside = depth_in_paddle(colliders[paddles + side], angle, ball.x, ball.z, board.ball_radius)
@@ -161,8 +168,8 @@ def deepest(world: Any, board: Any, colliders: Any) -> float:
 
 
 @kernel
-def turned_for(c: Any, start: float, end: float, time: float) -> float:
-    """The angle of a paddle `time` [s] after `start` [rad] on its way to `end` [rad], where it stays."""
+def turned_for(c: ColliderRecord, start: float, end: float, time: float) -> float:
+    """Compute a paddle's angle `time` [s] after `start` [rad] on its way to `end` [rad], where it stays."""
     if end > start:
         return min(start + c.lift_speed * time, end)
     return max(start - c.return_speed * time, end)

@@ -1,40 +1,53 @@
-"""How do balls come onto the board, get shoved, and part when they overlap?
+"""Creating, shoving and separating balls.
 
 Creating tries random places first (as the original did), then the origin, then searches every place
-systematically; if nothing is free it refuses and nothing changes, the random generator included. A place is
-a square of the board from which the gutter can be reached (worked out once per table), so a ball never
-appears behind a corner wall.
+systematically. If nothing is free it refuses, and nothing changes, the random generator included. A place is
+a square of the board from which the gutter can be reached (computed once per table), so a ball never appears
+behind a corner wall.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
-from silverball.physics.bounce import capped
-from silverball.physics.event_log import leave, mark, record
-from silverball.physics.kernel import internal, kernel
-from silverball.physics.motion import depart
+from silverball.physics.bounce import clamp_speed
+from silverball.physics.event_log import flight_checksum, log_event, store_checksum
+from silverball.physics.kernel import as_int, internal, kernel
+from silverball.physics.motion import start_flight
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, NOTHING, EventKind, Kind, Outcome, Part
+from silverball.physics.portable_math import sine_cosine, uniform
+from silverball.physics.records import (
+    BALL_COUNT,
+    NOTHING,
+    BoardRecord,
+    Colliders,
+    Contact,
+    EventKind,
+    Kind,
+    LogRecord,
+    Outcome,
+    Part,
+    Places,
+    WorldRecord,
+)
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
-from silverball.physics.trigonometry import sine_cosine
 
 TWO_PI = 6.283185307179586
 
 
 @kernel
-def clearance(world: Any, board: Any, colliders: Any, x: float, z: float) -> tuple[float, int]:
-    """The smallest gap [u] between a ball at (x, z) and the parts (paddles as they stand), and which part."""
+def clearance(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float
+) -> tuple[float, int]:
+    """Compute the smallest gap [u] between a ball at (x, z) and the parts, and which part it is."""
     first = board.collider_first
     left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
-    least, part = z - left.z, Part.LEFT_WALL + 0
-    if right.z - z < least:
-        least, part = right.z - z, Part.RIGHT_WALL + 0
-    if top.x - x < least:
-        least, part = top.x - x, Part.TOP_WALL + 0
+    smallest, part = z - left.z, as_int(Part.LEFT_WALL)
+    if right.z - z < smallest:
+        smallest, part = right.z - z, as_int(Part.RIGHT_WALL)
+    if top.x - x < smallest:
+        smallest, part = top.x - x, as_int(Part.TOP_WALL)
     for index in range(first + Part.LEFT_PADDLE, board.collider_end):
         c = colliders[index]
         if c.kind == Kind.ABSENT:
@@ -43,25 +56,25 @@ def clearance(world: Any, board: Any, colliders: Any, x: float, z: float) -> tup
             gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.LEFT_PADDLE].angle, x, z)
         else:
             gap, _, _ = distance(c, x, z)
-        if gap < least:
-            least, part = gap, index - first
-    return least - board.ball_radius, part
+        if gap < smallest:
+            smallest, part = gap, index - first
+    return smallest - board.ball_radius, part
 
 
 @kernel
-def clearance_of_balls(world: Any, board: Any, x: float, z: float) -> float:
-    """The smallest gap [u] between a ball at (x, z) and the balls on the board."""
-    least = 1e300
+def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float) -> float:
+    """Compute the smallest gap [u] between a ball at (x, z) and the balls on the board."""
+    smallest = 1e300
     for index in range(BALL_COUNT):
         ball = world.ball[index]
         if ball.id != 0:
             gap = sqrt((ball.x - x) ** 2 + (ball.z - z) ** 2) - 2.0 * board.ball_radius
-            least = min(least, gap)
-    return least
+            smallest = min(smallest, gap)
+    return smallest
 
 
 @internal
-def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
+def is_free(world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float) -> bool:
     """Whether a ball at (x, z) would overlap nothing."""
     if x <= board.gutter + board.ball_radius:
         return False
@@ -70,48 +83,63 @@ def is_free(world: Any, board: Any, colliders: Any, x: float, z: float) -> bool:
 
 
 @internal
-def free_place(world: Any, board: Any, colliders: Any, places: Any) -> tuple[bool, float, float, int]:
-    """A free place for a ball, and how many random numbers it took to find it."""
+def find_free_place(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places
+) -> tuple[bool, float, float, int]:
+    """Find a free place for a ball.
+
+    Returns:
+        Whether there is one, its x and z [u], and the draws of the world's random generator after that.
+    """
     count = board.place_end - board.place_first
     size = board.place_size
     draws = world.draws
     if count > 0:
         for _ in range(CREATE_TRIES):
-            which = board.place_first + int(uniform(world.seed, draws) * count)
-            x = places[which, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
-            z = places[which, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
+            place = board.place_first + int(uniform(world.seed, draws) * count)
+            x = places[place, 0] + size * (uniform(world.seed, draws + 1) - 0.5)
+            z = places[place, 1] + size * (uniform(world.seed, draws + 2) - 0.5)
             draws += 3
             if is_free(world, board, colliders, x, z):
                 return True, x, z, draws
     if board.place_lowest < 0.0 and is_free(world, board, colliders, 0.0, 0.0):
         return True, 0.0, 0.0, draws
-    for which in range(board.place_first, board.place_end):
+    for place in range(board.place_first, board.place_end):
         for step in range(PLACE_STEPS * PLACE_STEPS):
-            x = places[which, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
-            z = places[which, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            x = places[place, 0] + size * ((step // PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
+            z = places[place, 1] + size * ((step % PLACE_STEPS + 0.5) / PLACE_STEPS - 0.5)
             if is_free(world, board, colliders, x, z):
                 return True, x, z, draws
     return False, 0.0, 0.0, world.draws
 
 
 @kernel
-def put_ball(world: Any, board: Any, log: Any, slot: int, x: float, z: float, vx: float, vz: float) -> None:
-    """A new ball at (x, z) in an empty slot of the world."""
-    is_known = mark(world) == log.mark
+def put_ball(
+    world: WorldRecord,
+    board: BoardRecord,
+    log: LogRecord,
+    slot: int,
+    x: float,
+    z: float,
+    vx: float,
+    vz: float,
+) -> None:
+    """Create a ball at (x, z) with a velocity, in an empty slot of the world."""
+    is_known = flight_checksum(world) == log.checksum
     world.created += 1
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
     ball.id = world.created
-    depart(ball, board, 0.0)
+    start_flight(ball, board, 0.0)
     if is_known:
-        leave(world, log)
-    record(log, EventKind.CREATED + 0, ball, NOTHING + 0, world.tick, 0.0, 0.0, 0.0, 0.0)
+        store_checksum(world, log)
+    log_event(log, as_int(EventKind.CREATED), ball, world.tick, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
 
 
 @kernel
-def empty_slot(world: Any, board: Any) -> int:
-    """The first slot without a ball, or −1 when the board holds as many as the table allows."""
+def empty_slot(world: WorldRecord, board: BoardRecord) -> int:
+    """Find the first slot without a ball; −1 if the board holds as many as the table allows."""
     for slot in range(board.max_balls):
         if world.ball[slot].id == 0:
             return slot
@@ -119,26 +147,28 @@ def empty_slot(world: Any, board: Any) -> int:
 
 
 @kernel
-def create_ball(world: Any, board: Any, colliders: Any, places: Any, log: Any) -> int:
-    """One more ball at rest in a free place.
+def create_ball(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places, log: LogRecord
+) -> int:
+    """Create a ball at rest in a free place.
 
     Returns:
         An `Outcome`: CREATED, or why not (then nothing has changed).
     """
     slot = empty_slot(world, board)
     if slot < 0:
-        return Outcome.BOARD_FULL + 0
-    found, x, z, draws = free_place(world, board, colliders, places)
+        return as_int(Outcome.BOARD_FULL)
+    found, x, z, draws = find_free_place(world, board, colliders, places)
     if not found:
-        return Outcome.NO_ROOM + 0
+        return as_int(Outcome.NO_ROOM)
     world.draws = draws
     put_ball(world, board, log, slot, x, z, 0.0, 0.0)
-    return Outcome.CREATED + 0
+    return as_int(Outcome.CREATED)
 
 
 @internal
-def shove_balls(world: Any, board: Any, log: Any) -> None:
-    """Jitter: every ball on the board gets an impulse of fixed size in a random direction of its own."""
+def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
+    """Jitter: give every ball on the board an impulse of fixed size in a random direction of its own."""
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
@@ -147,19 +177,21 @@ def shove_balls(world: Any, board: Any, log: Any) -> None:
         world.draws += 1
         ball.vx += board.jitter * sine
         ball.vz += board.jitter * cosine
-        ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
-        depart(ball, board, 0.0)
-        record(log, EventKind.JITTER + 0, ball, NOTHING + 0, world.tick, 0.0, sine, cosine, board.jitter)
+        ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
+        start_flight(ball, board, 0.0)
+        log_event(
+            log, as_int(EventKind.JITTER), ball, world.tick, Contact(0.0, NOTHING, sine, cosine), board.jitter
+        )
 
 
 @kernel
-def part_balls(world: Any, board: Any, colliders: Any) -> bool:
-    """Split an overlap of the two balls equally between them.
+def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> bool:
+    """Move two overlapping balls apart, each by half of the overlap.
 
-    Only a state from outside holds one; an exact step never makes it.
+    Only a state from outside can hold an overlap; an exact step never makes one.
 
     Returns:
-        Whether the balls are apart now; False, and nothing changed, if that would press one into a part.
+        Whether the balls are apart now; False, with nothing changed, if that would push one into a part.
     """
     a, b = world.ball[0], world.ball[1]
     if a.id == 0 or b.id == 0:
@@ -170,8 +202,8 @@ def part_balls(world: Any, board: Any, colliders: Any) -> bool:
     if overlap <= FREE_GAP:
         return True
     nx, nz = (dx / apart, dz / apart) if apart > 0.0 else (0.0, 1.0)
-    push = 0.5 * (overlap + FREE_GAP)
-    ax, az, bx, bz = a.x + push * nx, a.z + push * nz, b.x - push * nx, b.z - push * nz
+    shift = 0.5 * (overlap + FREE_GAP)
+    ax, az, bx, bz = a.x + shift * nx, a.z + shift * nz, b.x - shift * nx, b.z - shift * nz
     gap_a, _ = clearance(world, board, colliders, ax, az)
     gap_b, _ = clearance(world, board, colliders, bx, bz)
     if gap_a < 0.0 or gap_b < 0.0:

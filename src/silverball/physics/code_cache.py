@@ -1,15 +1,13 @@
-"""Where does machine code lie, and what becomes of a damaged file? It is compiled anew.
+"""The cache of machine code on disk, which detects damaged files and has them compiled again.
 
-Numba's own cache unpickles whatever it finds in its files and runs it. Here nothing is unpickled that is not
-bit for bit what was written, and damage is told once. For a function and the types of its arguments there
-are two files:
+Numba's own cache unpickles whatever it finds in its files and runs it. This one unpickles only what is bit
+for bit what was written, and reports damage once. A function has two files for each set of argument types:
 
-    NAME.TYPES.nbi     the index: the SHA-256 that says which code
-    NAME.SHA-256.nbc   the code; its SHA-256 is taken over the name of the index too
+    NAME.TYPES.nbi     the index: the SHA-256 of the code
+    NAME.SHA-256.nbc   the code; its SHA-256 covers the name of the index too
 
-Each is renamed into its place when it is whole, the code first. So processes that write at the same time
-never mix two versions, and a file that was emptied, cut short, changed or exchanged for another one is found
-out.
+Each file is renamed into its place when it is complete, the code first. So processes that write at the same
+time never mix two versions, and a file that was emptied, cut short, changed or exchanged is detected.
 """
 
 from __future__ import annotations
@@ -35,32 +33,32 @@ INDEX, CODE = ".nbi", ".nbc"
 
 
 class Damage:
-    """What was found damaged in this process.
+    """Damage found in this process.
 
     Attributes:
-        words: A sentence about it; empty if there is nothing to say.
+        message: A sentence about it; empty if there was none.
     """
 
-    words = ""
+    message = ""
 
     @classmethod
-    def say(cls, folder: Path) -> None:
-        """Tell it to whoever runs the program, the first time."""
-        if not cls.words:
-            cls.words = f"compiled code in {str(folder)!r} was damaged, and is compiled anew"
-            logging.getLogger("silverball").warning("silverball: %s", cls.words)
+    def report(cls, folder: Path) -> None:
+        """Log a warning the first time damage is found."""
+        if not cls.message:
+            cls.message = f"compiled code in {str(folder)!r} was damaged and is compiled again"
+            logging.getLogger("silverball").warning("silverball: %s", cls.message)
 
 
 class CodeCache(Base):  # type: ignore[misc,valid-type]
-    """The compiled code of one function, as Numba asks for it.
+    """The compiled code of one function, with the interface that Numba expects.
 
     Args:
-        function: That is compiled.
-        folder: Of all compiled code of these sources.
+        function: The Python function that is compiled.
+        folder: The folder of all compiled code of these sources.
     """
 
     def __init__(self, function: Any, folder: Path) -> None:
-        # Nothing of Numba's: it would look for a place of its own.
+        # Numba's constructor is not called: it would look for a folder of its own.
         package, _, module = function.__module__.rpartition(".")
         version = f"py{sys.version_info[0]}{sys.version_info[1]}"
         name = f"{module}.{function.__qualname__}-{function.__code__.co_firstlineno}.{version}"
@@ -75,12 +73,12 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
         return str(self._folder)
 
     def flush(self) -> None:
-        """Forget all versions of this function."""
+        """Discard all versions of this function."""
         for index in self._folder.glob(f"{self._name}.*{INDEX}"):
             discard(index)
 
     def load_overload(self, signature: Any, target_context: Any) -> Any:
-        """The code for these types; None if there is none that can be trusted."""
+        """Load the code for these types; None if there is none that can be trusted."""
         target_context.refresh()
         if not self._enabled:
             return None
@@ -88,27 +86,27 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
         index = self._index(key)
         if not os.path.lexists(index):
             return None
-        content = code_of(index)
+        content = read_code(index)
         if content is None:
-            Damage.say(self._folder.parent)
+            Damage.report(self._folder.parent)
             discard(index)
             return None
-        kept, code = pickle.loads(content)
-        return Result._rebuild(target_context, *code) if kept == key else None
+        saved_key, code = pickle.loads(content)
+        return Result._rebuild(target_context, *code) if saved_key == key else None
 
     def save_overload(self, signature: Any, code: Any) -> None:
-        """Keep code, if that is possible; a full disk costs the next start some seconds and nothing else."""
+        """Save code if possible; on a full disk the next start compiles again."""
         if not self._enabled or code.library.has_dynamic_globals:
             return
         key = self._index_key(signature, code.codegen)
         content = dumps((key, code._reduce()))
         index = self._index(key)
-        digest = digest_of(index, content)
+        digest = code_digest(index, content)
         with contextlib.suppress(OSError):
             if not self._folder.is_dir():
-                remove(self._folder)  # whatever else stands there
+                remove(self._folder)  # it is something else
             self._folder.mkdir(parents=True, exist_ok=True)
-            write(place_of_code(index, digest), content)
+            write(code_path(index, digest), content)
             write(index, digest.encode())
 
     def _index(self, key: Any) -> Path:
@@ -117,57 +115,57 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
 
 
 def sweep(folder: Path) -> bool:
-    """Discard what is damaged in a folder of compiled code; whether all was whole."""
+    """Discard damaged files in a folder of compiled code; whether all were intact."""
     try:
-        damaged = [index for index in folder.rglob(f"*{INDEX}") if code_of(index) is None]
+        damaged = [index for index in folder.rglob(f"*{INDEX}") if read_code(index) is None]
     except OSError:
-        return True  # it cannot be looked through; each file is checked again before it is used
+        return True  # it cannot be listed; each file is checked again before it is used
     for index in damaged:
         discard(index)
     if damaged:
-        Damage.say(folder)
+        Damage.report(folder)
     return not damaged
 
 
-def code_of(index: Path) -> bytes | None:
-    """The code that an index names; None if either of the two is not what was written."""
-    digest = content_of(index)
+def read_code(index: Path) -> bytes | None:
+    """Read the code that an index names; None if either file is not what was written."""
+    digest = read_file(index)
     if digest is None or len(digest) != hashlib.sha256().digest_size * 2 or not digest.isalnum():
         return None
     name = digest.decode("ascii", "replace")
-    content = content_of(place_of_code(index, name))
-    return content if content is not None and digest_of(index, content) == name else None
+    content = read_file(code_path(index, name))
+    return content if content is not None and code_digest(index, content) == name else None
 
 
-def content_of(path: Path) -> bytes | None:
-    """What stands in a file; None if it is none, or cannot be read."""
+def read_file(path: Path) -> bytes | None:
+    """Read a file; None if it is not a regular file, or cannot be read."""
     try:
-        return path.read_bytes() if path.is_file() else None  # a pipe would wait for ever
+        return path.read_bytes() if path.is_file() else None  # a pipe would block forever
     except OSError:
         return None
 
 
-def digest_of(index: Path, content: bytes) -> str:
-    """What tells this code for this index from any other."""
+def code_digest(index: Path, content: bytes) -> str:
+    """Compute the digest that identifies this code together with its index."""
     return hashlib.sha256(index.name.encode() + b"\0" + content).hexdigest()
 
 
-def place_of_code(index: Path, digest: str) -> Path:
-    """The file with the code of a digest."""
+def code_path(index: Path, digest: str) -> Path:
+    """The path of the file with the code of a digest."""
     function = index.name.removesuffix(INDEX).rpartition(".")[0]
     return index.with_name(f"{function}.{digest[:32]}{CODE}")
 
 
 def discard(index: Path) -> None:
-    """Remove an index, whatever stands in its place, and the code that it names."""
-    digest = content_of(index)
+    """Remove an index, or whatever has its name, and the code that it names."""
+    digest = read_file(index)
     if digest and digest.isalnum() and digest.isascii():
-        remove(place_of_code(index, digest.decode()))
+        remove(code_path(index, digest.decode()))
     remove(index)
 
 
 def remove(path: Path) -> None:
-    """Remove a file, or a folder in its place, if that is possible."""
+    """Remove a file or a folder, if possible."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path, ignore_errors=True)
     else:
@@ -176,7 +174,7 @@ def remove(path: Path) -> None:
 
 
 def write(path: Path, content: bytes) -> None:
-    """Put a file in its place in one step."""
+    """Write a file in one step, by renaming a temporary one."""
     temporary = path.with_name(f".{secrets.token_hex(8)}.tmp")
     try:
         temporary.write_bytes(content)

@@ -1,10 +1,10 @@
-"""How can a compilation be interrupted? It runs aside, in another thread, while the main thread waits.
+"""Compilation in another thread, so that Ctrl-C can interrupt the wait for it.
 
-Python hears Ctrl-C in the main thread alone, between any two of its own instructions. Inside of the compiler
-that would leave half-made code, print tracebacks from destructors, or end the process. So the main thread
-only waits; an interruption ends the wait at once, and the compilation goes on, for the next call needs it
-too. Python cannot end while a thread is in the compiler, so at its end it waits until the function that is
-being compiled is done; the functions that call it are then no longer compiled.
+Python handles Ctrl-C in the main thread only, between two of its instructions. Within the compiler that would
+leave half-made code, print tracebacks from destructors, or end the process. So the main thread only waits. An
+interruption ends the wait at once, and the compilation continues, since the next call needs it too. Python
+cannot exit while a thread is in the compiler, so its exit waits until the current function is compiled; the
+functions that call it are then not compiled.
 """
 
 from __future__ import annotations
@@ -19,22 +19,22 @@ from typing import Any
 
 from numba.core.compiler_lock import global_compiler_lock
 
-POLL_SECONDS = 0.1  # on Windows a wait hears of Ctrl-C only when it ends
-MOST_SECONDS = 60.0  # that the end of Python waits
+POLL_SECONDS = 0.1  # on Windows Ctrl-C is handled only when a wait ends
+MAX_EXIT_WAIT = 60.0  # [s]
 
 
-class Leaving(BaseException):
-    """Python ends: nothing more is compiled."""
+class Exiting(BaseException):
+    """Python is exiting: nothing more is compiled."""
 
 
 class _State:
     lock = threading.Lock()
     busy = 0  # threads in the compiler
-    is_leaving = False
+    is_exiting = False
 
 
 class _Job:
-    """A call, and what came of it."""
+    """A call, and its result or error."""
 
     def __init__(self, call: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
         self._call, self._arguments = call, arguments
@@ -46,22 +46,25 @@ class _Job:
         try:
             with _busy():
                 self.result = self._call(*self._arguments)
-        except BaseException as error:  # raised again by whoever waits
+        except BaseException as error:  # raised again in the waiting thread
             self.error = error
         finally:
             self.done.set()
 
 
-def aside(call: Callable[..., Any], *arguments: Any) -> Any:
-    """Call something that compiles where no signal interrupts it; its result.
+def run_in_compiler_thread(call: Callable[..., Any], *arguments: Any) -> Any:
+    """Call something that compiles in a thread that no signal interrupts.
+
+    Returns:
+        The call's result.
 
     Raises:
-        KeyboardInterrupt: Or whatever else a signal's handler raises; the call goes on.
+        KeyboardInterrupt: Or whatever else a signal's handler raises; the call continues.
         BaseException: Whatever the call raised.
     """
-    if _State.is_leaving:
-        raise Leaving
-    # Who compiles already, or imports, holds a lock for which another thread would wait in vain.
+    if _State.is_exiting:
+        raise Exiting
+    # A thread that is compiling or importing holds a lock: another thread would wait for it forever.
     is_main = threading.current_thread() is threading.main_thread()
     if not is_main or _is_compiling() or _is_importing():
         with _busy():
@@ -75,19 +78,19 @@ def aside(call: Callable[..., Any], *arguments: Any) -> Any:
     return job.result
 
 
-def wait_for_the_compiler() -> None:
-    """Let no thread be in the compiler when Python ends."""
-    _State.is_leaving = True
-    end = time.monotonic() + MOST_SECONDS
+def wait_for_compiler() -> None:
+    """Wait at exit until no thread is in the compiler."""
+    _State.is_exiting = True
+    end = time.monotonic() + MAX_EXIT_WAIT
     while _State.busy and time.monotonic() < end:
         time.sleep(POLL_SECONDS / 10)
 
 
-atexit.register(wait_for_the_compiler)
+atexit.register(wait_for_compiler)
 
 
 def _is_compiling() -> bool:
-    """Whether this thread is in the compiler."""
+    """Whether this thread holds the compiler's lock."""
     lock: Any = global_compiler_lock
     return bool(lock.is_locked())
 

@@ -1,47 +1,54 @@
-"""How is an event written down, and how does the next call know what this one has left?"""
+"""The event log of a world, and the checksum by which the next call recognises an unchanged state."""
 
 from __future__ import annotations
 
-from typing import Any
-
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import LOG_RESERVE, LOG_SIZE, EventKind
+from silverball.physics.records import (
+    LOG_RESERVE,
+    LOG_SIZE,
+    BallRecord,
+    Contact,
+    EventKind,
+    LogRecord,
+    WorldRecord,
+)
 
 
 @internal
-def record(
-    log: Any, kind: int, ball: Any, part: int, tick: int, offset: float, nx: float, nz: float, speed: float
-) -> None:
-    """Append an event of a ball where it is (see `layout.EVENT`) to a world's log, or count it as lost."""
-    room = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
-    if log.count >= room:
+def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
+    """Append an event of a ball at its present position (see `records.EVENT`), or count it as lost."""
+    capacity = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
+    if log.count >= capacity:
         log.lost += 1
         return
     event = log.event[log.count]
     log.count += 1
-    event.kind, event.part, event.ball = kind, part, ball.id
-    event.tick, event.offset = tick, offset
+    event.kind, event.part, event.ball = kind, contact.part, ball.id
+    event.tick, event.offset = tick, contact.time
     event.x, event.z = ball.x, ball.z
-    event.normal_x, event.normal_z = nx, nz
+    event.normal_x, event.normal_z = contact.nx, contact.nz
     event.speed = speed
 
 
 @internal
-def leave(world: Any, log: Any) -> None:
-    """Keep in the log what a call leaves."""
-    log.mark = mark(world)
+def store_checksum(world: WorldRecord, log: LogRecord) -> None:
+    """Store the checksum of the state that a call leaves, for `validation.is_unchanged`."""
+    log.checksum = flight_checksum(world)
 
 
 @inlined
-def mark(world: Any) -> float:
-    """A number that no other flights, contacts to come and angles have, if nobody seeks some that do."""
+def flight_checksum(world: WorldRecord) -> float:
+    """Compute a number that identifies the flights, the next contacts and the paddles' angles.
+
+    It tells an unchanged state from a changed one, but is no protection against deliberate collisions.
+    """
     angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
-    return mark_of(world.ball[0]) + mark_of(world.ball[1]) + angles
+    return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles
 
 
 @inlined
-def mark_of(ball: Any) -> float:
-    """The share of one ball."""
-    begin = (ball.from_x + ball.from_z) + (ball.from_vx + ball.from_vz)
-    pull = (ball.pull_x + ball.pull_z) + (ball.offset + ball.motion)
-    return begin + pull + (ball.due + ball.meets)
+def _ball_checksum(ball: BallRecord) -> float:
+    """Compute the share of one ball."""
+    start = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
+    motion = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
+    return start + motion + (ball.contact_age + ball.contact_part)

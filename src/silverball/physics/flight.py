@@ -1,103 +1,113 @@
-"""When does a ball in flight touch something for the first time?
+"""Time of impact: the first moment at which a ball in flight touches a shape.
 
-Between contacts a ball flies on a parabola. Let D be the gap between ball and shape, n the unit normal at
-the nearest point, D′ = n·v its rate and α = n·a. A convex shape lies wholly behind the line through its
-nearest point at right angles to n, so the ball cannot touch it before it has used up the gap to that line:
+Between contacts a ball flies on a parabola. Let D be the gap between ball and shape, n the unit normal at the
+nearest point, D′ = n·v its rate and α = n·a. A convex shape lies wholly behind the line through its nearest
+point perpendicular to n, so the ball cannot touch it before it has used up the gap to that line:
 
     D + D′·h + ½·α·h² = 0,   h the smallest root ≥ 0.
 
-Fly h, look again, until the gap is gone; one Newton step removes what is left. A flat face is met by the
-first step, corners and circles after a few: near the contact the step is Newton's, and it always stays on
-the safe side.
+Advance by h and repeat until the gap is closed; one Newton step removes the rest. A flat face is found by the
+first step, corners and circles after a few: near the contact the step is Newton's, and it never overshoots.
 
-A flight is held by the ball's record: the state at its beginning, the acceleration, and its age. All times
-in here are ages of the flight [s].
+A flight is defined by the ball's record: the state at its start, the acceleration, and its age (see
+`motion.py`). All times in this file are ages of the flight [s].
 
-Source: the idea is that of conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid
-Body Systems", 1996, ch. 2), with the exact parabola in place of a bound on the speed.
+Source: conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996,
+ch. 2), with the exact parabola in place of a bound on the speed.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import NOTHING, OTHER_BALL, PAUSE, Ball, Contact
+from silverball.physics.records import (
+    NOTHING,
+    NULL_EVENT,
+    OTHER_BALL,
+    BallMotion,
+    BallRecord,
+    ColliderRecord,
+    Contact,
+)
 from silverball.physics.shapes import distance, point_distance
-from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, POLISH_TIME
+from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, NEWTON_TIME
 
 
 @inlined
-def time_to_line(gap: float, rate: float, bend: float) -> float:
-    """The smallest h ≥ 0 [s] with  gap + rate·h + ½·bend·h² = 0,  for gap ≥ 0; NEVER if there is none.
+def time_to_line(gap: float, rate: float, gap_accel: float) -> float:
+    """Compute the smallest root h ≥ 0 [s] of a gap's parabola, for gap ≥ 0; NEVER if there is none.
 
-    Of the two forms of the root, the one without cancellation:
-    (−rate ∓ √Δ)/bend = 2·gap/(√Δ − rate)  with  Δ = rate² − 2·bend·gap.
+        gap + rate·h + ½·gap_accel·h² = 0
+
+    Of the two forms of the root it takes the one without cancellation:
+    (−rate ∓ √Δ)/gap_accel = 2·gap/(√Δ − rate)  with  Δ = rate² − 2·gap_accel·gap.
     """
-    square = rate * rate - 2.0 * bend * gap
+    square = rate * rate - 2.0 * gap_accel * gap
     if rate < 0.0:
         return NEVER if square < 0.0 else 2.0 * gap / (sqrt(square) - rate)
-    return (rate + sqrt(square)) / -bend if bend < 0.0 else NEVER
+    return (rate + sqrt(square)) / -gap_accel if gap_accel < 0.0 else NEVER
 
 
 @inlined
-def lasts(gap: float, rate: float, bend: float, h: float) -> bool:
-    """Whether a gap is certainly not used up within h: a sum that bends down is least at an end; no root."""
-    return gap + h * (rate + 0.5 * min(bend, 0.0) * h) > 0.0
+def stays_open(gap: float, rate: float, gap_accel: float, h: float) -> bool:
+    """Whether a gap certainly stays open for h [s], without a root: a concave parabola is least at an end."""
+    return gap + h * (rate + 0.5 * min(gap_accel, 0.0) * h) > 0.0
 
 
 @inlined
-def flown(ball: Any, age: float) -> Ball:
-    """The ball at an age of its flight:  p + v·h + ½·a·h²,  v + a·h."""
-    return Ball(
-        ball.from_x + age * (ball.from_vx + 0.5 * ball.pull_x * age),
-        ball.from_z + age * (ball.from_vz + 0.5 * ball.pull_z * age),
-        ball.from_vx + ball.pull_x * age,
-        ball.from_vz + ball.pull_z * age,
+def state_at(ball: BallRecord, age: float) -> BallMotion:
+    """Compute the ball's state at an age of its flight:  p + v·h + ½·a·h²,  v + a·h."""
+    return BallMotion(
+        ball.start_x + age * (ball.start_vx + 0.5 * ball.accel_x * age),
+        ball.start_z + age * (ball.start_vz + 0.5 * ball.accel_z * age),
+        ball.start_vx + ball.accel_x * age,
+        ball.start_vz + ball.accel_z * age,
     )
 
 
 @inlined
-def polished(time: float, gap: float, rate: float) -> float:
-    """The time after one Newton step on the gap; a graze too flat for a short step stays as it is."""
-    if abs(gap) >= abs(rate) * POLISH_TIME:  # also where both are 0
+def newton_refined(time: float, gap: float, rate: float) -> float:
+    """Refine a time by one Newton step on the gap; a graze too flat for a short step is left as it is."""
+    if abs(gap) >= abs(rate) * NEWTON_TIME:  # also where both are 0
         return time
     return max(0.0, time - gap / rate)
 
 
 @internal
-def time_to_border(gap: float, rate: float, bend: float) -> float:
-    """When the gap to a straight border is used up: the closed form, polished once."""
+def time_to_border(gap: float, rate: float, gap_accel: float) -> float:
+    """Compute when the gap to a straight border closes: the closed form, refined once."""
     if gap <= 0.0 and rate < 0.0:
         return 0.0
-    time = time_to_line(max(gap, 0.0), rate, bend)
+    time = time_to_line(max(gap, 0.0), rate, gap_accel)
     if 0.0 < time < NEVER:
-        time = polished(time, gap + time * (rate + 0.5 * bend * time), rate + bend * time)
+        time = newton_refined(time, gap + time * (rate + 0.5 * gap_accel * time), rate + gap_accel * time)
     return time
 
 
 @kernel
-def flight_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float) -> tuple[float, bool]:
-    """When a ball first meets a shape that stands still, from the age `start` on and before `limit`.
+def time_to_shape(
+    c: ColliderRecord, ball: BallRecord, radius: float, start: float, limit: float
+) -> tuple[float, bool]:
+    """Find when a ball first touches a stationary shape, from the age `start` on and before `limit`.
 
     Returns:
-        The age and True; or False and an age up to which the flight is free: the limit, or less if the search
-        has not ended (a long graze).
+        The age and True; or False and an age up to which there is no contact: the limit, or less if the
+        search has not ended (a long graze).
     """
     time = start
     for _ in range(FLIGHT_STEPS):
-        here = flown(ball, time)
+        here = state_at(ball, time)
         gap, nx, nz = distance(c, here.x, here.z)
         gap -= radius
         rate = nx * here.vx + nz * here.vz
         if gap <= CONTACT_GAP and rate < 0.0:
-            return polished(time, gap, rate), True
+            return newton_refined(time, gap, rate), True
         gap = max(gap, 0.0)
-        bend = nx * ball.pull_x + nz * ball.pull_z
-        if lasts(gap, rate, bend, limit - time):
+        gap_accel = nx * ball.accel_x + nz * ball.accel_z
+        if stays_open(gap, rate, gap_accel, limit - time):
             return limit, False
-        step = time_to_line(gap, rate, bend)
+        step = time_to_line(gap, rate, gap_accel)
         if step == 0.0:  # at rest on the shape and pressed against it
             return time, True
         time += step
@@ -107,37 +117,39 @@ def flight_to_shape(c: Any, ball: Any, radius: float, start: float, limit: float
 
 
 @internal
-def flight_to_ball(a: Ball, b: Ball, bend_x: float, bend_z: float, radius: float, limit: float) -> Contact:
-    """The first contact of two balls before `limit` [s from now]; the normal points from b to a.
+def contact_with_ball(
+    a: BallMotion, b: BallMotion, accel_x: float, accel_z: float, radius: float, limit: float
+) -> Contact:
+    """Find the first contact of two balls before `limit` [s from now]; the normal points from b to a.
 
     Args:
         a: The one ball now.
         b: The other ball now.
-        bend_x: Difference of their accelerations, a's less b's [u/s²].
-        bend_z: The same in z.
+        accel_x: Difference of their accelerations, a's less b's [u/s²].
+        accel_z: The same in z.
         radius: Of a ball [u].
         limit: The end of the search [s].
     """
     px, pz, vx, vz = a.x - b.x, a.z - b.z, a.vx - b.vx, a.vz - b.vz
-    if bend_x == 0.0 and bend_z == 0.0:
-        time = _time_on_a_line(px, pz, vx, vz, 2.0 * radius, limit)
+    if accel_x == 0.0 and accel_z == 0.0:
+        time = _time_to_ball_uniform(px, pz, vx, vz, 2.0 * radius, limit)
     else:
-        time = _time_on_a_parabola(px, pz, vx, vz, bend_x, bend_z, 2.0 * radius, limit)
+        time = _time_to_ball_accelerated(px, pz, vx, vz, accel_x, accel_z, 2.0 * radius, limit)
     if not time < limit:
         return Contact(limit, NOTHING, 0.0, 0.0)
-    nx, nz = px + time * (vx + 0.5 * bend_x * time), pz + time * (vz + 0.5 * bend_z * time)
+    nx, nz = px + time * (vx + 0.5 * accel_x * time), pz + time * (vz + 0.5 * accel_z * time)
     apart, nx, nz = point_distance(nx, nz, 0.0, 0.0)
     if apart > 2.0 * radius + CONTACT_GAP * 100.0:
-        return Contact(time, PAUSE, 0.0, 0.0)
+        return Contact(time, NULL_EVENT, 0.0, 0.0)
     return Contact(time, OTHER_BALL, nx, nz)
 
 
 @inlined
-def _time_on_a_line(px: float, pz: float, vx: float, vz: float, reach: float, limit: float) -> float:
-    """When two balls meet that fall alike: their relative motion p + v·h is a straight line.
+def _time_to_ball_uniform(px: float, pz: float, vx: float, vz: float, reach: float, limit: float) -> float:
+    """Compute when two balls with equal accelerations meet: their relative motion p + v·h is uniform.
 
-    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0; with b = −p·v > 0 and c = p² − 4r² the earlier root
-    is c / (b + √(b² − v²·c)): no cancellation.
+    |p + v·h| = 2r  is  v²·h² + 2(p·v)·h + p² − 4r² = 0. With b = −p·v > 0 and c = p² − 4r² the earlier root
+    is c / (b + √(b² − v²·c)), which has no cancellation.
     """
     toward = -(px * vx + pz * vz)
     if toward <= 0.0:
@@ -154,23 +166,23 @@ def _time_on_a_line(px: float, pz: float, vx: float, vz: float, reach: float, li
     # Newton on the gap itself: c, a difference of squares, has lost the last digits of a long flight.
     qx, qz = px + vx * time, pz + vz * time
     apart = sqrt(qx * qx + qz * qz)
-    return polished(time, apart - reach, (qx * vx + qz * vz) / apart)
+    return newton_refined(time, apart - reach, (qx * vx + qz * vz) / apart)
 
 
 @internal
-def _time_on_a_parabola(
-    px: float, pz: float, vx: float, vz: float, bend_x: float, bend_z: float, reach: float, limit: float
+def _time_to_ball_accelerated(
+    px: float, pz: float, vx: float, vz: float, accel_x: float, accel_z: float, reach: float, limit: float
 ) -> float:
-    """The same where one ball rolls and the other slips: the safe steps of `flight_to_shape`, to a circle."""
+    """Compute the same for different accelerations, by the safe steps of `time_to_shape` to a circle."""
     time = 0.0
     for _ in range(FLIGHT_STEPS):
-        x, z = px + time * (vx + 0.5 * bend_x * time), pz + time * (vz + 0.5 * bend_z * time)
+        x, z = px + time * (vx + 0.5 * accel_x * time), pz + time * (vz + 0.5 * accel_z * time)
         gap, nx, nz = point_distance(x, z, 0.0, 0.0)
         gap -= reach
-        rate = nx * (vx + bend_x * time) + nz * (vz + bend_z * time)
+        rate = nx * (vx + accel_x * time) + nz * (vz + accel_z * time)
         if gap <= CONTACT_GAP and rate < 0.0:
-            return polished(time, gap, rate)
-        step = time_to_line(max(gap, 0.0), rate, nx * bend_x + nz * bend_z)
+            return newton_refined(time, gap, rate)
+        step = time_to_line(max(gap, 0.0), rate, nx * accel_x + nz * accel_z)
         if step == 0.0:
             return time
         time += step

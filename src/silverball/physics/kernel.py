@@ -1,4 +1,4 @@
-"""How every kernel is compiled: the one decorator, and where its machine code is kept.
+"""The decorators that compile kernels, and the folder that caches their machine code.
 
 Options, and why:
 
@@ -6,16 +6,16 @@ Options, and why:
 * ``fastmath=False``: no reordered and no fused arithmetic, so that every machine gives the same bits.
 * ``nogil=True``: slices of a batch run on threads.
 * ``forceinline=True``, for the few small helpers of the hot loop: their tuples stay in registers.
-* ``_nrt=False``: no reference counting. Kernels never allocate, and the compiler now refuses an allocation;
-  with counting, every function that is given an array would pay for atomic operations, some 20 ns a call.
-* ``no_cfunc_wrapper=True``: nobody passes kernels as function pointers; it saves 8 % of the compilation.
+* ``_nrt=False``: no reference counting. Kernels never allocate, and so the compiler refuses an allocation;
+  with counting, every function with an array argument would pay for atomic operations, some 20 ns a call.
+* ``no_cfunc_wrapper=True``: kernels are never passed as function pointers; it saves 8 % of the compilation.
 * ``no_cpython_wrapper=True``, for what only kernels call: it cannot be called from Python, and needs no code
   that unpacks arguments; it saves some 10 % of the compilation.
-* the cache: Numba's own ``cache=True`` looks at the file of the cached function alone and would return stale
+* the cache: Numba's own ``cache=True`` checks the file of the cached function alone and would return stale
   code after a change of a callee in *another* file, and it trusts its files (see `code_cache.py`). Compiled
-  code is therefore kept in a folder of the user's cache directory that is named after a hash of the sources
-  of all packages that hold kernels, and of what else machine code depends on. The drawing has a folder of its
-  own: nothing that plays calls it, so a change of a colour need not compile the physics anew.
+  code is therefore kept in a folder of the user's cache directory whose name is a hash of the sources of all
+  packages that hold kernels, and of what else machine code depends on. The drawing has its own folder: the
+  simulation never calls it, so a change of a colour does not compile the physics again.
 """
 
 from __future__ import annotations
@@ -32,39 +32,40 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+from numba import extending, types
 from numba.core.registry import CPUDispatcher
 
-from silverball.physics.code_cache import INDEX, CodeCache, code_of, discard, remove, sweep
-from silverball.physics.compile_thread import aside
+from silverball.physics.code_cache import INDEX, CodeCache, discard, read_code, remove, sweep
+from silverball.physics.compile_thread import run_in_compiler_thread
 
 SETTINGS: Any = numba.core.config
 PLAY = ("physics", "world", "players")
 STUDY = (*PLAY, "metrics", "soak")
 DRAWING = ("physics", "drawing/kernels")
 AGENTS = (*PLAY, "envs")
-KERNEL_PACKAGES = (*STUDY, "envs", "drawing")  # a kernel elsewhere must be added here; a test sees to it
-LAST_SHARE = 0.2  # of the time of a first start: what the last kernels take; measured
+KERNEL_PACKAGES = (*STUDY, "envs", "drawing")  # all packages with kernels; a test checks it
+LAST_SHARE = 0.2  # share of a first start that the last kernels take; measured
 KEEP_SECONDS = 30 * 24 * 3600.0
-_kernels: list[Any] = []  # all of this process
-_swept: set[Path] = set()  # folders of compiled code in which no file is damaged, or was when we looked
+_kernels: list[Any] = []  # all kernels of this process
+_swept: set[Path] = set()  # folders of compiled code whose files were checked
 
 
 class Compiled(CPUDispatcher):
-    """A function that is compiled, or loaded, on its first call, and without harm interrupted meanwhile."""
+    """A function that is compiled or loaded on its first call, which Ctrl-C may safely interrupt."""
 
     def compile(self, signature: Any) -> Any:
-        """The machine code for arguments of these types."""
-        return aside(super().compile, signature)
+        """Compile for arguments of these types."""
+        return run_in_compiler_thread(super().compile, signature)
 
 
 class Internal(Compiled):
     """A compiled function without the code that would let Python call it."""
 
     def __call__(self, *arguments: Any) -> Any:
-        """Refuse, where Numba would crash."""
+        """Refuse, because Numba would crash."""
         name = self.py_func.__name__
         raise TypeError(
-            f"{name} is compiled for the use of other kernels alone; from Python call "
+            f"{name} is compiled for calls by other kernels only; from Python call "
             f"{name}.py_func, which is not compiled, or decorate it with @kernel"
         )
 
@@ -73,7 +74,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def kernel(function: F) -> F:
-    """Compile a function on its first call and keep the machine code for the next start."""
+    """Compile a function on its first call and cache the machine code for the next start."""
     return _compile(function)
 
 
@@ -87,35 +88,54 @@ def inlined(function: F) -> F:
     return _compile(function, no_cpython_wrapper=True, forceinline=True)
 
 
-def pasted(function: F) -> F:
-    """Put a helper into its callers before they are compiled, so that it is not compiled by itself.
+def ir_inlined(function: F) -> F:
+    """Insert a helper into its callers before they are compiled (Numba's ``inline="always"``).
 
-    For what has one caller, or makes an array: without reference counting no compiled function returns one.
+    For helpers with one caller, or that make an array: without reference counting no compiled function can
+    return one.
     """
     return _compile(function, inline="always")
 
 
-def straight(function: Any, *arguments: Any) -> Callable[..., Any]:
-    """A kernel without Numba's look at the types of its arguments, which takes longer than a tick does.
+def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
+    """Compile a kernel for the types of these arguments and return it without Numba's type dispatch.
+
+    The dispatch takes longer than a tick does. A call with arguments of other types than these would read
+    and write memory that is not theirs.
 
     Args:
-        function: A kernel; it is compiled for these arguments if it has not been.
-        arguments: Such as it will be called with. Whoever calls it with others reads and writes memory that
-            is not theirs.
+        function: A kernel.
+        arguments: Examples of its arguments.
     """
     if SETTINGS.DISABLE_JIT:
         return cast(Callable[..., Any], function)
-    types = tuple(cast(Any, numba).typeof(one) for one in arguments)
-    found: Callable[..., Any] = function.compile(types)
-    return found
+    signature = tuple(cast(Any, numba).typeof(argument) for argument in arguments)
+    compiled: Callable[..., Any] = function.compile(signature)
+    return compiled
+
+
+@extending.intrinsic
+def _compiled_as_int(typing_context: Any, value: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.cast(builder, arguments[0], signature.args[0], types.int64)
+
+    return types.int64(value), generate
+
+
+as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
+"""The plain integer of an enum's member or of a literal.
+
+To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
+them would be compiled once for each.
+"""
 
 
 @cache
 def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
-    """The folder for compiled code of exactly these sources; None where no folder can be written.
+    """Make the folder for compiled code of exactly these sources; None where no folder can be written.
 
     Args:
-        packages: Whose sources the code is made of: `PLAY`, `STUDY`, `DRAWING` or `AGENTS`.
+        packages: The packages whose sources the code is made of: `PLAY`, `STUDY`, `DRAWING` or `AGENTS`.
     """
     import platformdirs
 
@@ -128,7 +148,7 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     folder = Path(base) / "compiled" / digest.hexdigest()[:16]
     try:
         if not folder.is_dir():
-            remove(folder)  # whatever else stands there
+            remove(folder)  # it is something else
         folder.mkdir(parents=True, exist_ok=True)
         folder.touch()
     except OSError:
@@ -137,15 +157,15 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
 
 
 def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> bool:
-    """Whether the compiled code of a kernel is on disk; a first start compiles it and all it calls.
+    """Whether a kernel's compiled code is on disk; otherwise a first start compiles it and all it calls.
 
-    Not so either if anything in its folder is damaged, when this is asked for the first time: then that, and
-    this kernel as the last one, are compiled anew.
+    The first call for a folder checks its files. If one is damaged, it is discarded together with the code of
+    this kernel, which is the last one compiled, and the result is False.
     """
     folder = cache_folder(packages)
     if folder is None:
         return False
-    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if code_of(index) is not None]
+    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if read_code(index) is not None]
     if folder not in _swept:
         _swept.add(folder)
         if not sweep(folder):
@@ -156,24 +176,24 @@ def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> b
 
 
 def compiled_share(packages: tuple[str, ...] = PLAY) -> float:
-    """How far a first start has compiled the kernels whose source this process has loaded, 0 to 1.
+    """Estimate the progress of a first start: the share of loaded kernels that are compiled, 0 to 1.
 
-    Their number grows evenly in time, but for the last two or three, which contain all the others.
+    Their number grows evenly in time, except for the last two or three, which contain all the others.
     """
     kernels = [one for one in _kernels if _packages_of(one.py_func.__module__) == packages]
     return (1.0 - LAST_SHARE) * sum(bool(one.overloads) for one in kernels) / max(len(kernels), 1)
 
 
 def _machine() -> tuple[Any, ...]:
-    """What machine code depends on besides the sources."""
+    """Everything other than the sources that machine code depends on."""
     import llvmlite.binding
 
     processor = SETTINGS.CPU_NAME or llvmlite.binding.get_host_cpu_name()
     return sys.implementation.cache_tag, numba.__version__, processor, bool(SETTINGS.BOUNDSCHECK)
 
 
-def forget_old_code() -> None:
-    """Remove the machine code of sources that nobody has run for a month."""
+def evict_old_code() -> None:
+    """Remove the machine code of sources that have not been run for a month."""
     folder = cache_folder()
     if folder is None:
         return
@@ -195,7 +215,7 @@ def _compile(function: F, **more: bool | str) -> F:
     compiled: Any = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled
-        if more.get("inline") != "always":  # those are never compiled by themselves
+        if more.get("inline") != "always":  # these are never compiled by themselves
             _kernels.append(compiled)
         folder = cache_folder(_packages_of(function.__module__))
         if folder is not None:
@@ -204,7 +224,7 @@ def _compile(function: F, **more: bool | str) -> F:
 
 
 def _packages_of(module: str) -> tuple[str, ...]:
-    """The packages whose sources the code of a module's kernels is made of."""
+    """The packages whose sources the machine code of a module's kernels depends on."""
     if module.startswith("silverball.drawing."):
         return DRAWING
     if module.startswith(("silverball.metrics.", "silverball.soak.")):

@@ -1,187 +1,213 @@
-"""How does a ball move over the playfield: sliding, rolling or slipping?
+"""The motion of a ball over the playfield: it slides, rolls or slips.
 
 A ball of radius r with velocity v and spin ω touches the playfield with its lowest point, which moves with
 
     u = v + ω × (−r·ŷ) = (vx + r·ω_z, vz − r·ω_x).
 
-While u ≠ 0 the ball *slips*: friction accelerates it by f = −μ·p·u/|u| (p = the force onto the playfield by
-the mass) and turns it, so that u changes by g + 7/2·f. Once u = 0 the ball *rolls*: friction is what keeps
-it so, f = −2/7·g, and 5/7 of gravity is left. On a table without friction the ball *slides* with all of it.
+While u ≠ 0 the ball *slips*: friction accelerates it by f = −μ·p·u/|u| (p: force onto the playfield by mass)
+and turns it, so that u changes by g + 7/2·f. Once u = 0 the ball *rolls*: friction keeps it so with
+f = −2/7·g, which leaves 5/7 of gravity. On a table without friction the ball *slides* with all of it.
 
-The direction of slip is held from the beginning of a flight to its end, at most for a tick: the flight stays
-a parabola, and friction never works the wrong way round, since the slip along the held direction has not
-turned over before the flight ends. The error: gravity across the slip turns its direction by at most g·h/|u|
-in a tick h, and friction by as much; where a slip ends, what is left across it, at most g·h, is taken away
-at once (the ball rolls from there). Both go to zero with the tick.
+The direction of slip is held during a flight, at most for a tick. So the flight stays a parabola, and
+friction never pushes along the slip: the slip along the held direction does not reverse before the flight
+ends. The error: in a tick h gravity turns the slip by at most g·h/|u|, and friction by as much. Where a slip
+ends, the rest across it, at most g·h, is removed at once and the ball rolls. Both errors go to zero with the
+tick.
 
-Source of 2/7 and 5/7: moment of inertia 2/5·m·r² of a solid sphere; e.g. A. Sommerfeld, "Mechanics" (1952),
-§ on the billiard ball. The spin about y turns on a point and is left alone.
+Source of 2/7 and 5/7: the moment of inertia 2/5·m·r² of a solid sphere; e.g. A. Sommerfeld, "Mechanics"
+(1952), § on the billiard ball. The spin about y acts on a point and does not change.
+
+The fields of a flight in a BALL record. The last column is what holds at the start of a tick, for a ball in
+play:
+
+    field         written by                  read by                at the start of a tick
+    ------------  --------------------------  ---------------------  ------------------------------------
+    x … vz        advance_to, bounces         everything             = state_at(age), bit for bit
+    spin_*        advance_to, bounces         bounces, slip          belongs to the same moment as x … vz
+    start_*       start_flight                state_at               the state in which the flight started
+    accel_x, _z   start_flight                state_at, searches     constant during the flight
+    motion        start_flight, hold_still    everything             SLIDING, SLIPPING or ROLLING; never HELD
+    roll_age      start_flight                find_contact           the age at which a slip ends, or NEVER
+    ticks         start_flight,               advance_ticks,         ticks since the start of the tick in
+                  advance_ticks               validation             which the flight started
+    offset        start_flight                advance_ticks,         how far into that tick it started [s]
+                                              validation
+    age           start_flight,               everything             = ticks · tick − offset
+                  advance_ticks
+    contact_age   find_contact,               searches, skip-ahead   ≥ age: there is no contact with a
+                  reset_search                                       stationary part before this age
+    contact_part  find_contact,               searches, skip-ahead   what is met at contact_age: a part,
+                  reset_search                                       GUTTER or ROLL_START; NOTHING: none is
+                                                                     known, search on from contact_age
+
+`start_flight` stands for `hold_still` and `restart_slip` too, which start flights in the same way. Within a
+tick `age` stays that of the tick's start, so a contact is due at the time  contact_age − age  of the tick. A
+flight that started within the tick has age = −offset.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
-from silverball.physics.bounce import capped
-from silverball.physics.flight import flown
-from silverball.physics.kernel import inlined, internal
-from silverball.physics.records import NOTHING, Ball, Motion
-from silverball.physics.tolerances import CREEP, NEVER
+from silverball.physics.bounce import clamp_speed
+from silverball.physics.flight import state_at
+from silverball.physics.kernel import as_int, inlined, internal
+from silverball.physics.records import NOTHING, BallMotion, BallRecord, BoardRecord, Motion
+from silverball.physics.tolerances import MIN_SLIP_SPEED, NEVER
 
 ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
-GRIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
-LONGER = 1.0 + 1e-9  # for the rounding of a time
+SLIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
+LONGER = 1.0 + 1e-9  # allows for the rounding of a time
 
 
 @inlined
-def put(ball: Any, at: Ball) -> None:
-    """Write a ball's place and velocity into its record."""
+def store(ball: BallRecord, at: BallMotion) -> None:
+    """Write a ball's position and velocity into its record."""
     ball.x, ball.z, ball.vx, ball.vz = at.x, at.z, at.vx, at.vz
 
 
 @inlined
-def depart(ball: Any, board: Any, offset: float) -> None:
-    """Begin a new flight from where the ball's record says it is, so late in the tick [s]."""
-    _begin(ball, offset)
-    if board.press == 0.0:
-        ball.pull_x, ball.pull_z, ball.motion = board.pull_x, board.pull_z, Motion.SLIDING + 0
-        ball.grips = NEVER
+def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
+    """Start a new flight from the state in the ball's record, `offset` [s] into the tick."""
+    _set_start(ball, offset)
+    if board.normal_accel == 0.0:
+        ball.accel_x, ball.accel_z, ball.motion = board.accel_x, board.accel_z, as_int(Motion.SLIDING)
+        ball.roll_age = NEVER
     else:
-        _take_grip(ball, board)
+        set_friction_motion(ball, board)
 
 
 @internal
-def hold(ball: Any, offset: float) -> None:
-    """Let a ball stay where its record says it is, from so late in the tick [s] until `let_go`."""
-    _begin(ball, offset)
-    ball.pull_x, ball.pull_z, ball.motion, ball.grips, ball.due = 0.0, 0.0, Motion.HELD + 0, NEVER, NEVER
+def hold_still(ball: BallRecord, offset: float) -> None:
+    """Keep a ball where its record says it is, from `offset` [s] into the tick until `release`."""
+    _set_start(ball, offset)
+    ball.accel_x, ball.accel_z, ball.motion = 0.0, 0.0, as_int(Motion.HELD)
+    ball.roll_age, ball.contact_age = NEVER, NEVER
 
 
 @inlined
-def let_go(ball: Any, board: Any, tick: float) -> None:
-    """Let a ball that was held move on from the end of the tick."""
+def release(ball: BallRecord, board: BoardRecord, tick: float) -> None:
+    """Let a held ball move again from the end of the tick."""
     if ball.motion == Motion.HELD:
-        depart(ball, board, tick)
+        start_flight(ball, board, tick)
 
 
 @inlined
-def turn_slip(ball: Any, board: Any) -> None:
-    """Let a slipping ball's friction follow its slip again: the direction is held for a tick at most."""
+def restart_slip(ball: BallRecord, board: BoardRecord) -> None:
+    """Start a new flight along a slipping ball's present slip, whose direction holds for one tick at most."""
     if ball.motion == Motion.SLIPPING and ball.id != 0:
-        _begin(ball, 0.0)
-        follow_slip(ball, board)
+        _set_start(ball, 0.0)
+        inline_friction_motion(ball, board)
 
 
 @inlined
-def _begin(ball: Any, offset: float) -> None:
-    ball.from_x, ball.from_z, ball.from_vx, ball.from_vz = ball.x, ball.z, ball.vx, ball.vz
+def _set_start(ball: BallRecord, offset: float) -> None:
+    """Make the state in the ball's record the start of a flight, `offset` [s] into the tick."""
+    ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = ball.x, ball.z, ball.vx, ball.vz
     ball.ticks, ball.offset, ball.age = 0, offset, -offset
-    search_anew(ball)
+    reset_search(ball)
 
 
 @inlined
-def search_anew(ball: Any) -> None:
-    """Forget what a flight is known to meet: it will be searched from its beginning."""
-    ball.due, ball.meets = 0.0, NOTHING
+def reset_search(ball: BallRecord) -> None:
+    """Discard the known next contact: the flight is searched again from its start."""
+    ball.contact_age, ball.contact_part = 0.0, NOTHING
 
 
 @internal
-def _take_grip(ball: Any, board: Any) -> None:
-    """`follow_slip`, not compiled into its many callers."""
-    follow_slip(ball, board)
+def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
+    """Call `inline_friction_motion`, which is then not compiled into every caller."""
+    inline_friction_motion(ball, board)
 
 
 @inlined
-def follow_slip(ball: Any, board: Any) -> None:
-    """Decide whether a ball on a playfield with friction slips or rolls, and its acceleration.
+def inline_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
+    """Set whether a ball on a playfield with friction slips or rolls, and its acceleration.
 
-    Along its direction the slip falls from |u| at the rate  7/2·μ·p − g·u/|u|.
+    Along its direction the slip decreases from |u| at the rate  7/2·μ·p − g·u/|u|.
     """
     slip_x, slip_z = slip(ball, board)
     speed = sqrt(slip_x * slip_x + slip_z * slip_z)
-    grip = board.friction * board.press
-    ball.grips = NEVER
-    if speed <= CREEP:
-        if board.gravity <= GRIP_SHARE * grip:
-            ball.motion = Motion.ROLLING + 0
-            ball.pull_x, ball.pull_z = ROLLING_SHARE * board.pull_x, ROLLING_SHARE * board.pull_z
+    grip = board.friction * board.normal_accel
+    ball.roll_age = NEVER
+    if speed <= MIN_SLIP_SPEED:
+        if board.gravity <= SLIP_SHARE * grip:
+            ball.motion = as_int(Motion.ROLLING)
+            ball.accel_x, ball.accel_z = ROLLING_SHARE * board.accel_x, ROLLING_SHARE * board.accel_z
             return
-        along_x, along_z = (
-            board.pull_x / board.gravity,
-            board.pull_z / board.gravity,
-        )  # too smooth: it begins to slip
+        # Too smooth to roll: the ball starts to slip down the slope.
+        along_x, along_z = board.accel_x / board.gravity, board.accel_z / board.gravity
     else:
         inverse = 1.0 / speed
         along_x, along_z = slip_x * inverse, slip_z * inverse
-        rate = GRIP_SHARE * grip - (board.pull_x * along_x + board.pull_z * along_z)
+        rate = SLIP_SHARE * grip - (board.accel_x * along_x + board.accel_z * along_z)
         if rate > 0.0:
-            ball.grips = speed / rate
-    ball.motion = Motion.SLIPPING + 0
-    ball.pull_x = board.pull_x - grip * along_x
-    ball.pull_z = board.pull_z - grip * along_z
+            ball.roll_age = speed / rate
+    ball.motion = as_int(Motion.SLIPPING)
+    ball.accel_x = board.accel_x - grip * along_x
+    ball.accel_z = board.accel_z - grip * along_z
 
 
 @inlined
-def slip(ball: Any, board: Any) -> tuple[float, float]:
-    """Velocity [u/s] of the ball's lowest point, from its record."""
+def slip(ball: BallRecord, board: BoardRecord) -> tuple[float, float]:
+    """Compute the velocity [u/s] of the ball's lowest point."""
     return ball.vx + board.ball_radius * ball.spin_z, ball.vz - board.ball_radius * ball.spin_x
 
 
 @inlined
-def land(ball: Any, board: Any, age: float) -> None:
-    """Bring the ball's record, spin included, to an age of its flight."""
-    put(ball, flown(ball, age))
-    if board.press != 0.0:
-        _turn(ball, board, age)
+def advance_to(ball: BallRecord, board: BoardRecord, age: float) -> None:
+    """Advance the ball's record, spin included, to an age of its flight."""
+    store(ball, state_at(ball, age))
+    if board.normal_accel != 0.0:
+        _advance_spin(ball, board, age)
 
 
 @inlined
-def _roll(ball: Any, board: Any) -> None:
-    """Give a ball the spin with which its lowest point stands still."""
+def _set_rolling_spin(ball: BallRecord, board: BoardRecord) -> None:
+    """Set the spin at which the ball's lowest point is at rest."""
     ball.spin_x, ball.spin_z = ball.vz * board.curvature, -ball.vx * board.curvature
 
 
 @inlined
-def _turn(ball: Any, board: Any, age: float) -> None:
-    """The spin at an age of the flight: of rolling, or changed by friction f:  dω/dt = 5/(2r)·(−f_z, f_x)."""
+def _advance_spin(ball: BallRecord, board: BoardRecord, age: float) -> None:
+    """Advance the spin to an age of the flight; friction f changes it by  dω/dt = 5/(2r)·(−f_z, f_x)."""
     if ball.motion == Motion.ROLLING:
-        _roll(ball, board)
+        _set_rolling_spin(ball, board)
     elif ball.motion == Motion.SLIPPING:
         gain = 2.5 * age * board.curvature
-        ball.spin_x -= gain * (ball.pull_z - board.pull_z)
-        ball.spin_z += gain * (ball.pull_x - board.pull_x)
+        ball.spin_x -= gain * (ball.accel_z - board.accel_z)
+        ball.spin_z += gain * (ball.accel_x - board.accel_x)
 
 
 @internal
-def begin_to_roll(ball: Any, board: Any) -> None:
-    """Let a ball whose slip comes to its end roll: an impulse −2/7·u takes away what is left of it."""
-    time = ball.due - ball.age
-    land(ball, board, ball.due)
+def start_rolling(ball: BallRecord, board: BoardRecord) -> None:
+    """End the slip of a ball: an impulse −2/7·u removes what is left of it, and the ball rolls."""
+    time = ball.contact_age - ball.age
+    advance_to(ball, board, ball.contact_age)
     slip_x, slip_z = slip(ball, board)
-    ball.vx -= slip_x / GRIP_SHARE
-    ball.vz -= slip_z / GRIP_SHARE
-    _roll(ball, board)
-    depart(ball, board, time)
+    ball.vx -= slip_x / SLIP_SHARE
+    ball.vz -= slip_z / SLIP_SHARE
+    _set_rolling_spin(ball, board)
+    start_flight(ball, board, time)
 
 
 @inlined
-def end_flight(ball: Any, board: Any, tick: float, count: int) -> None:
-    """Bring a ball to the end of a tick, or of several, and clamp its speed; else the flight goes on."""
+def advance_ticks(ball: BallRecord, board: BoardRecord, tick: float, count: int) -> None:
+    """Advance a ball to the end of `count` ticks and clamp its speed; unless clamped, the flight goes on."""
     if ball.id == 0:
         return
     ball.ticks += count
     ball.age = ball.ticks * tick - ball.offset
-    land(ball, board, ball.age)
+    advance_to(ball, board, ball.age)
     if ball.vx * ball.vx + ball.vz * ball.vz > board.speed_cap * board.speed_cap:
-        ball.vx, ball.vz = capped(ball.vx, ball.vz, board.speed_cap)
-        depart(ball, board, 0.0)
+        ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
+        start_flight(ball, board, 0.0)
 
 
 @inlined
-def leads_here(ball: Any, tick: float) -> bool:
-    """Whether the flight in a ball's record leads to where it is: not so after a change from outside."""
-    at = flown(ball, ball.age)
+def is_on_flight(ball: BallRecord, tick: float) -> bool:
+    """Whether the flight in a ball's record leads to its state; after a change from outside it does not."""
+    at = state_at(ball, ball.age)
     return (
         ball.x == at.x
         and ball.z == at.z
@@ -192,22 +218,26 @@ def leads_here(ball: Any, tick: float) -> bool:
 
 
 @internal
-def is_lawful(ball: Any, board: Any, tick: float) -> bool:
-    """Whether a ball moves as its board lets balls move, on a flight that began before this tick."""
+def has_valid_motion(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
+    """Whether a ball moves as its board allows, on a flight that began before this tick."""
     if not (0.0 <= ball.offset <= tick * LONGER and ball.age >= tick - tick * LONGER):
         return False
     if ball.motion == Motion.SLIPPING:
-        return board.press != 0.0
+        return board.normal_accel != 0.0
     share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
-    if ball.pull_x != share * board.pull_x or ball.pull_z != share * board.pull_z or ball.grips != NEVER:
+    if (
+        ball.accel_x != share * board.accel_x
+        or ball.accel_z != share * board.accel_z
+        or ball.roll_age != NEVER
+    ):
         return False
     if ball.motion == Motion.ROLLING:
-        return board.press != 0.0 and not is_slipping(ball, board)
-    return ball.motion == Motion.SLIDING and board.press == 0.0
+        return board.normal_accel != 0.0 and not is_slipping(ball, board)
+    return ball.motion == Motion.SLIDING and board.normal_accel == 0.0
 
 
 @internal
-def is_slipping(ball: Any, board: Any) -> bool:
-    """Whether the lowest point of a ball rubs over the playfield."""
+def is_slipping(ball: BallRecord, board: BoardRecord) -> bool:
+    """Whether the lowest point of a ball moves over the playfield."""
     slip_x, slip_z = slip(ball, board)
-    return slip_x * slip_x + slip_z * slip_z > CREEP * CREEP
+    return slip_x * slip_x + slip_z * slip_z > MIN_SLIP_SPEED * MIN_SLIP_SPEED

@@ -1,8 +1,8 @@
-"""How do the paddles turn, and when does a ball meet one of them?
+"""The paddles: how they turn, and when a ball touches one.
 
-Both paddles are worked out as a left one: for the right paddle z is mirrored on the way in (side = −1) and
-on the way out, so that mirrored play gives mirrored bits. A paddle's own frame has its pivot at the origin,
-z′ from the pivot to the tip and x′ to the side that lifts; its triangle is fixed in there. At angle θ
+Both paddles are computed as a left one. For the right paddle z is mirrored on the way in (side = −1) and on
+the way out, so that mirrored play gives mirrored bits. A paddle's own frame has its pivot at the origin, z′
+from the pivot to the tip and x′ to the side that lifts; its triangle is fixed in that frame. At angle θ
 
     z′ = x·sin θ + z·cos θ,   x′ = x·cos θ − z·sin θ       (x, z from the pivot)
 
@@ -12,79 +12,78 @@ and a surface that turns with ω moves with (ω·r_z, −ω·r_x) at r from the 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
-from silverball.physics.flight import flown, lasts, polished, time_to_line
+from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import PAUSE, Contact, Paddle
+from silverball.physics.portable_math import sine_cosine
+from silverball.physics.records import NULL_EVENT, BallRecord, ColliderRecord, Contact, PaddleSweep
 from silverball.physics.shapes import point_distance
-from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, LEAST_ADVANCE_GAP, NEVER
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, MIN_ADVANCE_GAP, NEVER
 
 
 @inlined
-def aimed(c: Any, angle: float, raised: bool) -> Paddle:
-    """A paddle in a tick that it begins at this angle, turning at constant speed to its button's stop."""
+def start_sweep(c: ColliderRecord, angle: float, raised: bool) -> PaddleSweep:
+    """Set a paddle's motion in a tick: from this angle, at constant speed, to its button's stop."""
     stop = c.angle_up if raised else c.angle_rest
-    turn = 0.0
+    omega = 0.0
     if angle < stop:
-        turn = c.lift_speed
+        omega = c.lift_speed
     elif angle > stop:
-        turn = -c.return_speed
-    return Paddle(angle, turn, stop)
+        omega = -c.return_speed
+    return PaddleSweep(angle, omega, stop)
 
 
 @inlined
-def reaches_stop(paddle: Paddle, tick: float) -> bool:
-    """Whether the paddle turns and comes to its stop within the tick."""
-    return paddle.turn != 0.0 and angle_at(paddle, tick) == paddle.stop
+def reaches_stop(paddle: PaddleSweep, tick: float) -> bool:
+    """Whether the paddle turns and reaches its stop within the tick."""
+    return paddle.omega != 0.0 and angle_at(paddle, tick) == paddle.stop
 
 
 @inlined
-def time_to_stop(paddle: Paddle, tick: float) -> float:
-    """When in the tick the paddle reaches its stop [s]; NEVER if it does not."""
-    return min((paddle.stop - paddle.angle) / paddle.turn, tick) if reaches_stop(paddle, tick) else NEVER
+def time_to_stop(paddle: PaddleSweep, tick: float) -> float:
+    """Compute when in the tick the paddle reaches its stop [s]; NEVER if it does not."""
+    return min((paddle.stop - paddle.angle) / paddle.omega, tick) if reaches_stop(paddle, tick) else NEVER
 
 
 @inlined
-def angle_at(paddle: Paddle, time: float) -> float:
-    """The angle at a time of the tick, never beyond the stop."""
-    angle = paddle.angle + paddle.turn * time
-    return min(angle, paddle.stop) if paddle.turn > 0.0 else max(angle, paddle.stop)
+def angle_at(paddle: PaddleSweep, time: float) -> float:
+    """Compute the angle at a time of the tick, never beyond the stop."""
+    angle = paddle.angle + paddle.omega * time
+    return min(angle, paddle.stop) if paddle.omega > 0.0 else max(angle, paddle.stop)
 
 
 @inlined
-def at_stop(paddle: Paddle) -> Paddle:
-    """The paddle at its stop, where its angle is exact and the turning ends."""
-    return Paddle(paddle.stop, 0.0, paddle.stop)
+def end_at_stop(paddle: PaddleSweep) -> PaddleSweep:
+    """Place a paddle at its stop, where its angle is exact and it no longer turns."""
+    return PaddleSweep(paddle.stop, 0.0, paddle.stop)
 
 
 @inlined
-def held(paddle: Paddle, time: float) -> Paddle:
-    """The paddle stopped where it is at a time of the tick."""
-    if paddle.turn == 0.0:
+def stop_sweep(paddle: PaddleSweep, time: float) -> PaddleSweep:
+    """Stop a paddle where it is at a time of the tick."""
+    if paddle.omega == 0.0:
         return paddle
-    return Paddle(angle_at(paddle, time), 0.0, paddle.stop)
+    return PaddleSweep(angle_at(paddle, time), 0.0, paddle.stop)
 
 
 @inlined
-def surface_velocity(c: Any, turn: float, x: float, z: float) -> tuple[float, float]:
-    """Velocity [u/s] of the turning paddle's surface at (x, z) [u]:  ω × r."""
+def surface_velocity(c: ColliderRecord, omega: float, x: float, z: float) -> tuple[float, float]:
+    """Compute the velocity [u/s] of the turning paddle's surface at (x, z) [u]:  ω × r."""
     rx = x - c.x
     rz = c.side * (z - c.z)
-    return turn * rz, c.side * (-turn * rx)
+    return omega * rz, c.side * (-omega * rx)
 
 
 @kernel
-def paddle_distance(c: Any, angle: float, x: float, z: float) -> tuple[float, float, float]:
-    """Distance of a point from a paddle at an angle, and the unit normal there."""
+def paddle_distance(c: ColliderRecord, angle: float, x: float, z: float) -> tuple[float, float, float]:
+    """Compute the distance of a point from a paddle at an angle, and the unit normal there."""
     sine, cosine = sine_cosine(angle)
     return _distance_turned(c, sine, cosine, x, z)
 
 
 @inlined
-def standing(c: Any, angle: float) -> tuple[float, float]:
-    """Sine and cosine of the angle of a paddle that stands still, at its stops by heart."""
+def stationary_sine_cosine(c: ColliderRecord, angle: float) -> tuple[float, float]:
+    """Look up or compute sine and cosine of a stationary paddle's angle; precomputed at both stops."""
     if angle == c.angle_rest:
         return c.sine_rest, c.cosine_rest
     if angle == c.angle_up:
@@ -93,7 +92,9 @@ def standing(c: Any, angle: float) -> tuple[float, float]:
 
 
 @inlined
-def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> tuple[float, float, float]:
+def _distance_turned(
+    c: ColliderRecord, sine: float, cosine: float, x: float, z: float
+) -> tuple[float, float, float]:
     rx = x - c.x
     rz = c.side * (z - c.z)
     gap, nx, nz = _outline_distance(c, rx * cosine - rz * sine, rx * sine + rz * cosine)
@@ -101,11 +102,11 @@ def _distance_turned(c: Any, sine: float, cosine: float, x: float, z: float) -> 
 
 
 @inlined
-def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
-    """Distance from the paddle's triangle in its own frame, and the unit normal there.
+def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
+    """Compute the distance from the paddle's triangle in its own frame, and the unit normal there.
 
-    The triangle is the same on both sides of the line from pivot to tip, so the lower side is seen as the
-    upper one: what is left is the flank from the tip (corner 1) to the base's end (corner 2), and the base.
+    The triangle is symmetric about the line from pivot to tip, so a point below it is mirrored to the upper
+    side. What is left is the flank from the tip (corner 1) to the base's end (corner 2), and the base.
     """
     side = 1.0 if x >= 0.0 else -1.0
     x = abs(x)
@@ -127,57 +128,67 @@ def _outline_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 
 
 @internal
-def flight_to_paddle(
-    c: Any, part: int, paddle: Paddle, ball: Any, radius: float, speed: float, start: float, best: Contact
+def contact_with_paddle(
+    c: ColliderRecord,
+    part: int,
+    paddle: PaddleSweep,
+    ball: BallRecord,
+    radius: float,
+    speed: float,
+    start: float,
+    best: Contact,
 ) -> Contact:
-    """The first contact of a ball with a paddle from a time of the tick on, or `best` if that comes first.
+    """Find the first contact of a ball with a paddle from a time of the tick on, or return an earlier `best`.
 
-    In the frame of a turning paddle the flight is no parabola, so the bend n·a is replaced by its bound −A,
+    In the frame of a turning paddle the flight is not a parabola, so n·a is replaced by its bound −A,
+
         A = |a| + 2·|ω|·v + ω²·ρ,
+
     with v a bound on the ball's speed before the limit, and ρ on its distance from the pivot while it can
-    touch.
-    `speed` is the ball's at the start, where it is within reach of the paddle.
+    touch. `speed` is the ball's at the start, where it is within reach of the paddle.
     """
-    turn, limit = paddle.turn, best.time
-    bound, least, sine, cosine = 0.0, 0.0, 0.0, 1.0
+    omega, limit = paddle.omega, best.time
+    bound, min_step, sine, cosine = 0.0, 0.0, 0.0, 1.0
     angle = paddle.angle
-    if turn != 0.0:
-        pull = abs(ball.pull_x) + abs(ball.pull_z)
-        fastest = speed + pull * (limit - start)
-        furthest = c.reach + radius + 2.0 * fastest * (limit - start)
-        bound = pull + 2.0 * abs(turn) * fastest + turn * turn * furthest
-        least = sqrt(2.0 * LEAST_ADVANCE_GAP / bound)
-    if turn == 0.0:
-        sine, cosine = standing(c, angle)
+    if omega != 0.0:
+        accel = abs(ball.accel_x) + abs(ball.accel_z)
+        max_speed = speed + accel * (limit - start)
+        max_distance = c.reach + radius + 2.0 * max_speed * (limit - start)
+        bound = accel + 2.0 * abs(omega) * max_speed + omega * omega * max_distance
+        min_step = sqrt(2.0 * MIN_ADVANCE_GAP / bound)
+    if omega == 0.0:
+        sine, cosine = stationary_sine_cosine(c, angle)
     time = start
     for _ in range(FLIGHT_STEPS):
-        here = flown(ball, ball.age + time)
-        if turn != 0.0:
+        here = state_at(ball, ball.age + time)
+        if omega != 0.0:
             angle = angle_at(paddle, time)
             sine, cosine = sine_cosine(angle)
         gap, nx, nz = _distance_turned(c, sine, cosine, here.x, here.z)
         gap -= radius
-        ux, uz = surface_velocity(c, turn, here.x, here.z)
+        ux, uz = surface_velocity(c, omega, here.x, here.z)
         rate = nx * (here.vx - ux) + nz * (here.vz - uz)
         if gap <= CONTACT_GAP and rate < 0.0:
-            time = max(start, polished(time, gap, rate))
+            time = max(start, newton_refined(time, gap, rate))
             if not time < limit:
                 return best
-            here = flown(ball, ball.age + time)
-            gap, nx, nz = paddle_distance(c, angle_at(paddle, time) if turn != 0.0 else angle, here.x, here.z)
+            here = state_at(ball, ball.age + time)
+            gap, nx, nz = paddle_distance(
+                c, angle_at(paddle, time) if omega != 0.0 else angle, here.x, here.z
+            )
             return Contact(time, part, nx, nz)
-        bend = nx * ball.pull_x + nz * ball.pull_z if turn == 0.0 else -bound
+        gap_accel = nx * ball.accel_x + nz * ball.accel_z if omega == 0.0 else -bound
         gap = max(gap, 0.0)
-        if lasts(gap, rate, bend, limit - time):
+        if stays_open(gap, rate, gap_accel, limit - time):
             return best
-        step = time_to_line(gap, rate, bend)
-        if turn == 0.0:
+        step = time_to_line(gap, rate, gap_accel)
+        if omega == 0.0:
             if step == 0.0:  # at rest on the paddle and pressed against it
                 return Contact(time, part, nx, nz)
-        elif step < least and rate >= 0.0:
-            # Side by side with the surface: get on, at most LEAST_ADVANCE_GAP too far.
-            step = least
+        elif step < min_step and rate >= 0.0:
+            # The ball runs along with the surface: advance, at most MIN_ADVANCE_GAP too far.
+            step = min_step
         time += step
         if not time < limit:
             return best
-    return Contact(time, PAUSE, 0.0, 0.0)
+    return Contact(time, NULL_EVENT, 0.0, 0.0)

@@ -1,18 +1,17 @@
-"""What the step moves and what it moves through: the records, and the small tuples that kernels pass around.
+"""The records of worlds and tables, and the tuples that kernels pass to each other.
 
-A *world* is one flat record with everything that changes. A *board* and its *colliders* are the table,
-compiled; they do not change. A *log* is the buffer of events of the last call; it is not part of the state.
-Kernels pass records on as they are, read and write their fields, and hand the small NamedTuples below to each
-other: no arrays are made in the hot loop.
+A *world* is one flat record with everything that changes. A *board* and its *colliders* are the compiled
+table; they do not change. A *log* is the buffer of events of the last call; it is not part of the state.
+Kernels pass records on by reference, read and write their fields, and exchange the NamedTuples below; the hot
+loop allocates no arrays.
 
-Units: u, s, rad; x up the table, z to the player's right. Angles of paddles are mirrored alike (up is
-positive).
+Units: u, s, rad; x up the table, z to the player's right. Angles are positive upwards for both paddles.
 """
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,15 +22,14 @@ BALL_COUNT = 2
 """Balls in a world record; a table may allow one or two (`max_balls`)."""
 
 LOG_SIZE = 64
-"""Events that the log of one world holds; later ones are counted as lost."""
-
+"""Capacity of a world's log; later events are counted as lost."""
 
 LOG_RESERVE = 8
-"""Of these, the slots that contacts leave free: a jam comes after many touches and must not be lost."""
+"""Slots of a log that contacts leave free: a jam comes after many touches and must not be lost."""
 
 
 class Part(IntEnum):
-    """The first colliders of every board; the table's other parts follow from `FIRST_SHAPE` on."""
+    """The first colliders of every board; the table's other parts have the numbers from `FIRST_SHAPE` on."""
 
     LEFT_WALL = 0
     RIGHT_WALL = 1
@@ -41,16 +39,16 @@ class Part(IntEnum):
     FIRST_SHAPE = 5
 
 
-# What a ball can meet besides parts. Plain integers: they share a field with part numbers.
+# Other values of a field that holds part numbers; plain integers, so that they mix with these.
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
-PAUSE = -4  # a null event: the search was safe up to here
-GRIP = -5  # a slipping ball begins to roll
+NULL_EVENT = -4  # the search stopped here without a contact and has to continue
+ROLL_START = -5  # a slipping ball starts to roll
 
 
 class Kind(IntEnum):
-    """What a collider is."""
+    """The kind of a collider."""
 
     ABSENT = 0  # a paddle that the table does not have
     WALL = 1
@@ -61,7 +59,7 @@ class Kind(IntEnum):
 
 
 class EventKind(IntEnum):
-    """What happened."""
+    """The kind of an event."""
 
     HIT = 1  # a ball met a part above hit_speed
     TOUCH = 2  # the same below hit_speed
@@ -70,7 +68,7 @@ class EventKind(IntEnum):
     GUTTER = 5  # a ball left the board
     CREATED = 6
     JITTER = 7
-    JAM = 8  # a pinched ball was held, the paddles at it stalled
+    JAM = 8  # a pinched ball was stopped and the paddles at it stalled
 
 
 class Motion(IntEnum):
@@ -78,15 +76,15 @@ class Motion(IntEnum):
 
     SLIDING = 0  # without friction, as in the original
     ROLLING = 1
-    SLIPPING = 2  # its lowest point rubs over the playfield
-    HELD = 3  # jammed, until the tick is over; no ball is at the end of a tick
+    SLIPPING = 2  # its lowest point moves over the playfield
+    HELD = 3  # jammed; only within a tick
 
 
 class Fault(IntEnum):
-    """Why a world has stopped."""
+    """The reason why a world has stopped."""
 
     NONE = 0
-    NOT_FINITE = 1  # a position or speed is not a number
+    NOT_FINITE = 1  # a position or speed is infinite or NaN
     OUTSIDE = 2  # a ball is beyond the borders
     TOO_FAST = 3  # a ball is faster than the cap allows
     INSIDE = 4  # a ball is inside a part or the other ball
@@ -94,7 +92,7 @@ class Fault(IntEnum):
 
 
 class Outcome(IntEnum):
-    """What came of the wish for a new ball."""
+    """The result of a request for a new ball."""
 
     CREATED = 0
     BOARD_FULL = 1
@@ -107,24 +105,24 @@ BALL = np.dtype(
         ("vx", "f8"), ("vz", "f8"),  # velocity [u/s]
         ("spin_x", "f8"), ("spin_y", "f8"), ("spin_z", "f8"),  # [rad/s]; zero on a table without friction
         ("id", "i8"),  # 1, 2, 3, … in the order of creation; 0: no ball
-        # The flight that brought it here: since its last contact the ball has been on one parabola, and is
-        # always worked out from its beginning, so that rounding does not grow from tick to tick.
-        ("from_x", "f8"), ("from_z", "f8"), ("from_vx", "f8"), ("from_vz", "f8"),
-        ("pull_x", "f8"), ("pull_z", "f8"),  # acceleration [u/s²]
+        # The flight: since its last contact the ball has been on one parabola. Its state is always computed
+        # from the start, so that rounding errors do not accumulate. The table in motion.py has the details.
+        ("start_x", "f8"), ("start_z", "f8"), ("start_vx", "f8"), ("start_vz", "f8"),
+        ("accel_x", "f8"), ("accel_z", "f8"),  # acceleration [u/s²]
         ("motion", "i8"),  # Motion
-        ("grips", "f8"),  # the age at which a slipping ball begins to roll
-        ("ticks", "i8"), ("offset", "f8"),  # it began so many ticks ago, and so late [s] in that tick
-        ("age", "f8"),  # so this old it is: at the beginning of the next tick [s]
-        ("due", "f8"), ("meets", "i8"),  # its next contact with a still part: at what age, which part;
-        # with NOTHING: the flight is known to be free up to this age
+        ("roll_age", "f8"),  # age at which a slipping ball starts to roll [s]
+        ("ticks", "i8"), ("offset", "f8"),  # ticks since it started, and the offset within its first tick [s]
+        ("age", "f8"),  # at the start of the next tick [s]
+        # The next contact with a stationary part; with NOTHING: there is none up to this age [s].
+        ("contact_age", "f8"), ("contact_part", "i8"),
     ],
     align=True,
 )  # fmt: skip
 
 PADDLE = np.dtype(
     [
-        ("angle", "f8"),  # where it is [rad]
-        ("angle_commanded", "f8"),  # where the button wants it: rest or up [rad]
+        ("angle", "f8"),  # [rad]
+        ("angle_commanded", "f8"),  # the stop that its button commands: rest or up [rad]
         ("angular_velocity", "f8"),  # at the end of the last tick [rad/s]
     ],
     align=True,
@@ -149,26 +147,26 @@ WORLD = np.dtype(
 
 BOARD = np.dtype(
     [
-        ("pull_x", "f8"), ("pull_z", "f8"), ("gravity", "f8"),  # acceleration of a free ball, its size [u/s²]
-        ("ball_radius", "f8"), ("curvature", "f8"),  # [u], and one by it [1/u]
+        ("accel_x", "f8"), ("accel_z", "f8"), ("gravity", "f8"),  # of a sliding ball; size [u/s²]
+        ("ball_radius", "f8"), ("curvature", "f8"),  # [u]; 1 / ball_radius [1/u]
         ("ball_restitution", "f8"),
         ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"),
         ("gutter", "f8"),  # x of the gutter line [u]
         ("half_length", "f8"), ("half_width", "f8"),
         ("friction", "f8"),  # coefficient
-        ("press", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
-        ("steepest", "f8"),  # bound on the acceleration of any flight [u/s²]
+        ("normal_accel", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
+        ("max_accel", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
-        ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # where the borders stop a ball's centre [u]
-        ("paddle_top", "f8"),  # no paddle reaches a ball whose centre is above this x [u]
+        ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # limits of a ball's centre at the borders [u]
+        ("paddle_top", "f8"),  # no paddle can touch a ball whose centre is above this x [u]
         # Circles in which a ball's centre must be to touch the left or right paddle, at any angle.
         ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
         ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
         # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
-        ("skin", "f8"),  # a cell lists all parts that a ball can reach on a way of this length [u]
-        ("search_time", "f8"),  # no search for contacts looks further ahead than this [s]
+        ("skin", "f8"),  # a cell lists all parts that a ball can touch within this travel [u]
+        ("search_time", "f8"),  # the longest search for contacts [s]
         ("place_first", "i8"), ("place_end", "i8"),  # this board's rows of the places
         ("place_size", "f8"),  # side of a place's square [u]
         ("place_lowest", "f8"),  # no ball is created below this x [u]
@@ -179,7 +177,7 @@ BOARD = np.dtype(
 COLLIDER = np.dtype(
     [
         ("kind", "i8"),
-        # Reach: a circle around (x, z) that holds the whole part. A wall keeps its coordinate in x or z.
+        # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
         # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
         # (counter-clockwise) and sides 01, 12, 20 with unit directions along_* and lengths. A paddle's lie in
@@ -209,7 +207,7 @@ EVENT = np.dtype(
         ("offset", "f8"),  # time within the tick [s]
         ("x", "f8"), ("z", "f8"),  # the ball's centre [u]
         ("normal_x", "f8"), ("normal_z", "f8"),  # unit, from the part to the ball
-        ("speed", "f8"),  # of the approach along the normal, relative to the surface [u/s]
+        ("speed", "f8"),  # approach along the normal, relative to the surface [u/s]
     ],
     align=True,
 )  # fmt: skip
@@ -217,21 +215,34 @@ EVENT = np.dtype(
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
-        ("mark", "f8"),  # of the flights and angles that the last call left (see validation.py)
+        ("checksum", "f8"),  # of the flights and angles that the last call left
         ("event", EVENT, (LOG_SIZE,)),
     ],
     align=True,
 )  # fmt: skip
 
 
+# The arguments of kernels: rows of arrays of these types, and whole arrays. mypy cannot know them.
+WorldRecord: TypeAlias = Any  # a WORLD record
+BallRecord: TypeAlias = Any  # a BALL record
+PaddleRecord: TypeAlias = Any  # a PADDLE record
+BoardRecord: TypeAlias = Any  # a BOARD record
+ColliderRecord: TypeAlias = Any  # a COLLIDER record
+LogRecord: TypeAlias = Any  # a LOG record
+Colliders: TypeAlias = Any  # COLLIDER records [collider] of all boards
+Grid: TypeAlias = Any  # i4 [number]: the grids of all boards
+Places: TypeAlias = Any  # f8 [place, 2]: centres (x, z) [u] of the squares in which balls may be created
+Tally: TypeAlias = Any  # i8 [part]: hits of each part of one board
+
+
 def records(count: int, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """An array of zeroed records. Without the JIT, `record.field` takes one of NumPy's record arrays."""
+    """Create zeroed records; without the JIT a record array, as kernels need for `record.field`."""
     array = np.zeros(count, dtype)
     return array.view(np.recarray) if SETTINGS.DISABLE_JIT else array
 
 
-class Ball(NamedTuple):
-    """A ball at one moment: centre [u] and velocity [u/s]."""
+class BallMotion(NamedTuple):
+    """A ball's motion at one moment: centre [u] and velocity [u/s]."""
 
     x: float
     z: float
@@ -239,11 +250,11 @@ class Ball(NamedTuple):
     vz: float
 
 
-class Paddle(NamedTuple):
-    """A paddle in one tick: angle at its beginning [rad], angular velocity [rad/s], its stop [rad]."""
+class PaddleSweep(NamedTuple):
+    """A paddle's motion in one tick: angle at its start [rad], angular velocity [rad/s], stop [rad]."""
 
     angle: float
-    turn: float
+    omega: float
     stop: float
 
 
@@ -254,3 +265,43 @@ class Contact(NamedTuple):
     part: int
     nx: float
     nz: float
+
+
+class BoardGeometry(NamedTuple):
+    """One board as the step reads it, with the colliders and grids of all boards."""
+
+    board: BoardRecord
+    colliders: Colliders
+    grid: Grid
+
+
+class Lane(NamedTuple):
+    """One world of a batch with its log and tally: all that a step writes."""
+
+    world: WorldRecord
+    log: LogRecord
+    tally: Tally
+
+
+class BatchGeometry(NamedTuple):
+    """All boards of a batch: BOARD records [board], with their colliders and grids."""
+
+    boards: Any
+    colliders: Colliders
+    grid: Grid
+
+
+class Lanes(NamedTuple):
+    """The worlds of a batch with their logs and tallies: all that a step writes.
+
+    Attributes:
+        worlds: WORLD records [world].
+        board_of: The board of each world [world].
+        logs: LOG records [world].
+        tallies: Hits of each part [world, part].
+    """
+
+    worlds: Any
+    board_of: Any
+    logs: Any
+    tallies: Any

@@ -1,40 +1,52 @@
-"""How far is a point from a shape, and which way is out?
+"""Distance of a point from a shape, and the unit normal there.
 
-Each function returns the distance [u] of the point (x, z) from the shape's surface (negative inside) and
-the unit normal there, pointing from the nearest feature to the point. That is all the solver ever asks of a
-shape: corners come out rounded by themselves, and the tip of a paddle has no normal of its own to go wrong.
+Each function returns the distance [u] of the point (x, z) from the shape's surface (negative inside) and the
+unit normal, which points from the nearest feature to the point. The solver needs nothing else of a shape, so
+corners act as rounded ones, and the tip of a paddle needs no normal of its own.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
+from typing import NamedTuple
 
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import Kind
+from silverball.physics.records import ColliderRecord, Kind
+
+
+class Side(NamedTuple):
+    """A side of a triangle: from p to q [u], its unit direction u, its length [u]."""
+
+    px: float
+    pz: float
+    qx: float
+    qz: float
+    ux: float
+    uz: float
+    length: float
 
 
 @inlined
 def point_distance(x: float, z: float, px: float, pz: float) -> tuple[float, float, float]:
-    """Distance of (x, z) from the point (px, pz);  n = (p − q) / |p − q|."""
+    """Compute the distance of (x, z) from the point (px, pz);  n = (p − q) / |p − q|."""
     dx = x - px
     dz = z - pz
     distance = sqrt(dx * dx + dz * dz)
     if distance == 0.0:
-        return 0.0, 1.0, 0.0  # every direction is as good; up the table is the same in the mirror
+        return 0.0, 1.0, 0.0  # any direction will do; up the table is mirrored to itself
     return distance, dx / distance, dz / distance
 
 
 @inlined
-def circle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
-    """Distance from a cylinder: from its centre, less its radius."""
+def circle_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
+    """Compute the distance from a cylinder: that from its centre, less its radius."""
     distance, nx, nz = point_distance(x, z, c.x, c.z)
     return distance - c.radius, nx, nz
 
 
 @internal
-def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
-    """Distance from a slant wall: a segment from corner 0 to corner 1, rounded by its thickness.
+def segment_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
+    """Compute the distance from a slant wall: a segment from corner 0 to corner 1, rounded by its thickness.
 
     With t = (p − p₀)·u the foot of the point on the line, the nearest point is an end (t ≤ 0, t ≥ length)
     or lies between.
@@ -55,12 +67,11 @@ def segment_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
 
 
 @internal
-def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
-    """Distance from a triangle with counter-clockwise corners.
+def triangle_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
+    """Compute the distance from a triangle with counter-clockwise corners.
 
     A side with direction u has the outward normal n = (−u_z, u_x) in (x, z). The side that the point lies
-    furthest outside of holds the nearest feature: the side itself, or the corner beyond whose end the
-    point's foot falls.
+    furthest outside of holds the nearest feature: the side itself, or one of its ends.
     """
     side, best = 0, (x - c.x0) * -c.along_z0 + (z - c.z0) * c.along_x0
     outside = (x - c.x1) * -c.along_z1 + (z - c.z1) * c.along_x1
@@ -70,38 +81,27 @@ def triangle_distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
     if outside > best:
         side, best = 2, outside
     if side == 0:
-        return _side_distance(best, x, z, c.x0, c.z0, c.x1, c.z1, c.along_x0, c.along_z0, c.length0)
+        return _side_distance(best, x, z, Side(c.x0, c.z0, c.x1, c.z1, c.along_x0, c.along_z0, c.length0))
     if side == 1:
-        return _side_distance(best, x, z, c.x1, c.z1, c.x2, c.z2, c.along_x1, c.along_z1, c.length1)
-    return _side_distance(best, x, z, c.x2, c.z2, c.x0, c.z0, c.along_x2, c.along_z2, c.length2)
+        return _side_distance(best, x, z, Side(c.x1, c.z1, c.x2, c.z2, c.along_x1, c.along_z1, c.length1))
+    return _side_distance(best, x, z, Side(c.x2, c.z2, c.x0, c.z0, c.along_x2, c.along_z2, c.length2))
 
 
 @inlined
-def _side_distance(
-    outside: float,
-    x: float,
-    z: float,
-    px: float,
-    pz: float,
-    qx: float,
-    qz: float,
-    ux: float,
-    uz: float,
-    length: float,
-) -> tuple[float, float, float]:
-    """Distance from the side p → q or its ends, for a point `outside` away from the side's line."""
-    foot = (x - px) * ux + (z - pz) * uz
+def _side_distance(outside: float, x: float, z: float, side: Side) -> tuple[float, float, float]:
+    """Compute the distance from a side or its ends, for a point `outside` away from the side's line."""
+    foot = (x - side.px) * side.ux + (z - side.pz) * side.uz
     if outside > 0.0:
         if foot < 0.0:
-            return point_distance(x, z, px, pz)
-        if foot > length:
-            return point_distance(x, z, qx, qz)
-    return outside, -uz, ux
+            return point_distance(x, z, side.px, side.pz)
+        if foot > side.length:
+            return point_distance(x, z, side.qx, side.qz)
+    return outside, -side.uz, side.ux
 
 
 @kernel
-def distance(c: Any, x: float, z: float) -> tuple[float, float, float]:
-    """Distance from any shape that stands still: the one rule for every collider."""
+def distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
+    """Compute the distance from a stationary shape of any kind."""
     if c.kind == Kind.CYLINDER:
         return circle_distance(c, x, z)
     if c.kind == Kind.SLANT_WALL:

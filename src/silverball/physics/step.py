@@ -1,241 +1,318 @@
 """One tick of one world: the whole simulation on one screen.
 
-    the paddles get their motion
-    → nothing is near: fly the balls, turn the paddles
+    set the paddles' motion
+    → if nothing is near: advance balls and paddles to the end of the tick
     → else, until the tick is used up:
-        for each ball the earliest contact along its flight (parts, gutter, the other ball)
-        → bring the ball there → bounce → write it down → a new flight begins
-    → bring the balls to the tick's end, clamp their speeds → count the tick
+        find the earliest contact of each ball (parts, gutter, other ball)
+        → advance the ball to it → bounce → log the event → start a new flight
+    → advance the balls to the end of the tick, clamp their speeds → count the tick
 
-The moment at which a paddle reaches its stop ends a search too, so that none looks across it.
+A search also ends at the moment a paddle reaches its stop, so a paddle's motion is uniform within a search.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from silverball.physics.balls import shove_balls
-from silverball.physics.bounce import bounce_off_held, exchange
-from silverball.physics.contact import first_contact, is_near, resolve
-from silverball.physics.event_log import leave, record
-from silverball.physics.flight import flight_to_ball, flown
-from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.motion import depart, end_flight, hold, land, let_go
-from silverball.physics.paddle import aimed, angle_at, at_stop, held, paddle_distance, time_to_stop
+from silverball.physics.bounce import bounce_balls, bounce_off_held
+from silverball.physics.broad_phase import is_near
+from silverball.physics.contact import first_contact, resolve
+from silverball.physics.event_log import log_event, store_checksum
+from silverball.physics.flight import contact_with_ball, state_at
+from silverball.physics.kernel import as_int, inlined, internal, kernel
+from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
+from silverball.physics.paddle import (
+    angle_at,
+    end_at_stop,
+    paddle_distance,
+    start_sweep,
+    stop_sweep,
+    time_to_stop,
+)
 from silverball.physics.records import (
     NOTHING,
-    OTHER_BALL,
-    PAUSE,
+    NULL_EVENT,
+    BallRecord,
+    BatchGeometry,
+    BoardGeometry,
+    BoardRecord,
+    ColliderRecord,
+    Colliders,
     Contact,
     EventKind,
     Fault,
+    Lane,
+    Lanes,
+    LogRecord,
     Motion,
-    Paddle,
+    PaddleRecord,
+    PaddleSweep,
     Part,
+    WorldRecord,
 )
-from silverball.physics.skip_ahead import are_apart, free_ticks
+from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
-from silverball.physics.validation import is_admitted, is_as_left, is_sound
+from silverball.physics.validation import admit_state, is_unchanged, validate_world
+
+
+class EventCounts(NamedTuple):
+    """Events of this tick, to detect jams.
+
+    Attributes:
+        a: Events of ball 0 since its last jam.
+        b: The same of ball 1.
+        shared: How many of these were contacts between the two balls.
+        jams_a: Jams of ball 0.
+        jams_b: Jams of ball 1.
+    """
+
+    a: int
+    b: int
+    shared: int
+    jams_a: int
+    jams_b: int
 
 
 @kernel
 def step_world(
-    world: Any, board: Any, colliders: Any, grid: Any, log: Any, tally: Any,
-    raise_left: bool, raise_right: bool, shove: bool, tick: float,
-) -> None:  # fmt: skip
+    lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, shove: bool, tick: float
+) -> None:
     """Move a world on by one tick [s]. A world with a fault stands still."""
-    if is_ready(world, board, colliders, grid, log, tick):
+    world, board = lane.world, geometry.board
+    if can_step(world, geometry, lane.log, tick):
         if shove:
-            shove_balls(world, board, log)
-        if free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, 1) == 1:
-            turn_paddles(world, board, colliders, raise_left, raise_right, tick)
-            end_ticks(world, board, tick, 1 + 0)  # a bare 1 would be compiled as a version of its own
+            shove_balls(world, board, lane.log)
+        if event_free_ticks(geometry, world.ball[0], world.ball[1], tick, 1) == 1:
+            advance_paddles(world, board, geometry.colliders, raise_left, raise_right, tick)
+            finish_ticks(world, board, tick, as_int(1))
         else:
-            play_tick(world, board, colliders, grid, log, tally, raise_left, raise_right, tick)
-        if not is_inside(world, board):
-            is_sound(world, board)  # names the fault
-        leave(world, log)
+            play_tick(lane, geometry, raise_left, raise_right, tick)
+        if not are_balls_on_board(world, board):
+            validate_world(world, board)  # sets the fault
+        store_checksum(world, lane.log)
 
 
 @inlined
-def turn_paddles(
-    world: Any, board: Any, colliders: Any, raise_left: bool, raise_right: bool, tick: float
+def advance_paddles(
+    world: WorldRecord,
+    board: BoardRecord,
+    colliders: Colliders,
+    raise_left: bool,
+    raise_right: bool,
+    tick: float,
 ) -> None:
     """Turn the paddles through a tick in which they meet nothing."""
     left, right = world.paddle[0], world.paddle[1]
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
-    store_paddle(left, aimed(left_part, left.angle, raise_left), tick)
-    store_paddle(right, aimed(right_part, right.angle, raise_right), tick)
+    store_paddle(left, start_sweep(left_part, left.angle, raise_left), tick)
+    store_paddle(right, start_sweep(right_part, right.angle, raise_right), tick)
 
 
 @inlined
-def end_ticks(world: Any, board: Any, tick: float, count: int) -> None:
-    """Bring the balls to the end of a tick, or of several in which nothing happens to them."""
-    end_flight(world.ball[0], board, tick, count)
-    end_flight(world.ball[1], board, tick, count)
+def finish_ticks(world: WorldRecord, board: BoardRecord, tick: float, count: int) -> None:
+    """Advance the balls to the end of a tick, or of several event-free ones, and count the ticks."""
+    advance_ticks(world.ball[0], board, tick, count)
+    advance_ticks(world.ball[1], board, tick, count)
     world.tick += count
 
 
 @internal
-def play_tick(
-    world: Any, board: Any, colliders: Any, grid: Any, log: Any, tally: Any,
-    raise_left: bool, raise_right: bool, tick: float,
-) -> None:  # fmt: skip
-    """Let everything happen that happens within a tick, in its order."""
+def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, tick: float) -> None:
+    """Play all events of one tick in their order."""
+    world, board, colliders = lane.world, geometry.board, geometry.colliders
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
-    left = aimed(left_part, world.paddle[0].angle, raise_left)
-    right = aimed(right_part, world.paddle[1].angle, raise_right)
+    left = start_sweep(left_part, world.paddle[0].angle, raise_left)
+    right = start_sweep(right_part, world.paddle[1].angle, raise_right)
+    left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
     a, b = world.ball[0], world.ball[1]
-    apart = are_apart(board, a, b, tick, 1.0)
-    stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
-    time, busy_a, busy_b, meetings, again_a, again_b = 0.0, 0, 0, 0, False, False
-    jammed = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
+    are_apart = cannot_meet(board, a, b, tick, 1.0)
+    jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
+    counts = EventCounts(0, 0, 0, 0, 0)
+    time = 0.0
     while True:
-        limit = min(tick, stop_left, stop_right)
-        meet_a = first_contact(board, colliders, grid, left, right, a, time, limit, tick)
-        meet_b = first_contact(board, colliders, grid, left, right, b, time, limit, tick)
-        meet = Contact(min(meet_a.time, meet_b.time), NOTHING, 0.0, 0.0)
-        if not apart:
-            meet = first_meeting(board, a, b, time, meet.time)
-        time = min(meet.time, limit)
-        free = meet.part == NOTHING and meet_a.part == NOTHING and meet_b.part == NOTHING
-        if free and limit == tick:
+        limit = min(tick, left_stop_time, right_stop_time)
+        contact_a = first_contact(geometry, left, right, a, time, limit, tick)
+        contact_b = first_contact(geometry, left, right, b, time, limit, tick)
+        ball_contact = Contact(min(contact_a.time, contact_b.time), NOTHING, 0.0, 0.0)
+        if not are_apart:
+            ball_contact = first_ball_contact(board, a, b, time, ball_contact.time)
+        time = min(ball_contact.time, limit)
+        is_free = ball_contact.part == NOTHING and contact_a.part == NOTHING and contact_b.part == NOTHING
+        if is_free and limit == tick:
             break
 
-        if meet.part != NOTHING:
-            balls_met(world, board, log, a, b, meet)
-            busy_a, busy_b, meetings = busy_a + 1, busy_b + 1, meetings + 1
-        elif meet_a.part != NOTHING and meet_a.time <= meet_b.time:
-            turn = left.turn if meet_a.part == Part.LEFT_PADDLE else right.turn
-            resolve(world, board, colliders, log, tally, a, meet_a, turn)
-            busy_a += 1
-        elif meet_b.part != NOTHING:
-            turn = left.turn if meet_b.part == Part.LEFT_PADDLE else right.turn
-            resolve(world, board, colliders, log, tally, b, meet_b, turn)
-            busy_b += 1
-        if time >= stop_left:
-            left, stop_left = at_stop(left), NEVER
-        if time >= stop_right:
-            right, stop_right = at_stop(right), NEVER
+        if ball_contact.part != NOTHING:
+            resolve_ball_contact(world, board, lane.log, ball_contact)
+            counts = EventCounts(counts.a + 1, counts.b + 1, counts.shared + 1, counts.jams_a, counts.jams_b)
+        elif contact_a.part != NOTHING and contact_a.time <= contact_b.time:
+            omega = left.omega if contact_a.part == Part.LEFT_PADDLE else right.omega
+            resolve(lane, geometry, a, contact_a, omega)
+            counts = EventCounts(counts.a + 1, counts.b, counts.shared, counts.jams_a, counts.jams_b)
+        elif contact_b.part != NOTHING:
+            omega = left.omega if contact_b.part == Part.LEFT_PADDLE else right.omega
+            resolve(lane, geometry, b, contact_b, omega)
+            counts = EventCounts(counts.a, counts.b + 1, counts.shared, counts.jams_a, counts.jams_b)
+        if time >= left_stop_time:
+            left, left_stop_time = end_at_stop(left), NEVER
+        if time >= right_stop_time:
+            right, right_stop_time = end_at_stop(right), NEVER
 
-        if busy_a >= jammed or busy_b >= jammed:
-            both = JAM_SHARE * meetings >= jammed  # they press each other
-            if both or busy_a >= jammed:
-                left, right = jam(world, board, colliders, log, a, left, right, time, again_a)
-                busy_a, again_a = 0, True
-            if both or busy_b >= jammed:
-                left, right = jam(world, board, colliders, log, b, left, right, time, again_b)
-                busy_b, again_b = 0, True
-            meetings = 0
-            stop_left, stop_right = time_to_stop(left, tick), time_to_stop(right, tick)
-    let_go(a, board, tick)
-    let_go(b, board, tick)
+        if counts.a >= jam_limit or counts.b >= jam_limit:
+            left, right, counts = hold_jam(lane, geometry, left, right, time, counts, jam_limit)
+            left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
+    release(a, board, tick)
+    release(b, board, tick)
     store_paddle(world.paddle[0], left, tick)
     store_paddle(world.paddle[1], right, tick)
-    end_ticks(world, board, tick, 1 + 0)
+    finish_ticks(world, board, tick, as_int(1))
 
 
 @inlined
-def first_meeting(board: Any, a: Any, b: Any, start: float, limit: float) -> Contact:
-    """The contact of the two balls, if nothing comes first."""
+def first_ball_contact(
+    board: BoardRecord, a: BallRecord, b: BallRecord, start: float, limit: float
+) -> Contact:
+    """Find the first contact of the two balls between two times of the tick [s]."""
     if a.id == 0 or b.id == 0:
         return Contact(limit, NOTHING, 0.0, 0.0)
-    bend_x, bend_z = a.pull_x - b.pull_x, a.pull_z - b.pull_z
-    at_a, at_b = flown(a, a.age + start), flown(b, b.age + start)
-    found = flight_to_ball(at_a, at_b, bend_x, bend_z, board.ball_radius, limit - start)
+    accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
+    at_a, at_b = state_at(a, a.age + start), state_at(b, b.age + start)
+    found = contact_with_ball(at_a, at_b, accel_x, accel_z, board.ball_radius, limit - start)
     return Contact(min(start + found.time, limit), found.part, found.nx, found.nz)
 
 
 @internal
-def balls_met(world: Any, board: Any, log: Any, a: Any, b: Any, contact: Contact) -> None:
-    """Let two balls bounce off each other; one that is held is like a wall."""
-    time = contact.time
-    if contact.part == PAUSE:
+def resolve_ball_contact(world: WorldRecord, board: BoardRecord, log: LogRecord, contact: Contact) -> None:
+    """Bounce the two balls off each other. A ball that is held acts like a wall."""
+    a, b, time = world.ball[0], world.ball[1], contact.time
+    if contact.part == NULL_EVENT:
         return
-    land(a, board, a.age + time)
-    land(b, board, b.age + time)
+    advance_to(a, board, a.age + time)
+    advance_to(b, board, b.age + time)
     if a.motion == Motion.HELD:
         speed = bounce_off_held(b, board, -contact.nx, -contact.nz)
     elif b.motion == Motion.HELD:
         speed = bounce_off_held(a, board, contact.nx, contact.nz)
     else:
-        speed = exchange(a, b, board, contact)
-    kind = EventKind.BALL_TOUCH + 0
+        speed = bounce_balls(a, b, board, contact)
+    kind = as_int(EventKind.BALL_TOUCH)
     if speed > board.hit_speed:
-        kind = EventKind.BALL_HIT + 0
+        kind = as_int(EventKind.BALL_HIT)
         world.ball_hits += 1
     else:
         world.touches += 1
-    record(log, kind, a, OTHER_BALL + 0, world.tick, time, contact.nx, contact.nz, speed)
+    log_event(log, kind, a, world.tick, contact, speed)
     if a.motion != Motion.HELD:
-        depart(a, board, time)
+        start_flight(a, board, time)
     if b.motion != Motion.HELD:
-        depart(b, board, time)
+        start_flight(b, board, time)
 
 
 @internal
-def jam(
-    world: Any, board: Any, colliders: Any, log: Any, ball: Any, left: Paddle, right: Paddle, time: float,
-    again: bool,
-) -> tuple[Paddle, Paddle]:  # fmt: skip
-    """Stop a jammed ball dead at a time of the tick, and stall the paddles at it; both paddles.
+def hold_jam(
+    lane: Lane,
+    geometry: BoardGeometry,
+    left: PaddleSweep,
+    right: PaddleSweep,
+    time: float,
+    counts: EventCounts,
+    limit: int,
+) -> tuple[PaddleSweep, PaddleSweep, EventCounts]:
+    """Stop the balls that have reached `limit` events in this tick, and stall the paddles at them.
 
-    If it is jammed again in the same tick, even with the paddles still, it is held until the tick is over.
+    Both balls are stopped if most of their events were contacts with each other.
+
+    Returns:
+        Both paddles and the counts after that.
+    """
+    a, b, jams_a, jams_b = counts.a, counts.b, counts.jams_a, counts.jams_b
+    is_shared = JAM_SHARE * counts.shared >= limit
+    if is_shared or counts.a >= limit:
+        left, right = stop_jammed_ball(lane, geometry, lane.world.ball[0], left, right, time, jams_a > 0)
+        a, jams_a = 0, jams_a + 1
+    if is_shared or counts.b >= limit:
+        left, right = stop_jammed_ball(lane, geometry, lane.world.ball[1], left, right, time, jams_b > 0)
+        b, jams_b = 0, jams_b + 1
+    return left, right, EventCounts(a, b, 0, jams_a, jams_b)
+
+
+@internal
+def stop_jammed_ball(
+    lane: Lane,
+    geometry: BoardGeometry,
+    ball: BallRecord,
+    left: PaddleSweep,
+    right: PaddleSweep,
+    time: float,
+    is_repeat: bool,
+) -> tuple[PaddleSweep, PaddleSweep]:
+    """Stop a jammed ball at a time of the tick, and stall the paddles at it.
+
+    A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
+
+    Returns:
+        Both paddles after that.
     """
     if ball.id == 0 or ball.motion == Motion.HELD:
         return left, right
-    land(ball, board, ball.age + time)
+    world, board, colliders = lane.world, geometry.board, geometry.colliders
+    advance_to(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
-    left = stalled(left, colliders[board.collider_first + Part.LEFT_PADDLE], ball, near, time, again)
-    right = stalled(right, colliders[board.collider_first + Part.RIGHT_PADDLE], ball, near, time, again)
+    left = stall_near(left, colliders[board.collider_first + Part.LEFT_PADDLE], ball, near, time, is_repeat)
+    right = stall_near(
+        right, colliders[board.collider_first + Part.RIGHT_PADDLE], ball, near, time, is_repeat
+    )
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
-    record(log, EventKind.JAM + 0, ball, NOTHING + 0, world.tick, time, 0.0, 0.0, 0.0)
-    if again:
-        hold(ball, time)
+    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, Contact(time, NOTHING, 0.0, 0.0), 0.0)
+    if is_repeat:
+        hold_still(ball, time)
     else:
-        depart(ball, board, time)
+        start_flight(ball, board, time)
     return left, right
 
 
 @internal
-def stalled(paddle: Paddle, c: Any, ball: Any, near: float, time: float, again: bool) -> Paddle:
-    """The paddle, stopped for the rest of the tick if a jammed ball is at it.
+def stall_near(
+    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float, is_repeat: bool
+) -> PaddleSweep:
+    """Stop a paddle for the rest of the tick if it is within `near` [u] of a jammed ball's centre.
 
-    No paddle may run into a ball that is held; so then one that only might come to it stops too.
+    If the ball is about to be held (`is_repeat`), a paddle that could reach it stops too: no paddle may run
+    into a held ball.
     """
-    if paddle.turn == 0.0:
+    if paddle.omega == 0.0:
         return paddle
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
-    if gap < near or (again and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)):
-        return held(paddle, time)
+    if gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)):
+        return stop_sweep(paddle, time)
     return paddle
 
 
 @inlined
-def store_paddle(record: Any, paddle: Paddle, tick: float) -> None:
-    """Write a paddle back as it is at the tick's end, with the stop that its button commands."""
-    angle, turn = paddle.angle, paddle.turn
-    if turn != 0.0:
+def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None:
+    """Store a paddle as it is at the end of the tick, with the stop that its button commands."""
+    angle, omega = paddle.angle, paddle.omega
+    if omega != 0.0:
         angle = angle_at(paddle, tick)
         if angle == paddle.stop:
-            turn = 0.0
-    record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, turn
+            omega = 0.0
+    record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, omega
 
 
 @internal
-def is_ready(world: Any, board: Any, colliders: Any, grid: Any, log: Any, tick: float) -> bool:
-    """Whether a world can move; a change from outside is looked at first, and puts balls on new flights."""
+def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: float) -> bool:
+    """Whether a world can move on. A state that was changed from outside is validated first."""
     if world.fault != Fault.NONE:
         return False
-    return is_as_left(world, board, log, tick) or is_admitted(world, board, colliders, grid, tick)
+    return is_unchanged(world, geometry.board, log, tick) or admit_state(world, geometry, tick)
 
 
 @inlined
-def is_inside(world: Any, board: Any) -> bool:
-    """Whether the balls are within the borders: the one mishap that a world can come to by itself."""
+def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
+    """Whether the balls are within the borders: the only condition that a step itself can violate."""
     a, b = world.ball[0], world.ball[1]
     x, z = board.half_length, board.half_width
     return (a.id == 0 or (abs(a.x) <= x and abs(a.z) <= z)) and (
@@ -245,55 +322,51 @@ def is_inside(world: Any, board: Any) -> bool:
 
 @kernel
 def run_worlds(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, logs: Any, tallies: Any,
-    actions: Any, first: int, end: int, ticks: int, tick: float,
-) -> None:  # fmt: skip
+    lanes: Lanes, geometries: BatchGeometry, actions: Any, first: int, end: int, ticks: int, tick: float
+) -> None:
     """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
-        worlds: WORLD records [world].
-        boards: BOARD records [board].
-        board_of: The board of each world [world].
-        colliders: COLLIDER records of all boards.
-        grid: The grids of all boards.
-        logs: LOG records [world]; emptied first.
-        tallies: Hits of each part [world, part], added to.
+        lanes: The worlds. Their logs are emptied first, their tallies added to.
+        geometries: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
-        ticks: How many ticks; below zero: so many more, as if the call before this one went on. Logs are
-            then not emptied, and with one row there is no jitter.
+        ticks: How many ticks. A negative number continues the previous call by −ticks: logs are not emptied,
+            and with one row there is no jitter.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
-    goes_on = ticks < 0
+    is_continued = ticks < 0
     ticks = abs(ticks)
     for index in range(first, end):
-        world, log, tally = worlds[index], logs[index], tallies[index]
-        board = boards[board_of[index]]
-        if not goes_on:
+        lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index])
+        world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
+        colliders = geometries.colliders
+        geometry = BoardGeometry(board, colliders, geometries.grid)
+        if not is_continued:
             log.count, log.lost = 0, 0
-        if ticks == 0 or not is_ready(world, board, colliders, grid, log, tick):
+        if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
         step = 0
-        while step < ticks and is_inside(world, board):
+        while step < ticks and are_balls_on_board(world, board):
             row = 0 if is_held else step
-            if actions[row, index, 2] and (not is_held or (step == 0 and not goes_on)):
+            if actions[row, index, 2] and (not is_held or (step == 0 and not is_continued)):
                 shove_balls(world, board, log)
-            free = free_ticks(board, colliders, grid, world.ball[0], world.ball[1], tick, ticks - step)
+            free = event_free_ticks(geometry, world.ball[0], world.ball[1], tick, ticks - step)
             if free == 0:
                 left, right = actions[row, index, 0], actions[row, index, 1]
-                play_tick(world, board, colliders, grid, log, tally, left, right, tick)
+                play_tick(lane, geometry, left, right, tick)
                 step += 1
                 continue
             count = 0
             while count < free and (count == 0 or is_held or not actions[step + count, index, 2]):
                 row = 0 if is_held else step + count
-                turn_paddles(world, board, colliders, actions[row, index, 0], actions[row, index, 1], tick)
+                advance_paddles(world, board, colliders, actions[row, index, 0], actions[row, index, 1], tick)
                 count += 1
-            end_ticks(world, board, tick, count)
+            finish_ticks(world, board, tick, count)
             step += count
-        if not is_inside(world, board):
-            is_sound(world, board)  # names the fault
-        leave(world, log)
+        if not are_balls_on_board(world, board):
+            validate_world(world, board)  # sets the fault
+        store_checksum(world, log)

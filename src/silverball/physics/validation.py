@@ -1,137 +1,146 @@
-"""Is a state that may come from outside one that can be, and is each ball on its flight?
+"""Validation of states from outside: is the state possible, and is each ball on its flight?
 
-What the last call left goes on; the log keeps a mark of it. Anything else has come from outside: it was
-restored, copied, shoved, or somebody wrote numbers into it. Then the balls must be where balls can be, or the
-world gets a named fault. A flight that leads to where its ball is goes on, but its next contact is searched
-for again from the flight's beginning; a search is a function of the flight alone, so a world that is restored
-comes to the same bits. A ball on no such flight begins a new one from where it is.
+A state that is as the last call left it continues; the log holds a checksum for that. Any other state comes
+from outside: it was restored, copied, shoved, or its fields were written to. Then the balls must be where
+balls can be, or the world gets a named fault. A flight that leads to where its ball is continues, but its
+next contact is searched for again from the flight's start. A search is a function of the flight alone, so a
+restored world reaches the same bits. A ball that is not on its flight starts a new one from where it is.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
-from silverball.physics.balls import part_balls
-from silverball.physics.contact import is_near
-from silverball.physics.event_log import mark
-from silverball.physics.grid import cell_of
-from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.motion import depart, is_lawful, leads_here, search_anew
+from silverball.physics.balls import separate_balls
+from silverball.physics.broad_phase import cell_of, is_near
+from silverball.physics.event_log import flight_checksum
+from silverball.physics.kernel import as_int, inlined, internal, kernel
+from silverball.physics.motion import has_valid_motion, is_on_flight, reset_search, start_flight
 from silverball.physics.paddle import paddle_distance
-from silverball.physics.records import Fault, Part
+from silverball.physics.records import (
+    BallRecord,
+    BoardGeometry,
+    BoardRecord,
+    Fault,
+    LogRecord,
+    Part,
+    WorldRecord,
+)
 from silverball.physics.shapes import distance
-from silverball.physics.tolerances import DEEPEST, NEVER
+from silverball.physics.tolerances import MAX_DEPTH, NEVER
 
 
 @inlined
-def is_as_left(world: Any, board: Any, log: Any, tick: float) -> bool:
+def is_unchanged(world: WorldRecord, board: BoardRecord, log: LogRecord, tick: float) -> bool:
     """Whether the balls are on the flights, and the paddles at the angles, that the last call left."""
     return (
-        mark(world) == log.mark
-        and goes_on(world.ball[0], board, tick)
-        and goes_on(world.ball[1], board, tick)
+        flight_checksum(world) == log.checksum
+        and continues_flight(world.ball[0], board, tick)
+        and continues_flight(world.ball[1], board, tick)
     )
 
 
 @inlined
-def goes_on(ball: Any, board: Any, tick: float) -> bool:
-    """Whether a ball is on a flight that has not come to its end yet; an empty slot is."""
+def continues_flight(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
+    """Whether a ball is on a flight that has not ended; true of an empty slot."""
     return ball.id == 0 or (
-        ball.age <= ball.due
-        and leads_here(ball, tick)
-        and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
-        and (board.press == 0.0 or is_lawful(ball, board, tick))  # its spin may be another one
+        ball.age <= ball.contact_age
+        and is_on_flight(ball, tick)
+        and is_finite(ball.spin_x + ball.spin_y + ball.spin_z)
+        # The spin may have been changed from outside.
+        and (board.normal_accel == 0.0 or has_valid_motion(ball, board, tick))
     )
 
 
 @internal
-def is_admitted(world: Any, board: Any, colliders: Any, grid: Any, tick: float) -> bool:
-    """Whether a state from outside can be, each ball on a flight of its own; if not, the fault is named."""
-    if not is_sound(world, board) or not is_clear(world, board, colliders, grid):
+def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> bool:
+    """Validate a state from outside and set every ball on a flight; if it is impossible, set the fault."""
+    board = geometry.board
+    if not validate_world(world, board) or not validate_positions(world, geometry):
         return False
     for slot in range(2):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        if leads_here(ball, tick) and is_lawful(ball, board, tick):
-            search_anew(ball)
+        if is_on_flight(ball, tick) and has_valid_motion(ball, board, tick):
+            reset_search(ball)
         else:
-            depart(ball, board, 0.0)
+            start_flight(ball, board, 0.0)
     return True
 
 
 @internal
-def is_clear(world: Any, board: Any, colliders: Any, grid: Any) -> bool:
-    """Whether the paddles are within their stops and no ball is inside anything; if not, it is a named fault.
+def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
+    """Whether the paddles are within their stops and no ball is inside anything; if not, set the fault.
 
-    Two balls that overlap are parted, if there is room.
+    Two balls that overlap are moved apart first, where that is possible.
     """
+    board, colliders = geometry.board, geometry.colliders
     for side in range(2):
         c, angle = colliders[board.collider_first + Part.LEFT_PADDLE + side], world.paddle[side].angle
         if not min(c.angle_rest, c.angle_up) <= angle <= max(c.angle_rest, c.angle_up):
-            world.fault = Fault.BEYOND_STOP + 0
+            world.fault = as_int(Fault.BEYOND_STOP)
             return False
-    is_free = part_balls(world, board, colliders)
+    is_free = separate_balls(world, board, colliders)
     for slot in range(2):
         ball = world.ball[slot]
         if ball.id != 0:
-            is_free = is_free and is_in_no_part(world, board, colliders, grid, ball.x, ball.z)
+            is_free = is_free and is_clear_of_parts(world, geometry, ball.x, ball.z)
     if not is_free:
-        world.fault = Fault.INSIDE + 0
+        world.fault = as_int(Fault.INSIDE)
     return bool(is_free)
 
 
 @internal
-def is_in_no_part(world: Any, board: Any, colliders: Any, grid: Any, x: float, z: float) -> bool:
-    """Whether a ball at (x, z) is inside no part, paddles as they stand."""
-    if min(z - board.low_z, board.high_z - z, board.top_x - x) < -DEEPEST:
+def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: float) -> bool:
+    """Whether a ball at (x, z) is inside no part, with the paddles at their present angles."""
+    board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
+    if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
         return False
-    least = board.ball_radius - DEEPEST
+    min_gap = board.ball_radius - MAX_DEPTH
     cell = cell_of(board, x, z)
     for entry in range(grid[cell], grid[cell + 1]):
         gap, _, _ = distance(colliders[board.collider_first + grid[entry]], x, z)
-        if gap < least:
+        if gap < min_gap:
             return False
     for side in range(2):
         c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
         if is_near(x, z, c.x, c.z, c.reach + board.ball_radius):
             gap, _, _ = paddle_distance(c, world.paddle[side].angle, x, z)
-            if gap < least:
+            if gap < min_gap:
                 return False
     return True
 
 
 @kernel
-def is_sound(world: Any, board: Any) -> bool:
-    """Whether the balls are where and as fast as they can be; if not, the world gets a named fault."""
+def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
+    """Whether positions and speeds of the balls are possible; if not, set the world's fault."""
     for slot in range(2):
         ball = world.ball[slot]
-        if ball.id == 0 or is_fair(ball, board):
+        if ball.id == 0 or is_valid_ball(ball, board):
             continue
         sum_of_all = ball.x + ball.z + ball.vx + ball.vz + ball.spin_x + ball.spin_y + ball.spin_z
-        if not is_number(sum_of_all):
-            world.fault = Fault.NOT_FINITE + 0
+        if not is_finite(sum_of_all):
+            world.fault = as_int(Fault.NOT_FINITE)
         elif not (abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width):
-            world.fault = Fault.OUTSIDE + 0
+            world.fault = as_int(Fault.OUTSIDE)
         else:
-            world.fault = Fault.TOO_FAST + 0
+            world.fault = as_int(Fault.TOO_FAST)
         return False
-    if not (is_number(world.paddle[0].angle) and is_number(world.paddle[1].angle)):
-        world.fault = Fault.NOT_FINITE + 0
+    if not (is_finite(world.paddle[0].angle) and is_finite(world.paddle[1].angle)):
+        world.fault = as_int(Fault.NOT_FINITE)
         return False
     return True
 
 
 @inlined
-def is_fair(ball: Any, board: Any) -> bool:
-    """Whether a ball is where and as fast as it can be."""
+def is_valid_ball(ball: BallRecord, board: BoardRecord) -> bool:
+    """Whether a ball's position, speed and spin are possible."""
     inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
-    fastest = board.speed_cap * (1.0 + 1e-9)
-    slow = ball.vx * ball.vx + ball.vz * ball.vz <= fastest * fastest
-    return inside and slow and is_number(ball.spin_x + ball.spin_y + ball.spin_z)
+    max_speed = board.speed_cap * (1.0 + 1e-9)
+    slow = ball.vx * ball.vx + ball.vz * ball.vz <= max_speed * max_speed
+    return inside and slow and is_finite(ball.spin_x + ball.spin_y + ball.spin_z)
 
 
 @inlined
-def is_number(x: float) -> bool:
-    """Whether x is finite: not so when it is infinite or no number at all."""
+def is_finite(x: float) -> bool:
+    """Whether x is neither infinite nor NaN."""
     return abs(x) < NEVER

@@ -1,7 +1,7 @@
-"""Which players decide now and then only, outside of the compiled loops, and how often?
+"""Policies for batches: players that decide for all worlds in Python, outside of the compiled loops.
 
-The planner and the trained player choose for all worlds of a batch in one call, and hold what they have
-chosen until the next one. The others choose in every tick, in the loops themselves.
+The planner and the trained player decide for a whole batch in one call and hold their buttons until the next
+decision; a registered player decides in every tick. The simple players decide inside the loops themselves.
 """
 
 from __future__ import annotations
@@ -11,54 +11,127 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.players.planner import BRANCHES, Notes, beat_of, plan_batch
+from silverball.players.planner import BRANCHES, PlannerState, plan_batch
+from silverball.players.planner import ticks_per_decision as planner_ticks
+from silverball.players.registry import BUILT_IN, CheckedPlayer, check_name
 from silverball.players.simple import PlayerKind
-from silverball.players.trained import hold_of, press_batch
-from silverball.world import WorldBatch
+from silverball.players.trained import press_batch
+from silverball.players.trained import ticks_per_decision as trained_ticks
+from silverball.world import World, WorldBatch
 
 
-class Deciding(Protocol):
-    """A player that decides for the worlds of a batch.
+class BatchPolicy(Protocol):
+    """Decides for all worlds of a batch.
 
     Attributes:
         every: Ticks between two decisions.
-        buttons: What it holds, bool [world, 2]: left, right; always the same array.
+        buttons: What is held until the next decision, bool [world, 2]: left, right; always the same array.
     """
 
     every: int
     buttons: NDArray[np.bool_]
 
     def decide(self) -> None:
-        """Choose what to hold until the next decision."""
+        """Choose the buttons to hold until the next decision."""
 
 
-class Planning:
-    """The planners of a batch."""
+class PlannerPolicy:
+    """One planner for each world of a batch."""
 
     def __init__(self, batch: WorldBatch, branches: int) -> None:
-        self._batch, self.every = batch, beat_of(batch.tick_rate)
-        self._notes = Notes(batch.count, batch.tallies.shape[1], branches)
-        self.buttons = self._notes.buttons
+        self._batch, self.every = batch, planner_ticks(batch.tick_rate)
+        self._state = PlannerState.of(batch.count, batch.tallies.shape[1], branches)
+        self.buttons = self._state.buttons
 
     def decide(self) -> None:
-        """Choose what to hold until the next decision."""
-        plan_batch(self._batch, self._notes)
+        """Choose the buttons to hold until the next decision."""
+        plan_batch(self._batch, self._state)
 
 
-class Trusting:
-    """The trained players of a batch."""
+class TrainedPolicy:
+    """The trained player for all worlds of a batch."""
 
     def __init__(self, batch: WorldBatch) -> None:
-        self._batch, self.every = batch, hold_of(batch.tick_rate)
+        self._batch, self.every = batch, trained_ticks(batch.tick_rate)
         self.buttons = np.zeros((batch.count, 2), np.bool_)
 
     def decide(self) -> None:
-        """Choose what to hold until the next decision."""
+        """Choose the buttons to hold until the next decision."""
         self.buttons[:] = press_batch(self._batch)
 
 
-def deciding(player: PlayerKind, batch: WorldBatch, branches: int = BRANCHES) -> Deciding | None:
-    """The player, for all worlds of a batch; None: it decides in every tick. A planner tries `branches`."""
-    if player == PlayerKind.PLANNER:
-        return Planning(batch, branches)
-    return Trusting(batch) if player == PlayerKind.TRAINED else None
+class RegisteredPolicy:
+    """A registered player: one for the batch if it has a batch form, else one for each world.
+
+    Args:
+        name: Under which it was registered.
+        batch: The worlds. A player gets the seed of its world, one for the batch that of the first world.
+
+    Raises:
+        PlayerError: The player cannot be created.
+    """
+
+    every = 1
+
+    def __init__(self, name: str, batch: WorldBatch) -> None:
+        self._batch = batch
+        self.buttons = np.zeros((batch.count, 2), np.bool_)
+        seeds = batch.state["seed"].tolist()
+        player = CheckedPlayer(name, seeds[0])
+        self._batch_player = player if player.has_batch_form else None
+        self._players: list[tuple[CheckedPlayer, WorldView]] = []  # one for each world, without a batch form
+        if not player.has_batch_form:
+            players = [player, *(CheckedPlayer(name, seed) for seed in seeds[1:])]
+            self._players = [(one, WorldView(batch, index)) for index, one in enumerate(players)]
+
+    def decide(self) -> None:
+        """Choose the buttons to hold in the next tick."""
+        if self._batch_player is not None:
+            self.buttons[:] = self._batch_player.press_batch(self._batch)
+        for index, (player, view) in enumerate(self._players):
+            self.buttons[index] = player.press(view.world())
+
+
+class WorldView:
+    """One world of a batch as a `World`: a copy, so that a player cannot move the world itself.
+
+    Args:
+        batch: The worlds.
+        index: Which of them.
+    """
+
+    def __init__(self, batch: WorldBatch, index: int) -> None:
+        self._batch, self._index = batch, index
+        table = batch.tables[batch.board_of[index]]
+        self._world = World(table, int(batch.state["seed"][index]), batch.tick_rate)
+
+    def world(self) -> World:
+        """The world as it is now, with the events of its last step and its hits; always the same object."""
+        copy, index = self._world._batch, self._index
+        copy.state[0], copy.logs[0] = self._batch.state[index], self._batch.logs[index]
+        copy.tallies[0] = self._batch.tallies[index, : copy.tallies.shape[1]]
+        return self._world
+
+
+def batch_policy(player: str, batch: WorldBatch, branches: int = BRANCHES) -> BatchPolicy | None:
+    """The policy of a player for all worlds of a batch; None for a simple player.
+
+    Args:
+        player: The name of a player.
+        batch: The worlds.
+        branches: Futures that the planner tries at a decision.
+
+    Raises:
+        PlayerError: No player has that name, or it cannot be created.
+    """
+    check_name(player)
+    if player == "planner":
+        return PlannerPolicy(batch, branches)
+    if player == "trained":
+        return TrainedPolicy(batch)
+    return None if player in BUILT_IN else RegisteredPolicy(player, batch)
+
+
+def kernel_player(player: str) -> PlayerKind:
+    """How the compiled loops know a player: by itself if it is a simple one, else as `DECIDED`."""
+    return PlayerKind.__members__.get(player.upper(), PlayerKind.DECIDED)

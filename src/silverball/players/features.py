@@ -1,9 +1,9 @@
-"""What does the trained player see? The ball and the paddles, as numbers that a small network can use.
+"""Features: the ball and the paddles as numbers for the small network of the trained player.
 
-Ten numbers that every table has are looked at (`Raw`), in the units of the environments' state observation,
-so that training and play see the same. Obstacles are not looked at, and without them a table is its own
-mirror image: a ball on the right is seen, and answered, in the mirror, so that half of the game has to be
-learnt.
+The raw features are ten numbers that every table has (`Raw`), in the units of the environments' state
+observation, so training and play use the same. Obstacles are not among them, and without obstacles a table is
+its own mirror image: a ball on the right is encoded, and answered, in the mirror, so only half of the game
+has to be learned.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import Part
+from silverball.physics.records import Colliders, Part
 
 Rows = NDArray[np.float64]
 
 
 class Raw(IntEnum):
-    """The numbers that are looked at: of the lowest ball, of the left paddle, of the right one."""
+    """The raw features: of the lowest ball, of the left paddle, of the right one."""
 
     X = 0
     Z = 1
@@ -35,19 +35,19 @@ class Raw(IntEnum):
 
 
 COLUMNS = (1, 2, 3, 4, 10, 11, 12, 13, 14, 15)
-"""Where these numbers stand in the environments' state observation (`envs/slots.py`) of a single ball."""
+"""The columns of the raw features in the environments' state observation of a single ball."""
 
 LEFT, RIGHT = slice(Raw.LEFT_ANGLE, Raw.LEFT_HELD + 1), slice(Raw.RIGHT_ANGLE, Raw.RIGHT_HELD + 1)
 PADDLES_AT = -0.65  # x of the paddles on the built-in tables, in half board lengths
 PIVOT = 0.3  # z of the middle of a paddle, in half board widths
-CLOSER = 4.0  # times as large as life: places near the paddles
+CLOSER = 4.0  # magnification of places near the paddles
 LOW = -0.4  # x below which a ball will soon be at the paddles
-SEEN = len(Raw) + 8
-MIRRORED = np.array([0, 2, 1, 3])  # what an action is in the mirror: none, right, left, both
+ENCODED = len(Raw) + 8
+MIRRORED = np.array([0, 2, 1, 3])  # the mirror images of the actions none, left, right, both
 
 
-def look(state: Any, boards: Any, colliders: Any) -> Rows:
-    """The raw numbers of some worlds; where there is no ball, or no paddle on a side, its numbers are 0.
+def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
+    """The raw features of some worlds; those of a missing ball or paddle are 0.
 
     Args:
         state: WORLD records [world].
@@ -55,7 +55,7 @@ def look(state: Any, boards: Any, colliders: Any) -> Rows:
         colliders: COLLIDER records of all boards.
 
     Returns:
-        Numbers [world, Raw].
+        Features [world, Raw].
     """
     raw = np.zeros((len(state), len(Raw)))
     balls = state["ball"]
@@ -80,23 +80,23 @@ def look(state: Any, boards: Any, colliders: Any) -> Rows:
     return raw
 
 
-def see(raw: Rows) -> tuple[Rows, NDArray[np.bool_]]:
-    """What the network is given.
+def encode(raw: Rows) -> tuple[Rows, NDArray[np.bool_]]:
+    """The input of the network.
 
     Args:
-        raw: Numbers [row, Raw].
+        raw: Features [row, Raw].
 
     Returns:
-        Numbers [row, SEEN]: the raw ones, then the places near the paddles once more and larger; and which
-        rows are seen in the mirror.
+        Features [row, ENCODED]: the raw ones, then places near the paddles magnified; and which rows are
+        mirrored, bool [row].
     """
     is_mirrored: NDArray[np.bool_] = raw[:, Raw.Z] > 0.0
-    seen = np.zeros((len(raw), SEEN))
-    seen[:, : len(Raw)] = raw
-    seen[:, (Raw.Z, Raw.VZ)] *= np.where(is_mirrored, -1.0, 1.0)[:, None]
-    seen[:, LEFT] = np.where(is_mirrored[:, None], raw[:, RIGHT], raw[:, LEFT])
-    seen[:, RIGHT] = np.where(is_mirrored[:, None], raw[:, LEFT], raw[:, RIGHT])
-    x, z, vx, vz = seen[:, Raw.X], seen[:, Raw.Z], seen[:, Raw.VX], seen[:, Raw.VZ]
+    encoded = np.zeros((len(raw), ENCODED))
+    encoded[:, : len(Raw)] = raw
+    encoded[:, (Raw.Z, Raw.VZ)] *= np.where(is_mirrored, -1.0, 1.0)[:, None]
+    encoded[:, LEFT] = np.where(is_mirrored[:, None], raw[:, RIGHT], raw[:, LEFT])
+    encoded[:, RIGHT] = np.where(is_mirrored[:, None], raw[:, LEFT], raw[:, RIGHT])
+    x, z, vx, vz = encoded[:, Raw.X], encoded[:, Raw.Z], encoded[:, Raw.VX], encoded[:, Raw.VZ]
     is_low = x < LOW
     closer = (
         np.clip(CLOSER * (x - PADDLES_AT), -1.2, 1.2),
@@ -109,5 +109,5 @@ def see(raw: Rows) -> tuple[Rows, NDArray[np.bool_]]:
         3.0 * vx * is_low,
     )
     for number, values in enumerate(closer):
-        seen[:, len(Raw) + number] = values
-    return seen, is_mirrored
+        encoded[:, len(Raw) + number] = values
+    return encoded, is_mirrored

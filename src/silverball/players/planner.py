@@ -1,28 +1,45 @@
-"""What does the planner press? What led to the best of some futures that it has played ahead.
+"""The planner: plays copies of the world ahead and presses what led to the best future.
 
 Sixty times a second the planner copies the world, tries plans on the copies with the very step that moves the
-world, keeps the best plan and presses what it says first. It goes on improving this plan beat by beat until
-it has been carried out, so that the shot at a ball on its way down has been tried in a thousand ways before
-the ball arrives.
+world, keeps the best plan and presses what it says first. It improves this plan at every decision until it
+has been carried out, so a shot at a ball on its way down has been tried in a thousand ways when the ball
+arrives.
 
-It knows no more than a copy of the world tells: nothing random happens in a copy, since nobody shoves in it
-and no ball is created. Its work is bounded by a number of branches and of steps and not by a clock, so that a
-game it plays is the same on every machine.
+It knows no more than a copy of the world shows. Nothing random happens in a copy: nothing shoves in it and no
+ball is created. Its work is bounded by a number of branches and moves and not by a clock, so a game it plays
+is the same on every machine.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from enum import IntEnum
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BOARD, LOG, LOG_SIZE, WORLD, Part, records
-from silverball.physics.skip_ahead import free_ticks
-from silverball.physics.step import end_ticks, is_inside, is_ready, play_tick, turn_paddles
+from silverball.physics.kernel import as_int, inlined, internal, kernel
+from silverball.physics.records import (
+    BOARD,
+    LOG,
+    LOG_SIZE,
+    WORLD,
+    BatchGeometry,
+    BoardGeometry,
+    BoardRecord,
+    Colliders,
+    Lane,
+    LogRecord,
+    Part,
+    Tally,
+    WorldRecord,
+    records,
+)
+from silverball.physics.skip_ahead import event_free_ticks
+from silverball.physics.step import advance_paddles, are_balls_on_board, can_step, finish_ticks, play_tick
 from silverball.players.plan import (
     PLAN,
+    PlanRecord,
     clear_plan,
     draw_plan,
     hold_all,
@@ -34,60 +51,88 @@ from silverball.players.plan import (
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import World, WorldBatch
 
-DECISIONS = 60  # a second
+DECISIONS = 60  # per second
 BRANCHES = 60  # tried at one decision
-STEPS = 10_000  # that all branches of a decision may take together; a leap over many beats counts as one
-HORIZON = 10.0  # [s] to which a branch is played at most: a shot may come back after 7 s, down the middle
+MOVES = 10_000  # that all branches of a decision may take together; skipping many steps ahead counts as one
+HORIZON = 10.0  # [s] to which a branch is played at most: a shot may return after 7 s, down the middle
 LOW_HORIZON = 4.0  # [s] of these, with a ball in reach of the paddles
-RISES = 2  # a branch ends when every ball has risen from the paddles so often
+RISES = 2  # a branch ends when every ball has risen from the paddles this often
 RISE = 1.0  # [u] above the reach of the paddles to which a ball must rise
-LEAD = 12  # beats before a ball is in reach of the paddles at which branches begin to differ
-LOSS_TIME = 2.0  # [s] a ball lost so late counts half
+LEAD = 12  # steps before a ball is in reach of the paddles at which branches begin to differ
+LOSS_TIME = 2.0  # [s] a ball lost after this time counts half
 GAIN = 0.1  # what points are worth at most, a ball lost at once being 1
 GAIN_HALF = 5.0  # hits of the most valuable part that are worth half of that
-DRY_FROM, DRY_TO = 6.0, 14.0  # [s] without points: from here on it counts, up to as much as a ball lost
+DRY_FROM, DRY_TO = 6.0, 14.0  # [s] without points: from here on it counts, up to as much as a lost ball
 
 MEMORY = np.dtype(
     [
-        ("beat", "i8"),  # of the last decision
+        ("step", "i8"),  # of the last decision
         ("score", "i8"), ("scored_tick", "i8"),  # the last score seen, and when it changed
-        ("branches", "i8"), ("step_limit", "i8"),  # to try at a decision, and steps to take in all of them
-        ("tried", "i8"), ("steps", "i8"),  # branches and steps of the last decision
+        ("branches", "i8"), ("move_limit", "i8"),  # at one decision: branches to try, moves in all of them
+        ("tried", "i8"), ("moves", "i8"),  # branches and moves of the last decision
     ],
     align=True,
 )  # fmt: skip
+MemoryRecord: TypeAlias = Any  # a MEMORY record
+
+# Rows of a world's plans and copies.
+BEST, TRIAL = 0, 1  # the plan that is followed, and the one that is tried
+ROOT, BRANCH = 0, 1  # the world where the branches begin, and a branch
 
 
-class Notes:
-    """What the planners of some worlds keep from one decision to the next, and the room they reckon in.
+class Opening(IntEnum):
+    """The plans that are tried first at every decision; later ones are random."""
+
+    FOLLOWED = 0  # the best plan of the decision before
+    REFLEX = 1  # the reflex player
+    HOLD = 2  # the buttons as they are
+    RELEASE = 3  # neither button
+    COUNT = 4
+
+
+class PlannerState(NamedTuple):
+    """What the planners of some worlds remember from one decision to the next, and their scratch space.
 
     Attributes:
         memories: MEMORY records [world].
-        plans: PLAN records [2 · world]: the plan that a world's planner follows, and one that is tried.
-        copies: WORLD records [2 · world]: where the branches of a world begin, and a branch.
-        logs: LOG records [world].
-        tallies: Hits [world, part], of no use to anybody.
-        buttons: What to press, bool [world, 2]: left, right.
+        plans: PLAN records [world, BEST or TRIAL].
+        copies: WORLD records [world, ROOT or BRANCH].
+        logs: LOG records [world]; scratch.
+        tallies: Hits [world, part]; scratch.
+        buttons: The buttons to hold, bool [world, 2]: left, right.
     """
 
-    def __init__(self, count: int, parts: int, branches: int = BRANCHES) -> None:
-        self.memories = records(count, MEMORY)
-        self.memories["beat"] = -2
-        self.memories["branches"] = branches
-        self.memories["step_limit"] = STEPS
-        self.plans = records(2 * count, PLAN)
-        self.copies = records(2 * count, WORLD)
-        self.logs = records(count, LOG)
-        self.tallies = np.zeros((count, parts), np.int64)
-        self.buttons = np.zeros((count, 2), np.bool_)
+    memories: NDArray[Any]
+    plans: NDArray[Any]
+    copies: NDArray[Any]
+    logs: NDArray[Any]
+    tallies: NDArray[np.int64]
+    buttons: NDArray[np.bool_]
 
-    @property
-    def arrays(self) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """All of them, as `plan_worlds` takes them."""
-        return self.memories, self.plans, self.copies, self.logs, self.tallies, self.buttons
+    @classmethod
+    def of(cls, count: int, parts: int, branches: int = BRANCHES) -> PlannerState:
+        """The state of planners that have not decided yet.
+
+        Args:
+            count: Worlds.
+            parts: Parts of the largest board.
+            branches: Futures to try at a decision.
+        """
+        memories = records(count, MEMORY)
+        memories["step"] = -2
+        memories["branches"] = branches
+        memories["move_limit"] = MOVES
+        return cls(
+            memories,
+            records(2 * count, PLAN).reshape(count, 2),
+            records(2 * count, WORLD).reshape(count, 2),
+            records(count, LOG),
+            np.zeros((count, parts), np.int64),
+            np.zeros((count, 2), np.bool_),
+        )
 
 
-def beat_of(tick_rate: int) -> int:
+def ticks_per_decision(tick_rate: int) -> int:
     """Ticks between two decisions."""
     return max(1, round(tick_rate / DECISIONS))
 
@@ -95,14 +140,17 @@ def beat_of(tick_rate: int) -> int:
 class Planner:
     """The planner for a single world.
 
-    It remembers the plan that it follows: another planner put before the same world begins anew, and may play
-    it in another way.
+    It remembers the plan that it follows: another planner put in front of the same world starts without one,
+    and may continue in another way.
 
     Args:
-        branches: Futures to try at a decision, at most; it also ends after STEPS steps. Fewer are faster.
+        branches: Futures to try at a decision, at most; it also ends after MOVES moves. Fewer are faster.
+
+    Attributes:
+        state: Its memory and scratch space; made when it first sees a world.
     """
 
-    kind = PlayerKind.PLANNER
+    name = "planner"
 
     def __init__(self, branches: int = BRANCHES) -> None:
         self._branches = branches
@@ -110,154 +158,150 @@ class Planner:
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
-        every, tick = beat_of(world.tick_rate), world.tick
+        every, tick = ticks_per_decision(world.tick_rate), world.tick
         if world is not self._world:
-            self._meet(world)
-        beat = int(self.notes.memories["beat"][0])
-        if tick % every == 0 or tick // every != beat:
+            self._begin(world)
+        step = int(self.state.memories["step"][0])
+        if tick % every == 0 or tick // every != step:
             self._copy[0] = world.records[0]
+            geometries = BatchGeometry(self._board, world.records[2], world.grid)
             plan_worlds(
-                self._copy, self._board, self._board_of, world.records[2], world.grid, *self.notes.arrays,
-                0, 1, every, 1.0 / world.tick_rate,
-            )  # fmt: skip
-        left, right = self.notes.buttons[0].tolist()
+                self._copy, self._board_of, geometries, self.state, 0, 1, every, 1.0 / world.tick_rate
+            )
+        left, right = self.state.buttons[0].tolist()
         return left, right
 
-    def _meet(self, world: World) -> None:
-        """Begin anew with a world."""
+    def _begin(self, world: World) -> None:
+        """Begin with a world that has not been seen before."""
         self._world = world
         _, board, colliders = world.records
-        self.notes = Notes(1, len(colliders), self._branches)
+        self.state = PlannerState.of(1, len(colliders), self._branches)
         self._copy, self._board = records(1, WORLD), records(1, BOARD)
         self._board[0], self._board_of = board, np.zeros(1, np.int64)
 
 
-def plan_batch(batch: WorldBatch, notes: Notes) -> NDArray[np.bool_]:
-    """The buttons (left, right) to hold in the next beat of every world, bool [world, 2]."""
-    boards = batch.boards
+def plan_batch(batch: WorldBatch, state: PlannerState) -> NDArray[np.bool_]:
+    """The buttons (left, right) to hold until the next decision in every world, bool [world, 2]."""
+    every, tick = ticks_per_decision(batch.tick_rate), 1.0 / batch.tick_rate
+    geometries = batch.geometries
     batch.on_threads(
         lambda first, end: plan_worlds(
-            batch.state, boards.board, batch.board_of, boards.collider, boards.grid, *notes.arrays,
-            first, end, beat_of(batch.tick_rate), 1.0 / batch.tick_rate,
+            batch.state, batch.board_of, geometries, state, first, end, every, tick
         ),
-        batch.count * STEPS,
-    )  # fmt: skip
-    return notes.buttons
+        batch.count * MOVES,
+    )
+    return state.buttons
 
 
 @kernel
 def plan_worlds(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, memories: Any, plans: Any,
-    copies: Any, logs: Any, tallies: Any, buttons: Any, first: int, end: int, every: int, tick: float,
+    worlds: Any, board_of: Any, geometries: BatchGeometry, state: PlannerState,
+    first: int, end: int, every: int, tick: float,
 ) -> None:  # fmt: skip
-    """Decide what to press in the worlds first … end − 1 for a beat.
+    """Decide what to press in the worlds first … end − 1 for a step.
 
     Args:
         worlds: WORLD records [world]; not changed.
-        boards: BOARD records [board].
         board_of: The board of each world [world].
-        colliders: COLLIDER records of all boards.
-        grid: The grids of all boards.
-        memories: This and what follows, up to `buttons`, are the arrays of `Notes`.
-        plans: See `Notes`.
-        copies: See `Notes`.
-        logs: See `Notes`.
-        tallies: See `Notes`.
-        buttons: Written.
+        geometries: The boards.
+        state: Memories and scratch of the planners; its buttons are written.
         first: The first world of the slice.
         end: One past its last world.
-        every: Ticks in a beat.
+        every: Ticks in a step.
         tick: Length of a tick [s].
     """
     for index in range(first, end):
-        world, memory = worlds[index], memories[index]
-        beat = world.tick // every
-        if memory.beat != beat - 1:  # another game, or another moment of it
-            clear_plan(plans[2 * index], beat)
-        if memory.beat != beat - 1 or world.score != memory.score:
+        world, memory = worlds[index], state.memories[index]
+        plans, copies = state.plans[index], state.copies[index]
+        step = world.tick // every
+        if memory.step != step - 1:  # another game, or another moment of it
+            clear_plan(plans[BEST], step)
+        if memory.step != step - 1 or world.score != memory.score:
             memory.score, memory.scored_tick = world.score, world.tick
-        memory.beat, memory.tried, memory.steps = beat, 0, 0
+        memory.step, memory.tried, memory.moves = step, 0, 0
         left = right = False
-        board, length = boards[board_of[index]], tick * every
-        logs[index].count = LOG_SIZE  # full: nothing is written down
-        copies[2 * index] = worlds[index]
-        root = copies[2 * index]
-        if (root.ball[0].id != 0 or root.ball[1].id != 0) and is_ready(
-            root, board, colliders, grid, logs[index], length
-        ):
+        length = tick * every
+        log = state.logs[index]
+        log.count = LOG_SIZE  # full, so that nothing is written to it
+        copies[ROOT] = worlds[index]
+        root = copies[ROOT]
+        geometry = BoardGeometry(geometries.boards[board_of[index]], geometries.colliders, geometries.grid)
+        if (root.ball[0].id != 0 or root.ball[1].id != 0) and can_step(root, geometry, log, length):
             dry = (world.tick - memory.scored_tick) * tick
-            left, right = decide(
-                plans, copies, index, board, colliders, grid, logs[index], tallies[index], memory, beat,
-                dry, length,
-            )  # fmt: skip
-        buttons[index, 0], buttons[index, 1] = left, right
+            scratch = Scratch(plans, copies, log, state.tallies[index], memory)
+            left, right = decide(scratch, geometry, dry, length)
+        state.buttons[index, 0], state.buttons[index, 1] = left, right
+
+
+class Scratch(NamedTuple):
+    """The rows of a `PlannerState` that belong to one world; see there."""
+
+    plans: Any
+    copies: Any
+    log: LogRecord
+    tally: Tally
+    memory: MemoryRecord
 
 
 @internal
-def decide(
-    plans: Any, copies: Any, index: int, board: Any, colliders: Any, grid: Any, log: Any, tally: Any,
-    memory: Any, beat: int, dry: float, length: float,
-) -> tuple[bool, bool]:  # fmt: skip
+def decide(scratch: Scratch, geometry: BoardGeometry, dry: float, length: float) -> tuple[bool, bool]:
     """Try plans on copies of one world, keep the best one, and return its first buttons.
 
-    `dry` [s] is the time since the last points, `length` [s] that of a beat.
+    `dry` [s] is the time since the last points, `length` [s] that of a step.
     """
-    best, trial = plans[2 * index], plans[2 * index + 1]
-    root, branch = copies[2 * index], copies[2 * index + 1]
+    plans, copies, memory, step = scratch.plans, scratch.copies, scratch.memory, scratch.memory.step
+    best, trial, root = plans[BEST], plans[TRIAL], copies[ROOT]
+    board, colliders = geometry.board, geometry.colliders
     horizon, seed, draws = int(HORIZON / length), root.seed, 0
     left = root.paddle[0].angle_commanded == colliders[board.collider_first + Part.LEFT_PADDLE].angle_up
     right = root.paddle[1].angle_commanded == colliders[board.collider_first + Part.RIGHT_PADDLE].angle_up
     score = root.score
 
-    # Nobody can change what happens until a ball is in reach of a paddle.
-    hold_all(trial, False, False, beat, horizon)
-    copies[2 * index + 1] = copies[2 * index]
-    _, arrival = look_ahead(
-        branch, board, colliders, grid, log, tally, trial, memory, beat, horizon, length, 0.0, True
-    )
+    # No press can change what happens until a ball is in reach of a paddle.
+    hold_all(trial, False, False, step, horizon)
+    copies[BRANCH] = copies[ROOT]
+    _, arrival = look_ahead(scratch, BRANCH, geometry, step, horizon, length, 0.0, True)
     spare = max(arrival - LEAD, 0)
-    look_ahead(root, board, colliders, grid, log, tally, trial, memory, beat, spare, length, 0.0, True)
+    look_ahead(scratch, ROOT, geometry, step, spare, length, 0.0, True)
     dry = 0.0 if root.score != score else dry + spare * length
-    first = beat + spare
+    first = step + spare
 
-    while memory.tried < memory.branches and memory.steps < memory.step_limit:
-        plans[2 * index + 1] = plans[2 * index]
-        if memory.tried == 1:
-            clear_plan(trial, first)  # the reflex player
-        elif memory.tried == 2:
+    while memory.tried < memory.branches and memory.moves < memory.move_limit:
+        plans[TRIAL] = plans[BEST]
+        if memory.tried == Opening.REFLEX:
+            clear_plan(trial, first)
+        elif memory.tried == Opening.HOLD:
             hold_all(trial, left, right, first, horizon)
-        elif memory.tried == 3:
+        elif memory.tried == Opening.RELEASE:
             hold_all(trial, False, False, first, horizon)
-        elif memory.tried > 3 and wants_new_plan(seed, beat, draws):
-            draws = draw_plan(trial, first, seed, beat, draws + 1)
-        elif memory.tried > 3:
-            draws = vary_plan(trial, first, seed, beat, draws + 1)
-        copies[2 * index + 1] = copies[2 * index]
-        trial.value, _ = look_ahead(
-            branch, board, colliders, grid, log, tally, trial, memory, first, horizon, length, dry, False
-        )
-        if memory.tried == 0 or trial.value > best.value:
-            plans[2 * index] = plans[2 * index + 1]
+        elif memory.tried >= Opening.COUNT and wants_new_plan(seed, step, draws):
+            draws = draw_plan(trial, first, seed, step, draws + 1)
+        elif memory.tried >= Opening.COUNT:
+            draws = vary_plan(trial, first, seed, step, draws + 1)
+        copies[BRANCH] = copies[ROOT]
+        trial.value, _ = look_ahead(scratch, BRANCH, geometry, first, horizon, length, dry, False)
+        if memory.tried == Opening.FOLLOWED or trial.value > best.value:
+            plans[BEST] = plans[TRIAL]
         memory.tried += 1
     if spare > 0:
         return False, False
-    return buttons_of(best, root, board, colliders, beat, length)
+    return buttons_of(best, root, board, colliders, step, length)
 
 
 @inlined
 def buttons_of(
-    plan: Any, world: Any, board: Any, colliders: Any, beat: int, length: float
+    plan: PlanRecord, world: WorldRecord, board: BoardRecord, colliders: Colliders, step: int, length: float
 ) -> tuple[bool, bool]:
-    """What a plan presses in a beat."""
-    if beat < plan.until:
-        return is_held(plan, 0, beat), is_held(plan, 1, beat)
+    """The buttons that a plan holds in a step."""
+    if step < plan.until:
+        return is_held(plan, 0, step), is_held(plan, 1, step)
     if is_above(world, board):
         return False, False
-    return pressed(PlayerKind.REFLEX + 0, world, board, colliders, length)
+    return pressed(as_int(PlayerKind.REFLEX), world, board, colliders, length)
 
 
 @inlined
-def is_above(world: Any, board: Any) -> bool:
+def is_above(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether no ball is in reach of a paddle."""
     a, b = world.ball[0], world.ball[1]
     return not (a.id != 0 and a.x <= board.paddle_top) and not (b.id != 0 and b.x <= board.paddle_top)
@@ -265,61 +309,64 @@ def is_above(world: Any, board: Any) -> bool:
 
 @internal
 def look_ahead(
-    world: Any, board: Any, colliders: Any, grid: Any, log: Any, tally: Any, plan: Any, memory: Any,
-    beat: int, horizon: int, length: float, dry: float, scouts: bool,
+    scratch: Scratch, copy: int, geometry: BoardGeometry, first: int, horizon: int, length: float, dry: float,
+    is_scout: bool,
 ) -> tuple[float, int]:  # fmt: skip
-    """Carry a plan out on a copy of the world from a beat on, for `horizon` beats at most.
+    """Carry the TRIAL plan out on a copy (ROOT or BRANCH) from a step on, for `horizon` steps at most.
 
     A scout stops when a ball comes in reach of a paddle.
 
     Returns:
-        What the plan is worth, and how many beats were played. A ball lost after t seconds counts
+        The value of the plan, and how many steps were played. A ball lost after t seconds counts
         −1/(1 + t/LOSS_TIME), points up to GAIN, a long time without points up to −1.
     """
-    value, step, scored_at, low = 0.0, 0, 0, 0
+    plan, world, memory = scratch.plans[TRIAL], scratch.copies[copy], scratch.memory
+    board, colliders = geometry.board, geometry.colliders
+    lane = Lane(world, scratch.log, scratch.tally)
+    value, played, scored_at, low = 0.0, 0, 0, 0
     lowest = int(LOW_HORIZON / length)
     start, score, drained = world.score, world.score, world.drained
     line = board.paddle_top + RISE
     a, b = world.ball[0], world.ball[1]
     low_a, low_b, rises_a, rises_b = a.x < line, b.x < line, 0, 0
-    while step < horizon and low < lowest and is_inside(world, board):
+    while played < horizon and low < lowest and are_balls_on_board(world, board):
         if not is_above(world, board):
             low += 1
-            if scouts:
+            if is_scout:
                 break
-        now = beat + step
+        now = first + played
         left, right = buttons_of(plan, world, board, colliders, now, length)
-        most = horizon - step
+        most = horizon - played
         if now < plan.until:
             most = min(most, next_change(plan, now) - now)
-        free = free_ticks(board, colliders, grid, a, b, length, most)
+        free = event_free_ticks(geometry, a, b, length, most)
         if free == 0:
-            play_tick(world, board, colliders, grid, log, tally, left, right, length)
-            step += 1
+            play_tick(lane, geometry, left, right, length)
+            played += 1
         else:
             for _ in range(free):
-                turn_paddles(world, board, colliders, left, right, length)
-            end_ticks(world, board, length, free)
-            step += free
-        memory.steps += 1
+                advance_paddles(world, board, colliders, left, right, length)
+            finish_ticks(world, board, length, free)
+            played += free
+        memory.moves += 1
         if world.score != score:
-            score, scored_at, dry = world.score, step, 0.0
+            score, scored_at, dry = world.score, played, 0.0
         if world.drained != drained:
-            value -= (world.drained - drained) / (1.0 + step * length / LOSS_TIME)
+            value -= (world.drained - drained) / (1.0 + played * length / LOSS_TIME)
             drained = world.drained
         rises_a += 1 if low_a and a.x > line else 0
         rises_b += 1 if low_b and b.x > line else 0
         low_a, low_b = a.x < line, b.x < line
         if (a.id == 0 or rises_a >= RISES) and (b.id == 0 or rises_b >= RISES):
             break
-    dry += (step - scored_at) * length
+    dry += (played - scored_at) * length
     gain = (score - start) / most_points(board, colliders)
     share = min(max((dry - DRY_FROM) / (DRY_TO - DRY_FROM), 0.0), 1.0)
-    return value + GAIN * gain / (gain + GAIN_HALF) - share, step
+    return value + GAIN * gain / (gain + GAIN_HALF) - share, played
 
 
 @inlined
-def most_points(board: Any, colliders: Any) -> float:
+def most_points(board: BoardRecord, colliders: Colliders) -> float:
     """The points of the most valuable part of a board, at least 1."""
     most = 1
     for index in range(board.collider_first, board.collider_end):

@@ -1,8 +1,8 @@
-"""How do many worlds go on under a player, without a window?
+"""Rollouts: a player plays many worlds without a window, in one compiled loop.
 
-One compiled loop keeps the wanted number of balls on every board, lets the player press, moves the world
-and, if asked, has every tick audited for a ball inside anything. Players that decide now and then only do so
-outside of it (batch_policies.py).
+The loop keeps the wanted number of balls on every board, lets the player press, moves the world and, if
+asked, audits every tick for a ball inside anything. Players that decide in Python do so between its calls
+(`batch_policies.py`).
 """
 
 from __future__ import annotations
@@ -16,9 +16,18 @@ import numpy as np
 from silverball.physics.audit import deepest
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import BALL_COUNT, Fault
+from silverball.physics.records import (
+    BALL_COUNT,
+    BatchGeometry,
+    BoardGeometry,
+    Fault,
+    Lane,
+    Lanes,
+    Places,
+    WorldRecord,
+)
 from silverball.physics.step import step_world
-from silverball.players.batch_policies import deciding
+from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import WorldBatch
 
@@ -26,20 +35,20 @@ CHUNK_TICKS = 2_000_000  # of all worlds together, between two calls of `progres
 
 
 class Played(NamedTuple):
-    """What came of it, over all worlds of the batch.
+    """The totals over all worlds of a batch.
 
     Attributes:
-        seconds: Simulated in each world [s].
-        wall_seconds: That it took [s], compilation excluded.
+        seconds: Simulated time of each world [s].
+        wall_seconds: Real time that it took [s], compilation excluded.
         created: Balls created.
         drained: Balls that left through the gutter.
         score: Points.
-        hits: By the path of the part; of worlds with different boards by the same path.
+        hits: Hits by the path of the part; those of different boards are added by path.
         touches: Contacts below hit_speed.
-        ball_hits: Of ball against ball.
-        jams: Times at which a pinched ball was held.
+        ball_hits: Hits of ball against ball.
+        jams: How often a pinched ball was held.
         faults: Worlds that stopped at an impossible state.
-        deepest: The deepest that any ball was inside anything [u]; NaN if not audited.
+        deepest: The greatest depth of any ball inside anything [u]; NaN if not audited.
     """
 
     seconds: float
@@ -55,57 +64,76 @@ class Played(NamedTuple):
     deepest: float
 
 
+class Rollout(NamedTuple):
+    """How worlds are played; see `play`.
+
+    Attributes:
+        player: A `PlayerKind`.
+        balls: Balls to keep on the board.
+        audit: Whether to audit every tick.
+        places: The squares of all boards in which balls are created.
+        depths: Raised to the greatest depth of a ball inside anything [u], if audited [world].
+        buttons: Held in all ticks for a player that has DECIDED, bool [world, 2]: left, right.
+    """
+
+    player: int
+    balls: int
+    audit: bool
+    places: Places
+    depths: Any
+    buttons: Any
+
+
 def play(
     batch: WorldBatch,
-    player: PlayerKind,
+    player: str,
     seconds: float,
     balls: int = 1,
     audit: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> Played:
-    """Play all worlds of a batch on.
+    """Let a player play all worlds of a batch.
 
     Args:
         batch: The worlds.
-        player: Who presses.
-        seconds: To simulate in each world [s], rounded to whole ticks.
+        player: The name of the player who presses.
+        seconds: Simulated time of each world [s], rounded to whole ticks.
         balls: Balls to keep on the board, at most the table's max_balls; 0 creates none.
-        audit: Whether to check every tick for a ball inside anything (about halves the speed).
+        audit: Whether to check every tick for a ball inside anything (halves the speed).
         progress: Called now and then with the simulated seconds so far.
 
     Returns:
         The totals.
+
+    Raises:
+        PlayerError: No player has that name, or a registered one failed.
     """
     ticks = round(seconds * batch.tick_rate)
+    policy = batch_policy(player, batch)
+    buttons = np.zeros((batch.count, 2), np.bool_) if policy is None else policy.buttons
     depths = np.zeros(batch.count)
-    hands = deciding(player, batch)
-    buttons = np.zeros((batch.count, 2), np.bool_) if hands is None else hands.buttons
-    _run(batch, player, 0, balls, audit, depths, buttons)  # compiles, moves nothing
+    kind, places = int(kernel_player(player)), batch.boards.place
+    rollout = Rollout(kind, balls, audit, places, depths, buttons)
+    _run(batch, rollout, 0)  # compiles, moves nothing
     started = time.perf_counter()
-    chunk = max(1, CHUNK_TICKS // batch.count) if hands is None else hands.every
+    chunk = max(1, CHUNK_TICKS // batch.count) if policy is None else policy.every
     for done in range(0, ticks, chunk):
-        if hands is not None:
+        if policy is not None:
             batch.create_balls((batch.state["ball"]["id"] != 0).sum(axis=1) < balls)
-            hands.decide()
-        _run(batch, player, min(chunk, ticks - done), balls, audit, depths, buttons)
+            policy.decide()
+        _run(batch, rollout, min(chunk, ticks - done))
         if progress is not None:
             progress(min(done + chunk, ticks) / batch.tick_rate)
     wall = time.perf_counter() - started
     return _totals(batch, ticks / batch.tick_rate, wall, float(depths.max()) if audit else float("nan"))
 
 
-def _run(
-    batch: WorldBatch, player: PlayerKind, ticks: int, balls: int, audit: bool, depths: Any, buttons: Any
-) -> None:
-    boards = batch.boards
+def _run(batch: WorldBatch, rollout: Rollout, ticks: int) -> None:
+    lanes, geometries, tick = batch.lanes, batch.geometries, 1.0 / batch.tick_rate
     batch.on_threads(
-        lambda first, end: play_worlds(
-            batch.state, boards.board, batch.board_of, boards.collider, boards.grid, boards.place,
-            batch.logs, batch.tallies, first, end, ticks, 1.0 / batch.tick_rate,
-            int(player), balls, audit, depths, buttons,
-        ),
+        lambda first, end: play_worlds(lanes, geometries, rollout, first, end, ticks, tick),
         batch.count * ticks,
-    )  # fmt: skip
+    )
 
 
 def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> Played:
@@ -131,36 +159,33 @@ def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> Pla
 
 @kernel
 def play_worlds(
-    worlds: Any, boards: Any, board_of: Any, colliders: Any, grid: Any, places: Any, logs: Any, tallies: Any,
-    first: int, end: int, ticks: int, tick: float, player: int, balls: int, audit: bool, depths: Any,
-    buttons: Any,
-) -> None:  # fmt: skip
-    """Let a player play the worlds first … end − 1 for a number of ticks; most arguments as in `run_worlds`.
-
-    `places` are the squares in which balls are created, `player` is a `PlayerKind`, `balls` how many to keep
-    on the board. With `audit`, `depths` [world] is raised to the deepest that a ball was inside anything [u].
-    The planner and the trained player decide elsewhere: they hold `buttons` [world, 2] in all ticks.
-    """
+    lanes: Lanes, geometries: BatchGeometry, rollout: Rollout, first: int, end: int, ticks: int, tick: float
+) -> None:
+    """Let a player play the worlds first … end − 1 for a number of ticks of length `tick` [s]."""
+    colliders = geometries.colliders
+    has_decided = rollout.player == PlayerKind.DECIDED
     for index in range(first, end):
-        world, log, tally = worlds[index], logs[index], tallies[index]
-        board = boards[board_of[index]]
+        world, log = lanes.worlds[index], lanes.logs[index]
+        board = geometries.boards[lanes.board_of[index]]
+        lane = Lane(world, log, lanes.tallies[index])
+        geometry = BoardGeometry(board, colliders, geometries.grid)
         for done in range(ticks):
             log.count, log.lost = 0, 0
-            # Who has decided before this call did so after a ball had been created.
-            if ball_count(world) < balls and (done > 0 or player < PlayerKind.PLANNER):
-                create_ball(world, board, colliders, places, log)
-            if player >= PlayerKind.PLANNER:
-                left, right = buttons[index, 0], buttons[index, 1]
+            # Before a decision `play` has created the balls, so that the player could see them.
+            if ball_count(world) < rollout.balls and (done > 0 or not has_decided):
+                create_ball(world, board, colliders, rollout.places, log)
+            if has_decided:
+                left, right = rollout.buttons[index, 0], rollout.buttons[index, 1]
             else:
-                left, right = pressed(player, world, board, colliders, tick)
-            step_world(world, board, colliders, grid, log, tally, left, right, False, tick)
-            if audit:
-                depths[index] = max(depths[index], deepest(world, board, colliders))
+                left, right = pressed(rollout.player, world, board, colliders, tick)
+            step_world(lane, geometry, left, right, False, tick)
+            if rollout.audit:
+                rollout.depths[index] = max(rollout.depths[index], deepest(world, board, colliders))
 
 
 @kernel
-def ball_count(world: Any) -> int:
-    """Balls on the board."""
+def ball_count(world: WorldRecord) -> int:
+    """The number of balls on the board."""
     count = 0
     for slot in range(BALL_COUNT):
         if world.ball[slot].id != 0:

@@ -1,64 +1,68 @@
-"""What does each simple player press in the next tick?
+"""The simple players: idle, random, reflex and hold, as kernels.
 
-Players see the state of the world and keep none of their own, so that a game can be continued from any
-snapshot.
+They see the state of the world and have none of their own, so a game can be continued from any snapshot.
 """
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, Protocol
+from typing import Any
 
 from silverball.physics.kernel import kernel
-from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT, Kind, Part
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.portable_math import sine_cosine, uniform
+from silverball.physics.records import (
+    BALL_COUNT,
+    BoardRecord,
+    ColliderRecord,
+    Colliders,
+    Kind,
+    Part,
+    WorldRecord,
+)
 from silverball.world import World
 
-RANDOM_KEY = 0x5EED  # sets the random player's numbers apart from the world's own
-RANDOM_HOLD = 0.15  # [s] for which the random player keeps a button as it is
-# The three numbers of the reflex player are the best of 40 random choices, by score a minute on both built-in
-# tables: balls last 40 s on average. Without looking ahead they last longer, but lie on paddles held up.
+RANDOM_KEY = 0x5EED  # keeps the random player's numbers apart from the world's own
+RANDOM_HOLD = 0.15  # [s] for which the random player leaves a button as it is
+# The three numbers of the reflex player are the best of 40 random choices, by score per minute on both
+# built-in tables: balls last 40 s on average. Without looking ahead they last longer, but lie on raised
+# paddles.
 NEAR_SHARE = 0.45  # of the paddle's length: nearer to the pivot the reflex player lets the ball roll on
-LOOK_AHEAD = 0.02  # [s] where the ball will be when the paddle gets going
+LOOK_AHEAD = 0.02  # [s] ahead, when the paddle starts to move, the reflex player looks for the ball
 STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
 class PlayerKind(IntEnum):
-    """All players; planner.py and trained.py have those that are not simple, from PLANNER on."""
+    """Who presses, as the compiled loops know it: a simple player, or whoever decided before the call."""
 
     IDLE = 0
     RANDOM = 1
     REFLEX = 2
-    HOLD = 4  # both paddles up for ever
-    PLANNER = 5
-    TRAINED = 6
+    HOLD = 4  # both paddles up forever
+    DECIDED = 5  # a policy outside of the loop (see batch_policies.py)
 
 
-class Player(Protocol):
-    """Any player for a single world; `kind` says which."""
+class SimplePlayer:
+    """A simple player for a single world.
 
-    kind: PlayerKind
+    Args:
+        name: "idle", "random", "reflex" or "hold".
+    """
 
-    def press(self, world: World) -> tuple[bool, bool]:
-        """The buttons (left, right) to hold in the world's next tick."""
-
-
-class KernelPlayer:
-    """A simple player for a single world."""
-
-    def __init__(self, kind: PlayerKind) -> None:
-        self.kind = kind
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._kind = int(PlayerKind[name.upper()])
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
-        left, right = pressed(int(self.kind), *world.records, 1.0 / world.tick_rate)
+        left, right = pressed(self._kind, *world.records, 1.0 / world.tick_rate)
         return bool(left), bool(right)
 
 
 @kernel
-def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) -> tuple[bool, bool]:
-    """The buttons (left, right) that a player holds in the next tick."""
+def pressed(
+    player: int, world: WorldRecord, board: BoardRecord, colliders: Colliders, tick: float
+) -> tuple[bool, bool]:
+    """The buttons (left, right) that a simple player holds in the next tick; `player` is a PlayerKind."""
     if player == PlayerKind.RANDOM:
         turn = int(world.tick * tick / RANDOM_HOLD)
         key = world.seed ^ RANDOM_KEY
@@ -73,9 +77,9 @@ def pressed(player: int, world: Any, board: Any, colliders: Any, tick: float) ->
 
 @kernel
 def press_all(
-    player: int, worlds: Any, boards: Any, board_of: Any, colliders: Any, tick: float, actions: Any
+    player: int, worlds: Any, boards: Any, board_of: Any, colliders: Colliders, tick: float, actions: Any
 ) -> None:
-    """Write what a player holds in the next tick of each world into actions, bool [1, world, 3]."""
+    """Write what a player holds in the next tick of each world into `actions`, bool [1, world, 3]."""
     for index in range(len(worlds)):
         board = boards[board_of[index]]
         left, right = pressed(player, worlds[index], board, colliders, tick)
@@ -83,10 +87,10 @@ def press_all(
 
 
 @kernel
-def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
+def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: float) -> bool:
     """Whether the reflex player lifts this paddle: a ball will be just above its outer half.
 
-    `ahead` [s] is how far he looks ahead; what the ball meets until then he does not foresee.
+    It looks `ahead` [s], as if the ball met nothing until then.
     """
     if c.kind != Kind.PADDLE:
         return False
@@ -95,8 +99,8 @@ def strikes(world: Any, board: Any, c: Any, ahead: float) -> bool:
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        dx = ball.x + (ball.vx + 0.5 * ball.pull_x * ahead) * ahead - c.x
-        dz = (ball.z + (ball.vz + 0.5 * ball.pull_z * ahead) * ahead - c.z) * c.side
+        dx = ball.x + (ball.vx + 0.5 * ball.accel_x * ahead) * ahead - c.x
+        dz = (ball.z + (ball.vz + 0.5 * ball.accel_z * ahead) * ahead - c.z) * c.side
         along = dx * sine + dz * cosine  # from the pivot to the tip
         above = dx * cosine - dz * sine - board.ball_radius
         if NEAR_SHARE * c.z1 < along < c.z1 + board.ball_radius and -0.5 < above < STRIKE_HEIGHT:

@@ -1,11 +1,10 @@
-"""What does the trained player press? What a small network says that was trained on random boards.
+"""The trained player: presses what a small network says that was trained on random boards.
 
-`examples/train_sb3.py` trained it, and says how. Here are its numbers and what is done with them; NumPy is
-enough for that.
+`examples/train_sb3.py` trains it. This module holds its weights and evaluates it, with NumPy alone.
 
-The sums are exact, so that the player presses the same on every machine, whatever the order in which a
-library adds up: all numbers are multiples of 1/SCALE, their products multiples of 1/SCALE², and no sum comes
-near 2⁵³/SCALE² (a test adds up the greatest there can be).
+All sums are exact, so the player presses the same on every machine, whatever the order in which a library
+adds: all numbers are multiples of 1/SCALE, their products multiples of 1/SCALE², and no sum comes near
+2⁵³/SCALE² (a test adds up the greatest possible ones).
 """
 
 from __future__ import annotations
@@ -20,40 +19,41 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import SilverballError
-from silverball.physics.records import Part
-from silverball.players.features import MIRRORED, SEEN, Rows, look, see
-from silverball.players.simple import PlayerKind
+from silverball.physics.records import BoardRecord, Colliders, Part
+from silverball.players.features import ENCODED, MIRRORED, Rows, encode, raw_features
 from silverball.world import World, WorldBatch
 
-SCALE = 4096  # steps of 1 in which weights and values are rounded
-LARGEST = 2**17  # of a weight, in those steps
-DECISIONS = 15  # a second
+SCALE = 4096  # weights and values are rounded to multiples of 1/SCALE
+LARGEST = 2**17  # of a weight, in those multiples
+DECISIONS = 15  # per second
 ACTIONS = 4  # none, left, right, both
-ROWS = 64  # that go through the network at once; for more a BLAS starts threads, which mostly wait
+ROWS = 64  # evaluated at once; for more a BLAS starts threads, which mostly wait
 
 Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
-"""Weights [in, out] and biases [out], in steps of 1/SCALE."""
+"""Weights [in, out] and biases [out], in multiples of 1/SCALE."""
 
 
 class Policy:
-    """A network of a few layers, max(0, ·) between them; the largest of its last values is what it presses.
+    """A network of a few layers with ReLU between them; it presses the action with the largest output.
 
     Args:
-        layers: From what is seen (SEEN numbers) to the actions (ACTIONS).
-        command: That made it.
+        layers: From ENCODED features to ACTIONS outputs.
+        command: The command that trained it.
 
     Raises:
-        ValueError: The layers do not fit each other.
+        ValueError: The layers do not fit each other, or have other than small 32-bit integers.
     """
 
     def __init__(self, layers: list[Layer], command: str = "") -> None:
-        widths = [SEEN, *(weights.shape[-1] for weights, _ in layers)]
+        widths = [ENCODED, *(weights.shape[-1] for weights, _ in layers)]
         shapes = [
             (weights.shape, biases.shape) == ((before, after), (after,))
             for (weights, biases), before, after in zip(layers, widths, widths[1:], strict=False)
         ]
         if not all(shapes) or widths[-1] != ACTIONS:
-            raise ValueError(f"the layers have {widths} numbers, expected {SEEN} at first, {ACTIONS} at last")
+            raise ValueError(
+                f"the layers have {widths} numbers, expected {ENCODED} at first, {ACTIONS} at last"
+            )
         if any(part.dtype != np.int32 for layer in layers for part in layer):
             raise ValueError("its numbers are not 32-bit integers")
         if any(np.abs(part).max() > LARGEST for layer in layers for part in layer):
@@ -63,7 +63,7 @@ class Policy:
 
     @classmethod
     def rounded(cls, layers: list[tuple[Any, Any]], command: str = "") -> Policy:
-        """That of any layers, rounded."""
+        """A policy of floating-point layers, rounded."""
         clipped = [
             tuple(
                 np.clip(np.rint(np.asarray(part) * SCALE), -LARGEST, LARGEST).astype(np.int32) for part in one
@@ -74,10 +74,10 @@ class Policy:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Policy:
-        """That of a file.
+        """Read a policy from a file that `save` has written.
 
         Raises:
-            SilverballError: It cannot be read.
+            SilverballError: The file cannot be read, or is not a policy.
         """
         try:
             with np.load(path, allow_pickle=False) as file:
@@ -86,25 +86,25 @@ class Policy:
                 return cls(layers, str(file["command"]))
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, IndexError, TypeError) as error:
             raise SilverballError(
-                f"{path} is no policy that `examples/train_sb3.py --policy` has written: {error}"
+                f"{path} is not a policy written by `examples/train_sb3.py --policy`: {error}"
             ) from None
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write it to a file, which ends in .npz."""
+        """Write the policy to a file, whose name ends in .npz."""
         arrays: dict[str, Any] = {"command": np.array(self.command)}
         for number, (weights, biases) in enumerate(self.layers):
             arrays[f"weights{number}"], arrays[f"biases{number}"] = weights, biases
         np.savez_compressed(path, **arrays)
 
     def actions(self, raw: Rows) -> NDArray[np.int64]:
-        """What it presses where these numbers (see `sight.Raw`) are seen: bits [row], 1 left, 2 right."""
+        """The actions for raw features [row, Raw]: bits [row], 1 left, 2 right."""
         bits = np.zeros(len(raw), np.int64)
         for first in range(0, len(raw), ROWS):
             bits[first : first + ROWS] = self._few_actions(raw[first : first + ROWS])
         return bits
 
     def _few_actions(self, raw: Rows) -> NDArray[np.int64]:
-        values, is_mirrored = see(raw)
+        values, is_mirrored = encode(raw)
         for number, (weights, biases) in enumerate(self._exact):
             if number > 0:
                 values = np.maximum(values, 0.0)
@@ -120,7 +120,7 @@ def stored_policy() -> Policy:
         return Policy.load(path)
 
 
-def hold_of(tick_rate: int) -> int:
+def ticks_per_decision(tick_rate: int) -> int:
     """Ticks between two decisions."""
     return max(1, round(tick_rate / DECISIONS))
 
@@ -128,14 +128,14 @@ def hold_of(tick_rate: int) -> int:
 class Trained:
     """The trained player for a single world.
 
-    It keeps nothing: between two decisions it holds what the paddles are told, so that a game can be
-    continued from any snapshot.
+    It has no state of its own: between two decisions it holds what the paddles are commanded, so a game can
+    be continued from any snapshot.
 
     Args:
-        policy: What it plays by; None: the one that comes with the program.
+        policy: The network; None: the one that comes with the program.
     """
 
-    kind = PlayerKind.TRAINED
+    name = "trained"
 
     def __init__(self, policy: Policy | None = None) -> None:
         self._policy = policy or stored_policy()
@@ -143,22 +143,22 @@ class Trained:
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
         state, board, colliders = world.records
-        if world.tick % hold_of(world.tick_rate) != 0:
+        if world.tick % ticks_per_decision(world.tick_rate) != 0:
             return is_lifted(state, board, colliders, 0), is_lifted(state, board, colliders, 1)
-        bits = int(self._policy.actions(look(np.array([state]), np.array([board]), colliders))[0])
+        bits = int(self._policy.actions(raw_features(np.array([state]), np.array([board]), colliders))[0])
         return bits & 1 != 0, bits & 2 != 0
 
 
-def is_lifted(state: Any, board: Any, colliders: Any, side: int) -> bool:
-    """Whether the paddle of a side, 0 left, 1 right, is told to be up."""
+def is_lifted(state: Any, board: BoardRecord, colliders: Colliders, side: int) -> bool:
+    """Whether the paddle of a side, 0 left, 1 right, is commanded to be up."""
     collider = colliders[board["collider_first"] + (Part.LEFT_PADDLE, Part.RIGHT_PADDLE)[side]]
-    told = state["paddle"][side]["angle_commanded"]
-    return bool(told == collider["angle_up"] != collider["angle_rest"])
+    commanded = state["paddle"][side]["angle_commanded"]
+    return bool(commanded == collider["angle_up"] != collider["angle_rest"])
 
 
 def press_batch(batch: WorldBatch, policy: Policy | None = None) -> NDArray[np.bool_]:
     """The buttons (left, right) to hold until the next decision in every world, bool [world, 2]."""
     boards = batch.boards
-    raw = look(batch.state, boards.board[batch.board_of], boards.collider)
+    raw = raw_features(batch.state, boards.board[batch.board_of], boards.collider)
     bits = (policy or stored_policy()).actions(raw)
     return np.stack((bits & 1 != 0, bits & 2 != 0), axis=1)

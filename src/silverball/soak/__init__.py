@@ -1,1 +1,1 @@
-"""The soak: random play on random and hostile boards, checked after every tick, to find faults."""
+"""The soak: random play on random and hostile boards, checked after every tick, to find solver faults."""

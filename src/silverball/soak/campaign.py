@@ -1,8 +1,8 @@
-"""How does a soak go on until it has its frames, and what does it keep?
+"""Soak campaigns: rounds until enough frames are done, with progress in a file and findings beside it.
 
-After every round the totals are written to a file, whole or not at all; the same soak goes on from there, and
-an interruption costs one round. The file belongs to the options and to the very code of the physics: totals
-of different programs must not be added up. Beside it stands a file for every finding.
+After every round the totals are written to a file, whole or not at all. The same soak continues from there,
+so an interruption costs one round. The file belongs to the options and to the exact code of the physics:
+totals of different programs must not be added up.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from pydantic.dataclasses import dataclass
 
 from silverball.errors import OutputError, StateError
 from silverball.physics.kernel import KERNEL_PACKAGES
-from silverball.soak.finding import found_at
-from silverball.soak.json_file import STRICT, Count, file_text, made_from
+from silverball.soak.finding import record_finding
+from silverball.soak.json_file import STRICT, Count, file_text, parse_json
 from silverball.soak.rounds import Options, Totals, play_round
 from silverball.table.quantity import shown
 from silverball.wholefile import STDIN, is_missing, write_whole
 
 FORMAT = 1
-ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them tell nothing new
-MOST_FILES = 20  # findings that are written down, for the same reason
-SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times as much as it has
+ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them add nothing
+MOST_FILES = 20  # findings that are written to files, for the same reason
+SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times its usual size
 WHAT = "a progress file of a soak"
 
 
@@ -43,10 +43,10 @@ class SoakLog:
     """What a soak has done so far.
 
     Attributes:
-        options: `Options.described()`.
-        code: The hash of the code that does it.
+        options: `Options.as_dict()`.
+        code: The hash of the code that did it.
         rounds: Rounds done.
-        totals: Of these.
+        totals: Totals of these rounds.
         findings: The names of the files of findings, beside the log.
     """
 
@@ -54,7 +54,7 @@ class SoakLog:
     code: str
     rounds: Count = 0
     totals: Totals = field(default_factory=Totals)
-    # Instances, for a name may have bytes that are no text, which pydantic takes for no string.
+    # InstanceOf, because a file name may hold bytes that are not text, which pydantic refuses as a string.
     findings: Annotated[
         list[Annotated[InstanceOf[str], AfterValidator(_file_name)]], Field(max_length=MOST_FILES)
     ] = field(default_factory=list)
@@ -68,9 +68,9 @@ class SoakLog:
         """Read a log.
 
         Raises:
-            StateError: The text is no log of a soak.
+            StateError: The text is not the log of a soak.
         """
-        return made_from(text, source, WHAT, FORMAT, cls._of)
+        return parse_json(text, source, WHAT, FORMAT, cls._of)
 
     @classmethod
     def _of(cls, values: dict[str, Any]) -> Self:
@@ -96,23 +96,23 @@ def code_digest() -> str:
 
 
 def log_name(options: Options) -> str:
-    """The usual name of the file of a soak: another one for other options or other code."""
-    described = json.dumps([options.described(), code_digest()]).encode()
+    """The default file name of a soak: other options or other code give another name."""
+    described = json.dumps([options.as_dict(), code_digest()]).encode()
     return (
         f"soak-{'hostile' if options.hostile else 'random'}-{hashlib.sha256(described).hexdigest()[:12]}.json"
     )
 
 
-def begun(options: Options, path: Path) -> SoakLog:
-    """The log of a soak that goes on, or that of a new one.
+def load_or_begin(options: Options, path: Path) -> SoakLog:
+    """The log in a file, or that of a new soak if there is no such file.
 
     Raises:
-        StateError: The file is of another soak, or no log at all.
+        StateError: The file is of another soak, or not a log.
     """
     if is_missing(path) and str(path) != STDIN:
-        return SoakLog(options.described(), code_digest())
+        return SoakLog(options.as_dict(), code_digest())
     log = SoakLog.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
-    for key, value in options.described().items():
+    for key, value in options.as_dict().items():
         if log.options.get(key) != value:
             raise StateError(
                 f"{path}: this soak was begun with {key} {shown(log.options.get(key))}, not {shown(value)}; "
@@ -127,22 +127,22 @@ def begun(options: Options, path: Path) -> SoakLog:
 
 
 def soak(options: Options, frames: int, path: Path, progress: Callable[[int], None] | None = None) -> SoakLog:
-    """Soak until so many frames are done, from where the file says on.
+    """Soak until a number of frames is done, continuing from the log in a file.
 
     Args:
-        options: What the soak is made of.
-        frames: To be done in all, earlier runs included; the last round is finished.
-        path: The file of the log; its folder is made.
+        options: The options of the soak.
+        frames: Frames to do in total, earlier runs included; the last round is completed.
+        path: The file of the log; its folder is created.
         progress: Called now and then with the frames done.
 
     Returns:
-        The log; fewer frames are done only if there were `ENOUGH` findings.
+        The log; fewer frames are done only after `ENOUGH` findings.
 
     Raises:
         StateError: The file is of another soak.
         OutputError: The file cannot be written.
     """
-    log = begun(options, path)
+    log = load_or_begin(options, path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -152,7 +152,7 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
         report = (lambda done, before=before: progress(before + done)) if progress is not None else None
         totals, places = play_round(options, log.rounds, report)
         for place in places[: max(0, MOST_FILES - len(log.findings))]:
-            finding = found_at(options, place)
+            finding = record_finding(options, place)
             name = f"{path.stem}-{finding.kind}-{place.round}-{place.world}.json"
             _write(path.with_name(name), finding.to_text())
             log.findings.append(name)

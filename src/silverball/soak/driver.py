@@ -1,67 +1,105 @@
-"""How is a world of a soak driven?
+"""Random play for the soak: which buttons are held, and when balls are created, kicked and shoved.
 
-Two balls are kept on the board; buttons are held for random times, now and then for a tick or two only;
-balls are shoved; and in the wild worlds a ball gets a random velocity about once a second. A quiet world
-presses nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball which lies somewhere for
-ever shows.
+Two balls are kept on the board. Buttons are held for random times, now and then for only a tick or two; balls
+are shoved; and in *wild* worlds a ball gets a random velocity about once a second. A *quiet* world presses
+nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball that lies somewhere forever is
+found.
 
-Everything random is a function of the world's seed and a counter, so that a world can be run again alone.
-What is done in a tick is an ACTION: it can be written down and done again without any of this.
+Everything random is a function of the world's seed and a counter, so one world can be run again alone. What
+is done in a tick is an ACTION record: it can be written to a file and done again without this module.
 """
 
 from __future__ import annotations
 
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.random import uniform
-from silverball.physics.records import BALL_COUNT
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.portable_math import sine_cosine, uniform
+from silverball.physics.records import (
+    BALL_COUNT,
+    BoardRecord,
+    Colliders,
+    LogRecord,
+    Places,
+    WorldRecord,
+    records,
+)
 
-SOAK_KEY = 0x50A4  # sets these random numbers apart from the world's own
-# All that follow are chosen.
-HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] for which a button may be held or left, each as likely
+SOAK_KEY = 0x50A4  # keeps these random numbers apart from the world's own
+# All of the following are chosen.
+HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] for which a button may be held or released, each as likely
 BOTH_SHARE = 0.2  # of the presses are of both buttons at once
-KICK_EVERY = 2.0  # [s] at most, between two random velocities of a ball; half of that in the mean
-CAP_SHARE = 0.25  # of them are as fast as the cap allows
+KICK_EVERY = 2.0  # [s] at most, between two random velocities of a ball; half of that on average
+CAP_SHARE = 0.25  # of the kicks are as fast as the cap allows
 SHOVE_EVERY = 4.0  # [s] at most, between two shoves
 QUIET, LIVELY = 75.0, 25.0  # [s]
-RETRY = 0.25  # [s] between two wishes for a ball: on a crowded board there may be no room
+RETRY = 0.25  # [s] between two attempts to create a ball: a crowded board may have no free place
 
 ACTION = np.dtype(
     [
         ("left", "i8"), ("right", "i8"), ("shove", "i8"),  # buttons, 0 or 1
-        ("create", "i8"),  # whether a ball is wanted
+        ("create", "i8"),  # whether to create a ball
         ("kick", "i8", (BALL_COUNT,)),  # whether the ball in the slot gets this velocity [u/s]
         ("vx", "f8", (BALL_COUNT,)), ("vz", "f8", (BALL_COUNT,)),
     ],
     align=True,
 )  # fmt: skip
+ActionRecord: TypeAlias = Any  # an ACTION record
 
 DRIVER = np.dtype(
     [
         ("draws", "i8"),  # random numbers used
-        # The ticks at which the next change may come: of the buttons, left and right, and so on.
+        # The first ticks at which these may change: the buttons (left, right), a shove, a kick, a creation.
         ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (BALL_COUNT,)), ("create_at", "i8"),
     ],
     align=True,
 )  # fmt: skip
+DriverRecord: TypeAlias = Any  # a DRIVER record
+
+
+class Drivers(NamedTuple):
+    """What drives the worlds of a batch.
+
+    Attributes:
+        states: DRIVER records [world].
+        actions: ACTION records [world]: what was last done to each world.
+        wild: Whether balls get random velocities, bool [world].
+        places: The squares of all boards in which balls are created.
+    """
+
+    states: NDArray[Any]
+    actions: NDArray[Any]
+    wild: NDArray[np.bool_]
+    places: NDArray[Any]
+
+    @classmethod
+    def of(cls, wild: NDArray[np.bool_], places: NDArray[Any]) -> Drivers:
+        """The drivers of worlds at their beginning, one for each element of `wild`."""
+        return cls(records(len(wild), DRIVER), records(len(wild), ACTION), wild, places)
 
 
 @kernel
-def drawn(world: Any, driver: Any) -> float:
+def drawn(world: WorldRecord, driver: DriverRecord) -> float:
     """The next of the soak's random numbers of a world, in [0, 1)."""
     driver.draws += 1
     return uniform(world.seed ^ SOAK_KEY, driver.draws)
 
 
 @kernel
-def choose(world: Any, board: Any, driver: Any, action: Any, tick: float, wild: bool) -> None:
-    """What is done to a world before and in its next tick."""
+def choose_action(
+    world: WorldRecord,
+    board: BoardRecord,
+    driver: DriverRecord,
+    action: ActionRecord,
+    tick: float,
+    wild: bool,
+) -> None:
+    """Choose what is done to a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
     plays = wild or now * tick % (QUIET + LIVELY) >= QUIET
@@ -98,8 +136,15 @@ def choose(world: Any, board: Any, driver: Any, action: Any, tick: float, wild: 
 
 
 @kernel
-def act(world: Any, board: Any, colliders: Any, places: Any, log: Any, action: Any) -> None:
-    """Do what comes before a tick: new velocities and a new ball."""
+def apply_action(
+    world: WorldRecord,
+    board: BoardRecord,
+    colliders: Colliders,
+    places: Places,
+    log: LogRecord,
+    action: ActionRecord,
+) -> None:
+    """Do the part of an action that comes before the tick: new velocities and a new ball."""
     log.count, log.lost = 0, 0
     for slot in range(BALL_COUNT):
         if action.kick[slot] != 0 and world.ball[slot].id != 0:

@@ -1,4 +1,4 @@
-"""What does a soak write down of something it found, and does it happen again?
+"""Findings of a soak as files that reproduce them.
 
 A finding is the table, the state of the world some ticks before, and what was done in each tick from there
 on; as text it is one JSON object. It needs neither the soak that made it nor its random numbers.
@@ -20,17 +20,18 @@ from pydantic.dataclasses import dataclass
 from silverball.errors import StateError
 from silverball.game.replay.reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import BALL_COUNT, NOTHING, Motion
-from silverball.physics.validation import is_sound
+from silverball.physics.records import BALL_COUNT, NOTHING, BoardGeometry, Lane, Motion
+from silverball.physics.validation import validate_world
 from silverball.soak.checks import Found, watched_tick
-from silverball.soak.json_file import STRICT, Amount, Count, file_text, made_from
-from silverball.soak.rounds import KINDS, Options, Place, Soaked, soaked_round
+from silverball.soak.driver import ActionRecord
+from silverball.soak.json_file import STRICT, Amount, Count, file_text, parse_json
+from silverball.soak.rounds import KINDS, FindingPlace, Options, SoakBatch, round_batch
 from silverball.table import Table, dump_table, table_digest
 from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 from silverball.world.saved_world import pack, unpack
 
 FORMAT = 1
-LEAD_SECONDS = 1.0  # [s] before the finding at which the state is kept
+LEAD_SECONDS = 1.0  # [s] before the finding at which the state is saved
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
 WHAT = "a finding of a soak"
@@ -38,10 +39,10 @@ FASTEST = 1e4  # [u/s] of a kick; chosen: far above every speed cap
 
 
 def _action(values: list[Any]) -> list[Any]:
-    """An action as `_written` writes it, or a ValueError."""
+    """An action as `_action_values` writes it, or a ValueError."""
     buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
-    fair = all(type(button) is int and button in (0, 1) for button in buttons)
-    if not fair or len(kicks) != BALL_COUNT or not all(kick is None or _is_kick(kick) for kick in kicks):
+    are_valid = all(type(button) is int and button in (0, 1) for button in buttons)
+    if not are_valid or len(kicks) != BALL_COUNT or not all(kick is None or _is_kick(kick) for kick in kicks):
         raise ValueError(f"must be four times 0 or 1 and {BALL_COUNT} velocities")
     return values
 
@@ -63,10 +64,10 @@ class Finding:
 
     Attributes:
         kind: The name of a `Found` in small letters.
-        ball: The id of the ball; 0 where it is of no single ball.
+        ball: The id of the ball; 0 where no single ball is concerned.
         depth: How deep it was inside something [u]; 0 where the kind has no depth.
-        round: Of the soak.
-        world: Of the round.
+        round: The round of the soak.
+        world: The world of the round.
         tick: The tick of the world, counted from 1, after which it shows.
         program: The version of Silverball.
         physics: The version of the physics.
@@ -106,16 +107,16 @@ class Finding:
         """Read a finding.
 
         Raises:
-            StateError: The text is no finding of this format.
+            StateError: The text is not a finding of this format.
         """
-        return made_from(text, source, WHAT, FORMAT, cls._of)
+        return parse_json(text, source, WHAT, FORMAT, cls._of)
 
     @classmethod
     def load(cls, path: Path) -> Finding:
         """Read a finding from a file.
 
         Raises:
-            StateError: There is none, or it cannot be read.
+            StateError: The file does not exist, or cannot be read.
         """
         return cls.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
 
@@ -129,31 +130,32 @@ class Finding:
         """The finished table.
 
         Raises:
-            ValueError: `table_text` is none, or another one than `table_digest` says.
+            ValueError: `table_text` is not a finished table, or not that of `table_digest`.
         """
         try:
             table = Table.model_validate(tomllib.loads(self.table_text))
         except ValidationError:
             raise ValueError("table_text: is a table that cannot be used") from None
         if table.random is not None or has_mesh(table):
-            raise ValueError("table_text: is no finished table")
+            raise ValueError("table_text: is not a finished table")
         if table_digest(table) != self.table_digest:
             raise ValueError("table_text: does not belong to table_digest; it was changed")
         return table
 
 
-def found_at(options: Options, place: Place) -> Finding:
-    """Run the world of a finding again, alone, and write it down from `LEAD_SECONDS` before on."""
+def record_finding(options: Options, place: FindingPlace) -> Finding:
+    """Run the world of a finding again, alone, and record its last `LEAD_SECONDS`."""
     from silverball import __version__
 
-    rehearsal = soaked_round(options, place.round, place.world)
+    rehearsal = round_batch(options, place.round, place.world)
     rehearsal.run(place.tick)
-    watch = rehearsal.watches[0]
+    watch = rehearsal.watches.states[0]
     kind = Found(int(watch["found"]))
     since = int(watch["since"])
     start = since if kind == Found.STUCK else max(0, since - round(LEAD_SECONDS * options.tick_rate))
-    # A stuck ball is written down from its arrival on: with another start it would count from another place.
-    soaked = soaked_round(options, place.round, place.world)
+    # A stuck ball is recorded from its arrival on: with another start its time would count from another
+    # place.
+    soaked = round_batch(options, place.round, place.world)
     soaked.run(start)
     table = soaked.tables[0]
     digest = table_digest(table)
@@ -161,7 +163,7 @@ def found_at(options: Options, place: Place) -> Finding:
     actions = []
     for _ in range(start, place.tick):
         soaked.run(1)
-        actions.append(_written(soaked.actions[0]))
+        actions.append(_action_values(soaked.drivers.actions[0]))
     slot = int(watch["slot"])
     return Finding(
         kind=kind.name.lower(),
@@ -181,47 +183,45 @@ def found_at(options: Options, place: Place) -> Finding:
     )
 
 
-def again(finding: Finding) -> Found:
-    """Do again what was done, and say what the watch finds now: `Found.NOTHING` if it does not happen.
+def reproduce(finding: Finding) -> Found:
+    """Do the actions of a finding again; what the checks find now, `Found.NOTHING` if nothing.
 
     Raises:
         StateError: The state was changed, or is of another version of the physics.
     """
-    soaked = Soaked([finding.table()], [0], finding.tick_rate, finding.hostile)
+    soaked = SoakBatch([finding.table()], [0], finding.tick_rate, finding.hostile)
     record = unpack(bytes.fromhex(finding.state), finding.table_digest, finding.tick_rate)
-    soaked.batch.state[0] = record
+    batch, drivers = soaked.batch, soaked.drivers
+    batch.state[0] = record
     if not _is_possible(soaked):
         raise StateError("the state of this finding is impossible; it was changed")
-    batch, true, watch, action = soaked.batch, soaked.true, soaked.watches[0], soaked.actions[0]
+    lane = Lane(batch.state[0], batch.logs[0], batch.tallies[0])
+    geometry = BoardGeometry(batch.boards.board[0], batch.boards.collider, batch.boards.grid)
+    watch, action, truth = soaked.watches.states[0], drivers.actions[0], soaked.truth(0)
     for values in finding.actions:
         if watch["found"] != Found.NOTHING:
             break
-        _read_into(action, values)
-        watched_tick(
-            batch.state[0], batch.boards.board[0], batch.boards.collider, batch.boards.grid,
-            batch.boards.place, batch.logs[0],
-            batch.tallies[0], true.board[0], true.collider, soaked.grounds.site[0], soaked.grounds.mark,
-            watch, action, 1.0 / finding.tick_rate, finding.hostile,
-        )  # fmt: skip
+        _fill_action(action, values)
+        watched_tick(lane, geometry, drivers.places, truth, watch, action, 1.0 / finding.tick_rate)
     return Found(int(watch["found"]))
 
 
-def _is_possible(soaked: Soaked) -> bool:
-    """Whether the kernels can go on from the state of the only world: nothing in it leads out of an array."""
+def _is_possible(soaked: SoakBatch) -> bool:
+    """Whether the kernels can continue from the state of the only world: no index in it leaves its array."""
     state, board = soaked.batch.state[0], soaked.batch.boards.board[0]
     parts = board["collider_end"] - board["collider_first"]
     balls = state["ball"]
     numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
     return bool(
-        not any(map(math.isnan, numbers))  # a time may be infinite: never
-        and ((balls["meets"] >= NOTHING) & (balls["meets"] < parts)).all()
+        not any(map(math.isnan, numbers))  # a time may be infinite, which means never
+        and ((balls["contact_part"] >= NOTHING) & (balls["contact_part"] < parts)).all()
         and np.isin(balls["motion"], list(Motion)).all()
         and state["tick"] >= 0
-        and is_sound(state, board)
+        and validate_world(state, board)
     )
 
 
-def _written(action: Any) -> list[Any]:
+def _action_values(action: ActionRecord) -> list[Any]:
     """An ACTION record as plain values."""
     kicks = [
         [float(vx), float(vz)] if kick else None
@@ -230,7 +230,7 @@ def _written(action: Any) -> list[Any]:
     return [*(int(action[name]) for name in BUTTONS), *kicks]
 
 
-def _read_into(action: Any, values: list[Any]) -> None:
+def _fill_action(action: ActionRecord, values: list[Any]) -> None:
     """Write plain values into an ACTION record."""
     *buttons, first, second = values
     for name, value in zip(BUTTONS, buttons, strict=True):

@@ -1,8 +1,8 @@
-"""Which boards are as nasty as can be?
+"""Hostile boards: tables that break every rule of placement, to test the solver where it is weakest.
 
 Their parts overlap, touch, leave gaps of just a ball's width or just less, stand in the paddles' way, are as
-thin as a hair, or throw a ball back faster than it came. None of them passes `check_table`, and on none may a
-ball ever get inside anything, or out.
+thin as a hair, or return a ball faster than it came. None of them passes `check_table`, and on none may a
+ball ever get inside anything, or off the board.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from typing import NamedTuple
 from silverball.table import Board, Cylinder, Paddle, SlantWall, Table, TriangularPrism
 
 LEAST_FEATURES, MOST_FEATURES = 4, 12
-HAIR = (1e-4, 1e-3, 1e-2, 0.05)  # [u] widths of thin parts and play in narrow places
+HAIR = (1e-4, 1e-3, 1e-2, 0.05)  # [u] widths of thin parts, and clearances in narrow places
 
 Part = SlantWall | TriangularPrism | Cylinder
 
 
 class _Site(NamedTuple):
-    """Where the next feature goes: its random numbers, the board, the paddles, and a place (x, z) [u]."""
+    """Where the next feature goes: its random generator, the board, the paddles, and a place (x, z) [u]."""
 
     pick: random.Random
     board: Board

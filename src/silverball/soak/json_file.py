@@ -1,8 +1,7 @@
-"""How does JSON become an object of ours, when the file may come from anywhere?
+"""Strict reading of JSON files that may come from anywhere.
 
-Strictly: one object, no key twice, no number that is none, our format, then every field by its type and
-bounds.
-Every refusal is one sentence that begins with the file and says what is wrong.
+A file must hold one object, with no key twice, no NaN or infinity and the known format; then every field is
+checked by its type and bounds. A refusal is one sentence that begins with the file and says what is wrong.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ def file_text(path: Path, limit: int, what: str) -> str:
     """The text of a file.
 
     Raises:
-        StateError: It cannot be read, or has more than `limit` bytes.
+        StateError: The file cannot be read, or has more than `limit` bytes.
     """
     try:
         return read_text(path, limit, what)
@@ -37,31 +36,33 @@ def file_text(path: Path, limit: int, what: str) -> str:
         raise StateError(f"{path}: {error}") from None
 
 
-def made_from(text: str, source: str, what: str, form: int, make: Callable[[dict[str, Any]], _Made]) -> _Made:
-    """What the values of a JSON object make.
+def parse_json(
+    text: str, source: str, what: str, known_format: int, make: Callable[[dict[str, Any]], _Made]
+) -> _Made:
+    """Parse a JSON object and make something of its values.
 
     Args:
-        text: The object; its key "format" says which format it has.
-        source: What to call it in messages.
-        what: What it should be, such as "a finding".
-        form: The format that is known.
-        make: Makes it of the other values; raises ValueError or StateError for what makes no sense.
+        text: The object; its key "format" is the number of its format.
+        source: The name of the text in messages.
+        what: What the text should be, with its article, for messages.
+        known_format: The format that can be read.
+        make: Called with the other values; raises ValueError or StateError for invalid ones.
 
     Raises:
-        StateError: The text is something else.
+        StateError: The text is not such an object.
     """
     try:
-        values = json.loads(text, object_pairs_hook=_once, parse_constant=_no_number)
+        values = json.loads(text, object_pairs_hook=_unique_keys, parse_constant=_refuse_constant)
         if not isinstance(values, dict) or "format" not in values:
             raise ValueError('it has no "format"')
         found = values.pop("format")
-        if type(found) is int and found > form:
+        if type(found) is int and found > known_format:
             raise StateError(
-                f"{source}: this has format {shown(found)}, this program reads format {form}; "
+                f"{source}: this has format {shown(found)}, this program reads format {known_format}; "
                 "get a newer Silverball"
             )
-        if found != form or type(found) is not int:
-            raise ValueError(f'its "format" is not {form}')
+        if found != known_format or type(found) is not int:
+            raise ValueError(f'its "format" is not {known_format}')
         return make(values)
     except RecursionError:
         reason = "its brackets are nested too deeply"
@@ -73,12 +74,12 @@ def made_from(text: str, source: str, what: str, form: int, make: Callable[[dict
     raise StateError(f"{source}: this is not {what}, or a damaged one ({reason})")
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     values = dict(pairs)
     if len(values) < len(pairs):
-        raise ValueError("a key stands twice in it")
+        raise ValueError("it has a key twice")
     return values
 
 
-def _no_number(word: str) -> NoReturn:
-    raise ValueError(f"{word} is no number")
+def _refuse_constant(word: str) -> NoReturn:
+    raise ValueError(f"{word} is not a number")

@@ -1,8 +1,8 @@
-"""How are random boards soaked, round after round?
+"""Rounds of a soak: batches of worlds on new random boards, driven and watched for some minutes.
 
-A round makes a batch of worlds on boards nobody has seen yet, with everything random derived from the soak's
-seed and the number of the round, and drives (`driver.py`) and watches (`watch.py`) them for some minutes. So
-each round, and each world of it, can be run again alone. Every fourth world is a quiet one.
+Everything random is derived from the soak's seed and the number of the round, so each round, and each world
+of it, can be run again alone. `driver.py` presses the buttons, `checks.py` watches. Every fourth world is
+quiet.
 """
 
 from __future__ import annotations
@@ -13,25 +13,24 @@ from dataclasses import field
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import AfterValidator
 from pydantic.dataclasses import dataclass
 
 from silverball.physics.records import records
-from silverball.soak.checks import WATCH, Found, soak_worlds
-from silverball.soak.driver import ACTION, DRIVER
+from silverball.soak.checks import WATCH, Found, Truth, Watches, soak_worlds
+from silverball.soak.driver import Drivers
 from silverball.soak.hostile import hostile_table
 from silverball.soak.json_file import STRICT, Amount, Count
-from silverball.soak.regions import Grounds, survey
+from silverball.soak.regions import region_map
 from silverball.table import Table, generate_table, table_digest
 from silverball.world import WorldBatch
-from silverball.world.compile import Boards, compile_tables
+from silverball.world.compile import compile_tables
 
 # Simulated in each world of a round [s], and worlds that share a board. Making a board takes as long as some
-# 20,000 frames on it; of hostile ones, which are quicker made, each world gets its own.
+# 20,000 frames on it; hostile boards are made faster, so each world gets its own.
 ROUND_SECONDS, HOSTILE_SECONDS = 600.0, 200.0
 WORLDS_A_BOARD = 4
-QUIET_EVERY = 4  # every so many worlds one is quiet
+QUIET_EVERY = 4  # of every four worlds one is quiet
 CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
 
 KINDS = tuple(kind for kind in Found if kind != Found.NOTHING)
@@ -41,14 +40,13 @@ ROLLING = {"friction": 0.2, "rolling": True}
 
 
 class Options(NamedTuple):
-    """What a soak is made of.
+    """The options of a soak.
 
     Attributes:
-        recipe: The table: a recipe gives random boards; a finished table is soaked itself; not used by
-            hostile soaks.
+        recipe: A recipe gives random boards, a finished table is soaked itself; unused by hostile soaks.
         seed: Of everything random.
-        worlds: In a round.
-        tick_rate: Frames per second.
+        worlds: Worlds in a round.
+        tick_rate: Ticks per second.
         hostile: Whether to soak boards that break every rule (see `hostile.py`).
     """
 
@@ -58,14 +56,14 @@ class Options(NamedTuple):
     tick_rate: int
     hostile: bool
 
-    def described(self) -> dict[str, Any]:
+    def as_dict(self) -> dict[str, Any]:
         """The options as plain values: soaks with equal ones do the same."""
         table = "" if self.hostile else table_digest(self.recipe)
         return {"table": table} | {key: getattr(self, key) for key in self._fields[1:]}
 
     @property
     def round_ticks(self) -> int:
-        """Frames of each world in a round."""
+        """Ticks of each world in a round."""
         return round((HOSTILE_SECONDS if self.hostile else ROUND_SECONDS) * self.tick_rate)
 
     @property
@@ -74,7 +72,7 @@ class Options(NamedTuple):
         return 1 if self.hostile else WORLDS_A_BOARD
 
 
-class Place(NamedTuple):
+class FindingPlace(NamedTuple):
     """Where a finding was made: the round, the world in it, and the tick after which it shows."""
 
     round: int
@@ -90,7 +88,7 @@ def _of_every_kind(found: dict[str, int]) -> dict[str, int]:
 
 @dataclass(config=STRICT)
 class Totals:
-    """What came of some rounds.
+    """The totals of some rounds.
 
     Attributes:
         frames: Ticks of all worlds together.
@@ -98,9 +96,9 @@ class Totals:
         created: Balls created.
         drained: Balls that left through the gutter.
         hits: Of balls on parts and on each other.
-        jams: Times at which a pinched ball was held.
-        deepest: The deepest that any ball was inside anything [u].
-        found: How many findings of each kind; every world ends at its first.
+        jams: How often a pinched ball was held.
+        deepest: The greatest depth of any ball inside anything [u].
+        found: Findings of each kind; a world ends at its first.
     """
 
     frames: Count = 0
@@ -115,7 +113,7 @@ class Totals:
     )
 
     def add(self, other: Totals) -> None:
-        """Add those of further rounds."""
+        """Add the totals of further rounds."""
         for name in ("frames", "boards", "created", "drained", "hits", "jams"):
             setattr(self, name, getattr(self, name) + getattr(other, name))
         self.deepest = max(self.deepest, other.deepest)
@@ -123,18 +121,22 @@ class Totals:
             self.found[kind] += count
 
 
-class Soaked:
+class SoakBatch:
     """Worlds that are driven and watched.
+
+    Args:
+        tables: The table of each world.
+        seeds: The seed of each world.
+        tick_rate: Ticks per second.
+        hostile: Whether the tables were not checked.
+        wild: Whether each world is wild rather than quiet; empty: all are.
 
     Attributes:
         batch: The worlds.
         tables: The table of each world.
-        true: The tables compiled once more, for the watch alone: whatever happens to the boards that the
-            solver reads, the watch knows where the parts are.
-        grounds: The maps of the boards.
-        watches: WATCH records, shape [world].
-        drivers: DRIVER records, shape [world].
-        actions: ACTION records, shape [world]: what was last done to each world.
+        drivers: What drives them.
+        watches: What watches them, with the tables compiled again for the checks alone: whatever happens to
+            the boards that the solver reads, the checks know where the parts are.
     """
 
     def __init__(
@@ -145,51 +147,57 @@ class Soaked:
         hostile: bool,
         wild: Sequence[bool] = (),
     ) -> None:
-        self.batch = WorldBatch(tables, len(tables), seeds, tick_rate)
-        self.tables, self.hostile = tables, hostile
-        self.true: Boards = compile_tables(self.batch.tables)
-        self.grounds: Grounds = survey(self.true.board, self.true.collider)
-        self.watches: NDArray[Any] = records(len(tables), WATCH)
-        self.drivers: NDArray[Any] = records(len(tables), DRIVER)
-        self.actions: NDArray[Any] = records(len(tables), ACTION)
-        self.wild = np.array(wild or [True] * len(tables))
+        self.batch = batch = WorldBatch(tables, len(tables), seeds, tick_rate)
+        self.tables = tables
+        self.drivers = Drivers.of(np.array(wild or [True] * len(tables)), batch.boards.place)
+        boards = compile_tables(batch.tables)
+        self.watches = Watches(
+            boards.board,
+            boards.collider,
+            *region_map(boards.board, boards.collider),
+            records(len(tables), WATCH),
+            hostile,
+        )
+
+    def truth(self, world: int) -> Truth:
+        """What the checks know of the table of a world."""
+        watches, board = self.watches, self.batch.board_of[world]
+        return Truth(
+            watches.boards[board], watches.colliders, watches.headers[board], watches.labels, watches.hostile
+        )
 
     def run(self, ticks: int) -> None:
         """Soak all worlds for a number of ticks."""
-        batch, true = self.batch, self.true
+        batch, tick = self.batch, 1.0 / self.batch.tick_rate
+        lanes, geometries = batch.lanes, batch.geometries
         batch.on_threads(
             lambda first, end: soak_worlds(
-                batch.state, batch.boards.board, batch.board_of, batch.boards.collider, batch.boards.grid,
-                batch.boards.place,
-                batch.logs, batch.tallies, true.board, true.collider, self.grounds.site, self.grounds.mark,
-                self.watches, self.drivers, self.actions, self.wild, first, end, ticks, 1.0 / batch.tick_rate,
-                self.hostile,
+                lanes, geometries, self.drivers, self.watches, first, end, ticks, tick
             ),
             batch.count * ticks,
-        )  # fmt: skip
+        )
 
     def totals(self) -> Totals:
-        """What came of it."""
-        state = self.batch.state
-        hits = ("wall", "slant_wall", "paddle", "triangular_prism", "cylinder", "ball")
+        """The totals so far."""
+        state, watches = self.batch.state, self.watches.states
         return Totals(
-            int(self.watches["frames"].sum()),
+            int(watches["frames"].sum()),
             len(self.batch.tables),
             int(state["created"].sum()),
             int(state["drained"].sum()),
-            sum(int(state[f"{name}_hits"].sum()) for name in hits),
+            int(self.batch.tallies.sum() + state["ball_hits"].sum()),
             int(state["jams"].sum()),
-            float(self.watches["deepest"].max()),
-            {kind.name.lower(): int((self.watches["found"] == kind).sum()) for kind in KINDS},
+            float(watches["deepest"].max()),
+            {kind.name.lower(): int((watches["found"] == kind).sum()) for kind in KINDS},
         )
 
 
-def soaked_round(options: Options, number: int, only: int | None = None) -> Soaked:
+def round_batch(options: Options, number: int, only: int | None = None) -> SoakBatch:
     """The worlds of a round at its start, or only one of them."""
     worlds = range(options.worlds) if only is None else range(only, only + 1)
     board_of = {world: world // options.worlds_a_board for world in worlds}
     boards = {board: _board(options, number, board) for board in sorted(set(board_of.values()))}
-    return Soaked(
+    return SoakBatch(
         [boards[board_of[world]] for world in worlds],
         [_seed(options.seed, number, f"world {world}") for world in worlds],
         options.tick_rate,
@@ -200,26 +208,26 @@ def soaked_round(options: Options, number: int, only: int | None = None) -> Soak
 
 def play_round(
     options: Options, number: int, progress: Callable[[int], None] | None = None
-) -> tuple[Totals, list[Place]]:
+) -> tuple[Totals, list[FindingPlace]]:
     """Run a round.
 
     Args:
-        options: What the soak is made of.
+        options: The options of the soak.
         number: Which round, from 0.
         progress: Called now and then with the frames of this round so far.
 
     Returns:
-        What came of it, and where findings were made.
+        The totals, and where findings were made.
     """
-    soaked = soaked_round(options, number)
+    soaked = round_batch(options, number)
     chunk = max(1, CHUNK_TICKS // options.worlds)
     for done in range(0, options.round_ticks, chunk):
         soaked.run(min(chunk, options.round_ticks - done))
         if progress is not None:
-            progress(int(soaked.watches["frames"].sum()))
+            progress(int(soaked.watches.states["frames"].sum()))
     places = [
-        Place(number, int(world), int(soaked.watches["frames"][world]))
-        for world in np.nonzero(soaked.watches["found"])[0]
+        FindingPlace(number, int(world), int(soaked.watches.states["frames"][world]))
+        for world in np.nonzero(soaked.watches.states["found"])[0]
     ]
     return soaked.totals(), places
 
@@ -237,6 +245,6 @@ def _board(options: Options, number: int, board: int) -> Table:
 
 
 def _seed(seed: int, number: int, of: str) -> int:
-    """The seed of a world or a board, a whole number below 2⁶³."""
+    """The seed of a world or a board, an integer from 0 to 2⁶³ − 1."""
     digest = hashlib.sha256(f"soak {seed}, round {number}, {of}".encode()).digest()
     return int.from_bytes(digest[:8], "little") >> 1

@@ -1,4 +1,4 @@
-"""What a person writes: a pinball table as data, read, checked, generated and saved."""
+"""Pinball tables as data: parts, files, checks, and random boards made of recipes."""
 
 from silverball.table.file import dump_table, load_table, parse_table, save_table, table_digest, table_names
 from silverball.table.generate import generate_table
@@ -11,11 +11,10 @@ from silverball.table.parts import (
     PrismSurface,
     RandomRecipe,
     SlantWall,
-    Table,
     TriangularPrism,
 )
 from silverball.table.reach import ball_places
-from silverball.table.trial import check_table
+from silverball.table.table import Table, check_table
 
 __all__ = [
     "Arcade",

@@ -1,32 +1,30 @@
-"""Can these parts be played on? Every reason why not, each with its path in the file.
+"""Checks of a layout: every reason why its parts cannot be played on, with its path in the file.
 
-In this order: each part by itself (degenerate, outside the board, a paddle as fast as the cap), parts
-against each other (overlaps, gaps that a ball only just fits), the paddles' turns, the way to the
-gutter, the places where a ball would lie for ever, and the rules of a recipe. A check that would only
-repeat an earlier one in other words is left out.
+In this order: each part by itself (degenerate, outside the board, a paddle faster than the cap), parts
+against each other (overlaps, gaps that a ball barely fits), the swing of the paddles, the way to the gutter,
+the places where a ball would lie forever, and the rules of a recipe.
 
-What a mesh or a value by itself must be is said in `parts.py` and `mesh.py`; here the parts exist and the
-question is whether they make a table. Whether a recipe makes boards is tried out in `placing.py`.
+Single values are validated in `parts.py`, meshes in `mesh.py`; `placement.py` tries whether a recipe makes
+boards.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from silverball.errors import Problem
+from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.table.geometry import (
     BORDER_NAMES,
     Floats,
     Shapes,
-    Standing,
     border_gaps,
     distances,
     near_pairs,
     offsets,
-    outline,
     side_of,
 )
 from silverball.table.parts import (
@@ -35,7 +33,7 @@ from silverball.table.parts import (
     Paddle,
     RandomRecipe,
     SlantWall,
-    Table,
+    StandingPart,
     TriangularPrism,
 )
 from silverball.table.placement_rules import recipe_problems
@@ -43,23 +41,20 @@ from silverball.table.reach import PASSAGE, Space, creation_floor, space
 from silverball.table.sweep import CLEARANCE, touches_border, touches_paddle, touches_shape
 from silverball.table.traps import level_faces, pockets
 
-FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
-ROUNDING = 1e-9  # [u] by which a part may reach over an edge of the board
-LEAST_OPEN = 0.5  # share of the board that must lead to the gutter; corners and huts may be closed off
-CROWD = 4000  # pairs of parts nearer to each other than a ball is wide; an arc of 256 short walls makes 2,500
-TANGLE = 100  # overlaps that are spelt out; with more of them, nobody asks for traps yet
+if TYPE_CHECKING:
+    from silverball.table.table import Table
 
-# A touch leaves a ball with a hop of at most √(2·A·HOP), A the acceleration at the contact; on a turning
-# paddle A is gravity and ω²·reach. The speed cap must leave room for it.
-# Source: the solver's rule for endless small bounces, with HOP = 5e-4 u.
-HOP = 5e-4
-HOP_SHARE = 0.9  # of the speed of a hit, at which a hop is cut off; the solver's rule too
+FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
+ROUNDING = 1e-9  # [u] by which a part may extend beyond an edge of the board
+LEAST_OPEN = 0.5  # share of the board that must lead to the gutter; corners may be closed off
+CROWD = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500
+OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
 
 
 class Layout(NamedTuple):
     """The parts of a table, each with its path in the file.
 
-    A table has one for all its parts; of a file with mistakes, the parts without any make one too.
+    The valid parts of a file with mistakes make a layout too.
     """
 
     board: Board
@@ -71,7 +66,7 @@ class Layout(NamedTuple):
 
     @classmethod
     def of(cls, table: Table) -> Layout:
-        """The layout of a whole table."""
+        """Return the layout of a whole table."""
         return cls(
             table.board,
             tuple((f"slant_wall[{i}]", part) for i, part in enumerate(table.slant_wall)),
@@ -83,15 +78,15 @@ class Layout(NamedTuple):
 
 
 class Measured(NamedTuple):
-    """The standing parts of a layout that have an extent, ready to be measured."""
+    """The standing parts of a layout that have an extent, with their shapes."""
 
     paths: list[str]
-    parts: list[Standing]
+    parts: list[StandingPart]
     shapes: Shapes
 
 
 def check_layout(layout: Layout) -> list[Problem]:
-    """Every problem of a layout, with its path; an empty list for one that can be played."""
+    """Find every problem of a layout; an empty list if it can be played."""
     board_problems = _board_problems(layout.board)
     paddle_problems = _paddle_problems(layout)
     problems = board_problems + _hop_problems(layout.board) + paddle_problems
@@ -99,21 +94,21 @@ def check_layout(layout: Layout) -> list[Problem]:
     problems += part_problems
     if board_problems:
         return problems
-    layout = layout._replace(paddles=_one_a_side(layout.paddles))  # the others are refused anyway
-    meetings, tight = _pair_problems(standing, layout.board)
-    problems += meetings[:TANGLE]
-    if len(meetings) > TANGLE:
-        problems.append(Problem("", f"and {len(meetings) - TANGLE:,} more overlaps"))
+    layout = layout._replace(paddles=_one_a_side(layout.paddles))  # the others are problems already
+    overlaps, tight = _pair_problems(standing, layout.board)
+    problems += overlaps[:OVERLAPS_LISTED]
+    if len(overlaps) > OVERLAPS_LISTED:
+        problems.append(Problem("", f"and {len(overlaps) - OVERLAPS_LISTED:,} more overlaps"))
     problems += _sweep_problems(layout, standing)
     paddles = tuple(paddle for _, paddle in layout.paddles)
-    outlines = [outline(part) for part in standing.parts]
+    outlines = [part.outline() for part in standing.parts]
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
     problems += _way_problems(layout, paddles, ball_space)
     crowd = _crowd_problems(standing, layout.board)
     problems += crowd
-    may_lie_anywhere = layout.board.gravity == 0.0
-    if len(meetings) <= TANGLE and not crowd and not may_lie_anywhere:
+    can_rest_anywhere = layout.board.gravity == 0.0
+    if len(overlaps) <= OVERLAPS_LISTED and not crowd and not can_rest_anywhere:
         problems += _trap_problems(layout, standing, ball_space)
     if layout.random is not None:
         problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)
@@ -127,22 +122,25 @@ def _board_problems(board: Board) -> list[Problem]:
         problems.append(
             Problem("board.gutter", f"must lie on the board, {-edge:g} to {edge:g} u, got {board.gutter:g}")
         )
-    room = min(board.width, board.length) - 2.0 * board.wall_thickness
-    if room < 4.0 * board.ball_radius:
-        message = f"must fit the board: between its borders are {room:g} u, too little for two balls abreast"
+    space_between = min(board.width, board.length) - 2.0 * board.wall_thickness
+    if space_between < 4.0 * board.ball_radius:
+        message = (
+            f"must fit the board: the borders are {space_between:g} u apart, "
+            "too little for two balls side by side"
+        )
         problems.append(Problem("board.ball_radius", message))
     return problems
 
 
 def _hop_problems(board: Board) -> list[Problem]:
-    """A ball at rest hops; were that a hit, it would score for ever."""
+    """A ball at rest hops; if a hop counted as a hit, the ball would score forever."""
     hop = math.sqrt(2.0 * board.gravity * HOP)
     if board.hit_speed >= hop / HOP_SHARE:
         return []
     least = math.ceil(1000.0 * hop / HOP_SHARE) / 1000.0
     message = (
         f"must be at least {least:g} u/s at gravity {board.gravity:g}, "
-        f"got {board.hit_speed:g}: a ball at rest hops with {hop:.3g} u/s, which must be no hit"
+        f"got {board.hit_speed:g}: a ball at rest hops at {hop:.3g} u/s, which must not count as a hit"
     )
     return [Problem("board.hit_speed", message)]
 
@@ -171,15 +169,16 @@ def _one_a_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, Pad
 
 
 def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
-    """A tip that is as fast as the speed cap would run through balls that it has just hit."""
+    """A tip as fast as the speed cap would pass through balls that it has just hit."""
     if _tip_and_hop(paddle.tip_speed, paddle, board) < board.speed_cap:
         return []
     quick = "stroke" if paddle.stroke <= paddle.return_stroke else "return_stroke"
-    way = paddle.tip_speed * getattr(paddle, quick)  # [u] that the tip travels
-    # The limit falls with the stroke's time; look it up in steps of a millisecond, as people write it.
+    travel = paddle.tip_speed * getattr(paddle, quick)  # [u] of the tip
+    # The speed falls with the time of the stroke; find the least time in whole milliseconds.
     times = (milliseconds / 1000.0 for milliseconds in range(20, 1001))
-    works = next((time for time in times if _tip_and_hop(way / time, paddle, board) < board.speed_cap), None)
-    remedy = f"make it {works:g} s or longer" if works else "make the paddle shorter"
+    possible = (time for time in times if _tip_and_hop(travel / time, paddle, board) < board.speed_cap)
+    shortest = next(possible, None)
+    remedy = f"make it {shortest:g} s or longer" if shortest else "make the paddle shorter"
     message = (
         f"makes the tip {paddle.tip_speed:.1f} u/s fast, with its hop "
         f"{_tip_and_hop(paddle.tip_speed, paddle, board):.1f}; "
@@ -189,16 +188,19 @@ def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
 
 
 def _tip_and_hop(tip_speed: float, paddle: Paddle, board: Board) -> float:
-    """[u/s] The speed of the tip and the hop that a touch there may add."""
+    """[u/s] The speed of the tip plus that of the hop which a touch there may add.
+
+    A hop is at most √(2·A·HOP); at the tip the acceleration A is gravity and ω²·reach.
+    """
     return tip_speed + math.sqrt(2.0 * (board.gravity + tip_speed**2 / paddle.reach) * HOP)
 
 
 def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
-    """The standing parts that have an extent, and the problems of those that have none or stick out."""
+    """The standing parts with an extent, and the problems of those without one or beyond the board."""
     problems: list[Problem] = []
     paths: list[str] = []
-    parts: list[Standing] = []
-    everything: tuple[tuple[str, Standing], ...] = (
+    parts: list[StandingPart] = []
+    everything: tuple[tuple[str, StandingPart], ...] = (
         *layout.slant_walls,
         *layout.triangular_prisms,
         *layout.cylinders,
@@ -210,11 +212,11 @@ def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
             parts.append(part)
         if problem is not None:
             problems.append(problem)
-    return Measured(paths, parts, Shapes.of([outline(part) for part in parts])), problems
+    return Measured(paths, parts, Shapes.of([part.outline() for part in parts])), problems
 
 
-def _own_problem(path: str, part: Standing, board: Board) -> Problem | None:
-    core, radius = outline(part)
+def _own_problem(path: str, part: StandingPart, board: Board) -> Problem | None:
+    core, radius = part.outline()
     points = np.array(core)
     path = f"{path}.{_place_key(part)}"
     if isinstance(part, SlantWall):
@@ -228,7 +230,7 @@ def _own_problem(path: str, part: Standing, board: Board) -> Problem | None:
         low_edge = points[:, 0].min() - radius + 0.5 * board.length
         beyond = -min(float(border_gaps(points, board).min()) - radius, float(low_edge))
     if beyond > ROUNDING:
-        return Problem(path, f"reaches {beyond:.3g} u over the edge of the board: move it inwards")
+        return Problem(path, f"extends {beyond:.3g} u beyond the edge of the board: move it inwards")
     return None
 
 
@@ -239,8 +241,8 @@ def _height(corners: Floats) -> float:
     return abs(twice_area) / longest if longest > 0.0 else 0.0
 
 
-def _place_key(part: Standing) -> str:
-    """The key that says where a part is."""
+def _place_key(part: StandingPart) -> str:
+    """The key of a part's position."""
     if isinstance(part, SlantWall):
         return "end"
     return "vertices" if isinstance(part, TriangularPrism) and part.vertices is not None else "center"
@@ -249,21 +251,21 @@ def _place_key(part: Standing) -> str:
 def _pair_problems(
     standing: Measured, board: Board
 ) -> tuple[list[Problem], list[tuple[Problem, tuple[float, float]]]]:
-    """Parts that overlap; and gaps that a ball only just fits, each with the middle of the gap."""
-    meetings: list[Problem] = []
+    """Overlaps; and gaps that a ball barely fits, each with the middle of the gap."""
+    overlaps: list[Problem] = []
     tight: list[tuple[Problem, tuple[float, float]]] = []
     shapes, parts, paths = standing.shapes, standing.parts, standing.paths
     if not parts:
-        return meetings, tight
+        return overlaps, tight
     widest = (2.0 + PASSAGE) * board.ball_radius
     first, second, gaps = near_pairs(shapes, widest)
     for one, other, gap in zip(first.tolist(), second.tolist(), gaps.tolist(), strict=True):
         path = f"{paths[other]}.{_place_key(parts[other])}"
         walls = isinstance(parts[one], SlantWall) and isinstance(parts[other], SlantWall)
         if walls and _cross(parts[one], parts[other]):
-            meetings.append(Problem(path, f"crosses {paths[one]}: let the walls meet at their ends"))
+            overlaps.append(Problem(path, f"crosses {paths[one]}: let the walls meet at their ends"))
         elif not walls and gap <= 0.0:
-            meetings.append(Problem(path, f"overlaps {paths[one]}: move one of the two"))
+            overlaps.append(Problem(path, f"overlaps {paths[one]}: move one of the two"))
         elif 2.0 * board.ball_radius <= gap < widest:
             place = _middle(shapes.core[one], shapes.core[other])
             tight.append((_tight(path, gap, paths[one], board), place))
@@ -273,31 +275,31 @@ def _pair_problems(
         corner = shapes.core[shape, np.argmin(border_gaps(shapes.core[shape], board)[:, border])]
         problem = _tight(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
         tight.append((problem, (float(corner[0]), float(corner[1]))))
-    return meetings, tight
+    return overlaps, tight
 
 
 def _crowd_problems(standing: Measured, board: Board) -> list[Problem]:
-    """Walls may lie one on another, but not by the hundred: every pair may make pockets."""
+    """Slant walls may overlap, but each pair may make pockets, so their number is limited."""
     pairs = len(near_pairs(standing.shapes, 2.0 * board.ball_radius)[0])
     if pairs <= CROWD:
         return []
-    message = f"has {pairs:,} pairs of parts between which no ball fits, at most {CROWD:,}: take parts away"
+    message = f"has {pairs:,} pairs of parts between which no ball fits, at most {CROWD:,}: remove parts"
     return [Problem("board", message)]
 
 
 def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
     ball = 2.0 * board.ball_radius
     message = (
-        f"leaves {gap:.3f} u to {other}, which a ball of {ball:g} u only just fits: "
+        f"leaves {gap:.3f} u to {other}, which a ball of {ball:g} u barely fits: "
         f"leave at least {ball + PASSAGE * board.ball_radius:.2f} u, or less than {ball:g} u"
     )
     return Problem(path, message)
 
 
-def _cross(one: Standing, other: Standing) -> bool:
-    """Whether two slant walls cross in the middle of both: neither has an end near the other."""
-    (a, b, _), near = outline(one)
-    (c, d, _), far = outline(other)
+def _cross(one: StandingPart, other: StandingPart) -> bool:
+    """Whether two slant walls cross away from their ends."""
+    (a, b, _), near = one.outline()
+    (c, d, _), far = other.outline()
     points = [np.array(point) for point in (a, b, c, d)]
     if side_of(points[0], points[1], points[2]) * side_of(points[0], points[1], points[3]) >= 0.0:
         return False
@@ -313,7 +315,7 @@ def _cross(one: Standing, other: Standing) -> bool:
 
 
 def _middle(first: Floats, second: Floats) -> tuple[float, float]:
-    """The middle between the nearest points of two cores."""
+    """The midpoint between the nearest points of two cores."""
     best = (math.inf, 0.0, 0.0)
     for points, core in ((first, second), (second, first)):
         for point, away in zip(points, offsets(points, core), strict=True):
@@ -323,27 +325,27 @@ def _middle(first: Floats, second: Floats) -> tuple[float, float]:
 
 
 def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
-    """What the paddles touch while they turn."""
+    """The parts that the paddles touch while they turn."""
     problems = []
     for index, (path, paddle) in enumerate(layout.paddles):
         for other_path, other in layout.paddles[index + 1 :]:
             angles = touches_paddle(paddle, other)
             if angles is not None:
                 at = f"at {angles[0]:.0f} and {angles[1]:.0f} deg"
-                message = f"must stay {CLEARANCE:g} u clear of {path}, but comes nearer {at}: move them apart"
+                message = f"must stay {CLEARANCE:g} u clear of {path}, but comes closer {at}: move them apart"
                 problems.append(Problem(other_path, message))
         border = touches_border(paddle, layout.board)
         if border is not None:
             problems.append(_touch(path, border[0], BORDER_NAMES[border[1]]))
         for other_path, part in zip(standing.paths, standing.parts, strict=True):
-            angle = touches_shape(paddle, *outline(part))
+            angle = touches_shape(paddle, *part.outline())
             if angle is not None:
                 problems.append(_touch(path, angle, other_path))
     return problems
 
 
 def _touch(path: str, angle: float, other: str) -> Problem:
-    message = f"must stay {CLEARANCE:g} u clear of {other} in its turn, but comes nearer at {angle:.0f} deg"
+    message = f"must stay {CLEARANCE:g} u clear of {other} in its swing, but comes closer at {angle:.0f} deg"
     return Problem(path, f"{message}: move one of the two")
 
 
@@ -356,33 +358,33 @@ def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space
         return []
     if not above.any():
         floor = creation_floor(board, paddles)
-        return [Problem("board", f"has no room for a ball above x = {floor:.2f} u: take parts away")]
+        return [Problem("board", f"has no free place for a ball above x = {floor:.2f} u: remove parts")]
     ball = 2.0 * board.ball_radius
-    shut = 1.0 - float(leads_out.sum() / above.sum())
+    closed = 1.0 - float(leads_out.sum() / above.sum())
     message = (
-        f"has no way to the gutter from {shut:.0%} of the places above the paddles: "
+        f"has no way to the gutter from {closed:.0%} of the places above the paddles: "
         f"open a gap of more than {ball:g} u"
     )
     return [Problem("board", message)]
 
 
 def _trap_problems(layout: Layout, standing: Measured, ball_space: Space) -> list[Problem]:
-    """The places where a ball would lie for ever; paddles count as they rest."""
+    """The places where a ball would lie forever, with the paddles at rest."""
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for _, paddle in layout.paddles]
-    shapes = Shapes.of([*(outline(part) for part in standing.parts), *resting])
+    shapes = Shapes.of([*(part.outline() for part in standing.parts), *resting])
     paths = [*standing.paths, *(path for path, _ in layout.paddles)]
     keys = [*(_place_key(part) for part in standing.parts), *("rest_angle" for _ in layout.paddles)]
     problems = []
     for shape, slope, (x, z) in level_faces(shapes, layout.board, ball_space):
         message = (
-            f"has a face that is level within {slope:.1f} deg, on which a ball would lie for ever at "
+            f"has a face that is level within {slope:.1f} deg, on which a ball would lie forever at "
             f"[{x:.2f}, {z:.2f}]: turn it by 2 deg or more"
         )
         problems.append(Problem(f"{paths[shape]}.{keys[shape]}", message))
     for shape, other, (x, z) in pockets(shapes, layout.board, ball_space):
         beside = other if isinstance(other, str) else paths[other]
         message = (
-            f"makes a pocket with {beside}, in which a ball would lie for ever at [{x:.2f}, {z:.2f}]: "
+            f"makes a pocket with {beside}, in which a ball would lie forever at [{x:.2f}, {z:.2f}]: "
             f"open a gap of more than {2.0 * layout.board.ball_radius:g} u or fill the pocket"
         )
         problems.append(Problem(f"{paths[shape]}.{keys[shape]}", message))

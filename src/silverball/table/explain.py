@@ -1,9 +1,8 @@
-"""How does a mistake in a table file become advice that a person can follow?
+"""Error messages of table files: from pydantic's errors to problems with a path and a remedy.
 
-pydantic finds the mistakes; this module turns each into a `Problem` with its path as it stands in the
-file (``triangular_prism[2].vertices``) and a sentence that says what was expected and what was given.
-An unknown key gets the key that was probably meant: a misspelled one, the trade's word for ours, or
-one that belongs in another section.
+Each mistake becomes a `Problem` with its path in the file (``triangular_prism[2].vertices``) and a sentence
+that says what was expected and what was given. An unknown key gets a suggestion: the key that is spelled
+alike, our name for another word of pinball, or the section to which it belongs.
 """
 
 from __future__ import annotations
@@ -11,36 +10,17 @@ from __future__ import annotations
 import difflib
 import json
 import re
-from typing import Any
+from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from silverball.errors import Problem
-from silverball.table.parts import (
-    Arcade,
-    Board,
-    Cylinder,
-    CylinderSurface,
-    Paddle,
-    PrismSurface,
-    RandomRecipe,
-    SlantWall,
-    Table,
-    TriangularPrism,
-)
+from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
 from silverball.table.quantity import shown
 
-LISTED = 100  # mistakes that are spelt out; chosen: more than anybody mends at once
+LISTED = 100  # mistakes that are listed; chosen: more than a person fixes at once
 
-PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {
-    "slant_wall": SlantWall,
-    "paddle": Paddle,
-    "triangular_prism": TriangularPrism,
-    "cylinder": Cylinder,
-}
-"""The sections that hold a list of parts, and the model of each."""
-
-# Other people's words, and ours. The first of several that the section knows is suggested.
+# Other words for the keys of a table file; the first key that the section has is suggested.
 SYNONYMS: dict[str, tuple[str, ...]] = {
     "angle": ("rotation", "rest_angle", "slope"),
     "ball": ("board",),
@@ -92,7 +72,7 @@ _BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}\Z")
 
 
 def path_of(location: tuple[str | int, ...]) -> str:
-    """The place in the file as people write it: ``triangular_prism[2].vertices``."""
+    """Return the path of a place in the file: ``triangular_prism[2].vertices``."""
     path = ""
     for step in location:
         if isinstance(step, int):
@@ -103,25 +83,30 @@ def path_of(location: tuple[str | int, ...]) -> str:
     return path
 
 
-def explain(error: ValidationError) -> list[Problem]:
-    """Every mistake that pydantic found, as problems in the order of the file's sections."""
+def explain(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
+    """Turn every mistake that pydantic found into a problem, in the order of the file's sections.
+
+    Args:
+        error: What validating the data of a file raised.
+        root: The model of the whole file.
+    """
     details = error.errors(include_url=False)
-    problems = [Problem(path_of(detail["loc"]), _message(dict(detail))) for detail in details[:LISTED]]
+    problems = [Problem(path_of(detail["loc"]), _message(dict(detail), root)) for detail in details[:LISTED]]
     if len(details) > LISTED:
         problems.append(Problem("", f"and {len(details) - LISTED:,} more problems of this kind"))
     return problems
 
 
-def _message(detail: dict[str, Any]) -> str:
-    """One sentence for one of pydantic's error details."""
+def _message(detail: dict[str, Any], root: type[BaseModel]) -> str:
+    """Return a sentence for one of pydantic's error details."""
     location, given, context = detail["loc"], shown(detail["input"]), detail.get("ctx", {})
     match detail["type"]:
         case "silverball":
             return str(context["message"])
         case "missing":
-            return f"must be given: {_description(location)}"
+            return f"must be given: {_description(location, root)}"
         case "extra_forbidden":
-            return _unknown_key(location)
+            return _unknown_key(location, root)
         case "literal_error":
             return f"must be {context['expected']}, got {given}"
         case "string_type":
@@ -142,35 +127,36 @@ def _message(detail: dict[str, Any]) -> str:
             return f"{detail['msg']}, got {given}"
 
 
-def _description(location: tuple[str | int, ...]) -> str:
+def _description(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
     """The description of a field, from the model that holds it."""
-    field = _model_at(location[:-1]).model_fields[str(location[-1])]
+    field = _model_at(location[:-1], root).model_fields[str(location[-1])]
     return field.description or str(location[-1])
 
 
-def _model_at(location: tuple[str | int, ...]) -> type[BaseModel]:
-    """The model whose keys stand at a place in the file."""
-    match location:
-        case ("board",):
-            return Board
-        case (str(kind), int()) if kind in PART_KINDS:
-            return PART_KINDS[kind]
-        case ("random",):
-            return RandomRecipe
-        case ("arcade",):
-            return Arcade
-        case ("random", "prism"):
-            return PrismSurface
-        case ("random", "cylinder"):
-            return CylinderSurface
-        case _:
-            return Table
+def _model_at(location: tuple[str | int, ...], root: type[BaseModel]) -> type[BaseModel]:
+    """The model of a section of the file."""
+    model = root
+    for step in location:
+        if isinstance(step, str) and step in PART_KINDS and model is root:
+            model = PART_KINDS[step]
+        elif isinstance(step, str):
+            model = _section(model, step)
+    return model
 
 
-def _unknown_key(location: tuple[str | int, ...]) -> str:
-    """What was probably meant by a key that is not known here."""
+def _section(model: type[BaseModel], key: str) -> type[BaseModel]:
+    """The model of a section inside another one."""
+    annotation = model.model_fields[key].annotation
+    for kind in (annotation, *get_args(annotation)):  # a section that may be missing is `Model | None`
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            return kind
+    return model
+
+
+def _unknown_key(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
+    """Return a suggestion for a key that the section does not have."""
     key = str(location[-1])
-    known = list(_model_at(location[:-1]).model_fields)
+    known = list(_model_at(location[:-1], root).model_fields)
     word = key.lower().replace("-", "_")
     if word in known:
         return f"unknown key: did you mean `{word}`?"
@@ -188,5 +174,5 @@ def _unknown_key(location: tuple[str | int, ...]) -> str:
             return f"unknown key: `{word}` belongs in [{section}]"
     for section, part in PART_KINDS.items():
         if word in part.model_fields and location[0] not in (section, "random"):
-            return f"unknown key: `{word}` belongs in a part, such as [[{section}]]"
+            return f"unknown key: `{word}` belongs in a part, for example [[{section}]]"
     return f"unknown key: known here are {', '.join(known)}"

@@ -1,11 +1,11 @@
-"""How does a table get from a file into the program, and back?
+"""Table files: loading, saving and hashing tables.
 
-`load_table` takes the name of a built-in table or the path of a TOML file and either returns a table
-that has passed every check, or raises one `TableError` with all the problems at once. `save_table`
-writes only what differs from the defaults, so that files stay short and changes show in a diff; a
-saved table loads as an equal one. A file is data: it is parsed, bounded in size and never executed.
+`load_table` takes the name of a built-in table or the path of a TOML file. It returns a table that has passed
+every check, or raises one `TableError` with all problems. `save_table` writes only what differs from the
+defaults, so files stay short; a saved table loads as an equal one. A file is data: it is parsed, bounded in
+size and never executed.
 
-Something is a path when it is a `Path`, ends in ``.toml`` or contains a separator; else it is a name.
+A string is a path if it ends in ``.toml`` or contains a separator; else it is the name of a built-in table.
 """
 
 from __future__ import annotations
@@ -18,30 +18,28 @@ import os
 import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import tomli_w
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.plain import plain
-from silverball.table.check import Layout, check_layout
-from silverball.table.explain import PART_KINDS, explain
-from silverball.table.parts import Arcade, Board, Cylinder, RandomRecipe, Table, TriangularPrism
-from silverball.table.trial import try_recipe
+from silverball.table.parts import PART_KINDS, Arcade, Board
+from silverball.table.table import Table, checked_table
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
-MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
-
-_Part: TypeAlias = TriangularPrism | Cylinder
-
-# Without these a layout cannot be measured; chosen to be what `check` needs to know of a board.
-_MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
 
 
 def table_names() -> tuple[str, ...]:
-    """The names of the built-in tables, in alphabetical order."""
+    """Return the names of the built-in tables, in alphabetical order.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.table_names()
+        ('classic', 'original', 'random', 'rolling')
+    """
     folder = resources.files("silverball.table") / "tables"
     return tuple(sorted(entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")))
 
@@ -58,6 +56,16 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
     Raises:
         UnknownTable: No built-in table has this name.
         TableError: The file cannot be read or has problems; all of them are in `problems`.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.load_table("classic").board.gravity
+        10.0
+        >>> sb.load_table("clasic")
+        Traceback (most recent call last):
+        ...
+        silverball.errors.UnknownTable: clasic: 1 problem
+          there is no built-in table of this name: did you mean "classic"? ...
     """
     text = os.fspath(name_or_path) or NOTHING
     if isinstance(name_or_path, str) and not _looks_like_path(text):
@@ -68,53 +76,35 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
 
 
 def parse_table(text: str, source: str = "table", *, folder: Path | None = None) -> Table:
-    """Make a table of TOML text, with every check that a file gets.
+    """Make a table from TOML text, with every check that a file gets.
 
     Args:
         text: The text of a table file.
         source: What to call it in messages: a path or a name.
-        folder: Where the meshes that it names are looked for; the current folder if not given.
+        folder: Where its meshes are looked for; the current folder by default.
 
     Raises:
         TableError: The text has problems; all of them are in `problems`.
     """
-    data = _parse_toml(text, source)
-    table: Table | None = None
-    problems: list[Problem] = []
-    try:
-        table = Table.model_validate(data)
-        layout: Layout | None = Layout.of(table)
-    except ValidationError as error:
-        problems += explain(error)
-        layout = _what_is_left(data, error)
-    if layout is not None:
-        layout, footprint_problems = _with_footprints(layout, folder or Path())
-        problems += footprint_problems
-        problems += check_layout(layout)
-    if problems or table is None or layout is None:
-        raise TableError(source, problems)
-    if _has_mesh(table):
-        table = table.model_copy(
-            update={
-                "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
-                "cylinder": tuple(part for _, part in layout.cylinders),
-            }
-        )
-    problems = try_recipe(table)
-    if problems:
-        raise TableError(source, problems)
-    return table
+    return checked_table(_parse_toml(text, source), source, folder)
 
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:
-    """Write a table to a file; what was there stays as it was if anything goes wrong.
+    """Write a table to a file, or leave what was there unchanged if anything goes wrong.
 
     Args:
         table: The table to write.
-        path: Where to; it ends in ``.toml``, as a path for `load_table` does.
+        path: The path of the file, ending in ``.toml``.
 
     Raises:
         OutputError: The file cannot be written; the message says why.
+
+    Example:
+        >>> import silverball as sb
+        >>> heavy = sb.load_table("classic").replace(name="Heavy", board={"gravity": 12})
+        >>> sb.save_table(heavy, "heavy.toml")
+        >>> sb.load_table("heavy.toml") == heavy
+        True
     """
     target = Path(os.path.realpath(path))
     if target.suffix != ".toml":
@@ -129,7 +119,7 @@ def save_table(table: Table, path: str | os.PathLike[str]) -> None:
 
 
 def dump_table(table: Table) -> str:
-    """The text of a table file: one key a line, one block a part, only what differs from the defaults."""
+    """Return the text of a table file: one key per line, one block per part, without defaults."""
     blocks = ["\n".join([f"format = {table.format}", f"name = {_literal(table.name)}"])]
     if table.board != Board():
         blocks.append(_block("[board]", table.board))
@@ -143,21 +133,23 @@ def dump_table(table: Table) -> str:
 
 
 def table_digest(table: Table) -> str:
-    """A stable hex string (SHA-256) of everything the table says, defaults included.
+    """Return a SHA-256 of all values of a table, defaults included, as a hex string.
 
-    Equal tables have equal digests, on any machine and in any process; a mesh counts by its footprint.
+    Equal tables have equal digests, on any machine and in any process. A mesh counts by its footprint.
+
+    Raises:
+        TableError: A mesh cannot be read.
     """
-    prisms = [part.resolved() for part in table.triangular_prism]
-    cylinders = [part.resolved() for part in table.cylinder]
-    whole = table.model_copy(update={"triangular_prism": tuple(prisms), "cylinder": tuple(cylinders)})
-    unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as before there was this section
-    text = json.dumps(whole.model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":"))
+    unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as it was before there was this section
+    text = json.dumps(
+        table.resolved().model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":")
+    )
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
 @functools.cache
 def _built_in(name: str) -> Table:
-    """A built-in table, read and checked once: tables never change."""
+    """Read and check a built-in table, once: tables are immutable."""
     entry = resources.files("silverball.table") / "tables" / f"{name}.toml"
     return parse_table(entry.read_text(encoding="utf-8"), name)
 
@@ -176,7 +168,7 @@ def _no_such_name(name: str) -> str:
 
 
 def _read(path: str) -> str:
-    """The text of a table file, or a `TableError` that says in one sentence why there is none."""
+    """Return the text of a table file, or raise a `TableError` that says why there is none."""
     try:
         return read_text(path, SIZE_LIMIT, "a table file")
     except Unreadable as error:
@@ -199,92 +191,20 @@ def _parse_toml(text: str, source: str) -> dict[str, Any]:
         raise _unreadable(source, f"is not valid TOML: {str(error)[:200]}") from error
 
 
-def _what_is_left(data: dict[str, Any], error: ValidationError) -> Layout | None:
-    """The parts without mistakes, under their own paths, so that they can be checked all the same.
-
-    None if the board itself cannot be measured.
-    """
-    broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
-    if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
-        return None
-    bad_keys = {place[1] for place in broken if place[0] == "board"}
-    # Each key that is left is good, but perhaps not beside the default of one that is not (`rolling` needs
-    # `friction`): the board is put together without being validated again.
-    board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
-    left: dict[str, list[tuple[str, Any]]] = {}
-    for kind, model in PART_KINDS.items():
-        usable = (kind,) not in broken
-        bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
-        left[kind] = [
-            (f"{kind}[{index}]", model.model_validate(item))
-            for index, item in enumerate(data.get(kind, []) if usable else [])
-            if index not in bad
-        ]
-    recipe = None
-    if "random" in data and not any(place[0] == "random" for place in broken):
-        recipe = RandomRecipe.model_validate(data["random"])
-    parts = {f"{kind}s": tuple(left[kind]) for kind in PART_KINDS}
-    return Layout(board=board, random=recipe, **parts)
-
-
-def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
-    """The layout with every mesh replaced by its footprint; parts whose mesh is no good are left out."""
-    problems: list[Problem] = []
-    known: dict[tuple[type, str], _Part | TableError] = {}  # a file that many parts name is read once
-
-    def resolved(part: _Part) -> _Part | TableError:
-        assert part.mesh is not None
-        key = (type(part), part.mesh)
-        if key not in known and len(known) >= MESHES_LIMIT:
-            message = (
-                f"is one mesh too many: a table reads at most {MESHES_LIMIT}: give its footprint instead"
-            )
-            return TableError(part.mesh, [Problem("mesh", message)])
-        if key not in known:
-            try:
-                known[key] = part.resolved(folder)
-            except TableError as error:
-                known[key] = error
-        found = known[key]
-        if isinstance(found, TableError):
-            return found
-        place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
-        return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
-
-    def solid(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
-        kept: list[tuple[str, _Part]] = []
-        for path, part in parts:
-            found = part if part.mesh is None else resolved(part)
-            if isinstance(found, TableError):
-                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
-            else:
-                kept.append((path, found))
-        return tuple(kept)
-
-    whole = layout._replace(
-        triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
-    )
-    return whole, problems
-
-
-def _has_mesh(table: Table) -> bool:
-    return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
-
-
 def _block(head: str, model: BaseModel) -> str:
-    """One section: its head, then the keys whose values differ from the defaults; places come first."""
+    """One section: its header, then the keys whose values differ from the defaults, positions first."""
     values = model.model_dump(exclude_defaults=True)
-    own = type(model).__annotations__  # what a part adds to its surface says where it is
+    own = type(model).__annotations__  # a part adds its position to the fields of its surface
     keys = sorted(values, key=lambda key: (key != "name", key not in own))
     return "\n".join([head, *(f"{key} = {_literal(values[key])}" for key in keys)])
 
 
 def _literal(value: Any) -> str:
-    """A value as TOML on one line (tomli_w would give every number of a list its own)."""
+    """A value as TOML on one line; tomli_w would put every number of a list on its own line."""
     if isinstance(value, tuple | list):
         return "[" + ", ".join(_literal(item) for item in value) + "]"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{key} = {_literal(item)}" for key, item in value.items()) + " }"
     text = tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
-    # A file that is printed must not steer the terminal; tomli_w writes only what TOML demands as escapes.
+    # A printed file must not control the terminal; tomli_w escapes only what TOML demands.
     return "".join(letter if plain(letter) == letter else f"\\U{ord(letter):08x}" for letter in text)

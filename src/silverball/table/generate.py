@@ -1,4 +1,4 @@
-"""Which board does a seed make of a recipe? How it is made stands in `placing.py`."""
+"""Random boards: `generate_table` makes the board of a seed from a recipe."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from numbers import Integral
 from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
 from silverball.table.file import load_table
-from silverball.table.parts import Table
 from silverball.table.placement import board_of
 from silverball.table.quantity import shown
+from silverball.table.table import Table
 
 
 def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random") -> Table:
-    """The board that a seed makes of a recipe.
+    """Make the board of a seed from a recipe.
 
     Args:
-        seed: Any whole number from 0; the same seed always makes the same board.
+        seed: An integer ≥ 0; the same seed always makes the same board, on every machine.
         recipe: A table with a ``[random]`` section: a built-in name, a path or the table itself.
 
     Returns:
@@ -26,15 +26,21 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
 
     Raises:
         UnknownTable: No built-in table has the recipe's name.
-        TableError: The table is no recipe or has problems, or no layout keeps its rules; the problem's
-            path then names the rule, for example ``random.gap``.
+        TableError: The seed is invalid, the table is not a recipe or has problems, or no layout meets its
+            rules; the problem's path then names the rule, for example ``random.gap``.
+
+    Example:
+        >>> import silverball as sb
+        >>> board = sb.generate_table(7)
+        >>> board.name, len(board.triangular_prism), len(board.cylinder)
+        ('Random 7', 4, 3)
     """
     if isinstance(seed, bool) or not isinstance(seed, Integral) or int(seed) < 0:
-        message = f"must be a whole number from 0, got {shown(seed)}"
+        message = f"must be an integer ≥ 0, got {shown(seed)}"
         raise TableError("a random board", [Problem("seed", message)])
     table = recipe if isinstance(recipe, Table) else load_table(recipe)
     if table.random is None:
-        message = "must be there: without a [random] section there is nothing to place, just load the table"
+        message = "must be there: a table without a [random] section has nothing to place; load it instead"
         raise TableError(table.name, [Problem("random", message)])
     problems = _parts_problems(table)
     if problems:
@@ -44,5 +50,5 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
 
 @functools.lru_cache(maxsize=16)
 def _parts_problems(table: Table) -> tuple[Problem, ...]:
-    """What is wrong with the standing parts and the rules of a recipe, looked at once for all seeds."""
+    """The problems of the standing parts and the rules of a recipe, checked once for all seeds."""
     return tuple(check_layout(Layout.of(table)))

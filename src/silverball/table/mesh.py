@@ -1,11 +1,10 @@
-"""What footprint does a 3-D mesh leave on the board?
+"""Footprints of 3-D meshes: the outline that a mesh gives to a prism or a cylinder.
 
-A mesh gives a prism or a cylinder its outline: the mesh's axes are the table's (x up the table, y out of the
-board, z to the right), so that seen from above every vertex is a point (x, z) [u]. The points' convex hull
-is what a ball meets. Of it a prism keeps the largest triangle among its corners, never a side of the
-prism, which stands upright and has no width from above; a cylinder keeps the smallest circle around it.
+The axes of a mesh are those of the table (x up the table, y out of the board, z to the right), so from above
+every vertex is a point (x, z) [u]. A ball hits the convex hull of these points. A prism takes the largest
+triangle among the corners of the hull, a cylinder the smallest circle around it.
 
-Files are bounded in size before they are opened; how they are read stands in `meshfile.py`.
+The size of a file is checked before it is opened; `meshfile.py` reads it.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ import os
 import stat
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,18 +23,20 @@ from silverball.errors import Problem, TableError
 from silverball.plain import plain
 from silverball.table.geometry import Floats
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
-from silverball.table.parts import Point, Triangle
+
+if TYPE_CHECKING:
+    from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
-CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle among them is found in a second
-HULL_LIMIT = 2**16  # corners of a hull, of a part of the points too; chosen: as many as singles can make
-FURTHEST = 1e6  # [u] from the origin; what is further out is damage
+CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle is found in a second
+HULL_LIMIT = 2**16  # corners of a hull; chosen: the most that points in single precision can have
+FURTHEST = 1e6  # [u] from the origin; a point further out means that the file is damaged
 NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
-_ROUNDED = 6  # decimals [u] that are kept of a footprint: STL stores single precision
+_ROUNDED = 6  # decimals of a footprint [u]; STL stores single precision
 
 
 def triangle_footprint(path: Path) -> Triangle:
-    """The largest triangle among the corners of a mesh's footprint, (x, z) [u], counter-clockwise.
+    """Return the largest triangle in the footprint of a mesh, (x, z) [u], counter-clockwise.
 
     Raises:
         TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
@@ -50,7 +52,7 @@ def triangle_footprint(path: Path) -> Triangle:
 
 
 def circle_footprint(path: Path) -> tuple[float, float, float]:
-    """The smallest circle around a mesh's footprint: x, z and radius [u].
+    """Return the smallest circle around the footprint of a mesh: x, z and radius [u].
 
     Raises:
         TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
@@ -60,13 +62,13 @@ def circle_footprint(path: Path) -> tuple[float, float, float]:
 
 
 def convex_hull(points: Floats) -> Floats:
-    """The corners of the convex hull of points (x, z), counter-clockwise, shape [corner, 2].
+    """Return the corners of the convex hull of points (x, z), counter-clockwise, shape [corner, 2].
 
     Andrew's monotone chain. Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two
     dimensions", Information Processing Letters 9 (1979).
     """
     hull = np.empty((0, 2))
-    for begin in range(0, len(points), HULL_LIMIT):  # a part at a time, to bound the memory
+    for begin in range(0, len(points), HULL_LIMIT):  # in chunks, to bound the memory
         hull = _chains(np.concatenate([hull, points[begin : begin + HULL_LIMIT]]))
         if len(hull) > HULL_LIMIT:
             break
@@ -84,16 +86,15 @@ def _chains(points: Floats) -> Floats:
                 chain.pop()
             chain.append(point)
         chains.append(chain[:-1])
-    # From low x to high x with every turn to the right, then back: clockwise in (x, z) with z to the
-    # right and x up is counter-clockwise the other way round.
+    # The chains run clockwise, so the corners are reversed.
     return np.array((chains[0] + chains[1])[::-1], dtype=np.float64).reshape(-1, 2)
 
 
 def largest_triangle(hull: Floats) -> Floats:
-    """The triangle of greatest area among the corners of a convex polygon, counter-clockwise, shape [3, 2].
+    """Return the largest triangle among the corners of a convex polygon, counter-clockwise, shape [3, 2].
 
-    For every two corners the area has a single peak over the third, which moves on as they do: n² steps
-    for n corners.
+    For two given corners the area has a single peak over the third, which advances with them: n² steps for n
+    corners.
     """
     count = len(hull)
     best, found = -1.0, (0, 0, 0)
@@ -113,10 +114,10 @@ def largest_triangle(hull: Floats) -> Floats:
 
 
 def smallest_circle(points: Floats) -> tuple[float, float, float]:
-    """The smallest circle that holds all points: x, z and radius [u].
+    """Return the smallest circle around all points: x, z and radius [u].
 
-    It is that of two or three of them. The one that lies furthest outside joins those few, over and over;
-    the circle grows with each, so that it ends.
+    Two or three of the points define it. The point furthest outside is added to them, repeatedly; the circle
+    grows each time, so this ends.
     Source: B. Gärtner, "Fast and robust smallest enclosing balls", ESA 1999 (the choice of the next point).
     """
     few: list[Point] = [(float(points[0, 0]), float(points[0, 1]))]
@@ -127,13 +128,13 @@ def smallest_circle(points: Floats) -> tuple[float, float, float]:
         if away[furthest] <= circle[2] * (1.0 + 1e-12) + 1e-12:
             return circle
         grown, few = _circle_of_few([*few, (float(points[furthest, 0]), float(points[furthest, 1]))])
-        if grown[2] <= circle[2]:  # rounding has the last word
+        if grown[2] <= circle[2]:  # no progress beyond rounding
             return circle
         circle = grown
 
 
 def _points(path: Path) -> Floats:
-    """The vertices of a mesh file seen from above, (x, z) [u], shape [vertex, 2]."""
+    """The vertices of a mesh file from above, (x, z) [u], shape [vertex, 2]."""
     kind = path.suffix.lower().removeprefix(".")
     name = plain(str(path))
     if kind not in KINDS:
@@ -144,7 +145,7 @@ def _points(path: Path) -> Floats:
         reason = getattr(error, "strerror", None) or str(error)
         raise _unusable(name, f"cannot be read: {name} ({reason})") from error
     if not stat.S_ISREG(status.st_mode):
-        raise _unusable(name, f"is no ordinary file: {name}")
+        raise _unusable(name, f"is not a regular file: {name}")
     if status.st_size > MESH_LIMIT:
         message = f"is {status.st_size:,} bytes long, a mesh has at most {MESH_LIMIT:,}: simplify {name}"
         raise _unusable(name, message)
@@ -157,7 +158,7 @@ def _points(path: Path) -> Floats:
         raise _unusable(name, f"cannot be used: {name} {error}") from error
     if not (np.abs(vertices) <= FURTHEST).all():  # also not for NaN
         raise _unusable(
-            name, f"has coordinates beyond {FURTHEST:,.0f} u or that are no numbers: {name} is damaged"
+            name, f"has coordinates beyond {FURTHEST:,.0f} u or that are not numbers: {name} is damaged"
         )
     points = vertices[:, [0, 2]]
     if len(points) < 3 or _width(points) < NARROWEST:
@@ -170,19 +171,19 @@ def _unusable(source: str, message: str) -> TableError:
 
 
 def _turn(a: Sequence[float] | Floats, b: Sequence[float] | Floats, c: Sequence[float] | Floats) -> float:
-    """Twice the area of the triangle a, b, c: positive when it runs counter-clockwise on the board."""
+    """Twice the area of the triangle a, b, c; positive if it runs counter-clockwise."""
     return float((b[1] - a[1]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[1] - a[1]))
 
 
 def _width(points: Floats) -> float:
-    """[u] The spread of points across the line along which they spread most."""
+    """[u] The width of points across their principal axis."""
     centred = points - points.mean(axis=0)
     across = np.linalg.svd(centred, full_matrices=False)[2][1]
     return float(np.ptp(centred @ across))
 
 
 def _circle_of_few(points: list[Point]) -> tuple[tuple[float, float, float], list[Point]]:
-    """The smallest circle around up to four points, and the two or three that it runs through."""
+    """The smallest circle around up to four points, and the two or three that define it."""
     pairs = [(_circle_of_two(p, q), [p, q]) for p, q in itertools.combinations(points, 2)]
     triples = [(_circle_of_three(p, q, r), [p, q, r]) for p, q, r in itertools.combinations(points, 3)]
     holding = [found for found in pairs + triples if all(_holds(found[0], point) for point in points)]
@@ -198,7 +199,7 @@ def _circle_of_two(p: Point, q: Point) -> tuple[float, float, float]:
 
 
 def _circle_of_three(p: Point, q: Point, r: Point) -> tuple[float, float, float]:
-    """The circle through three points; the widest of two when they lie on a line."""
+    """The circle through three points; if they lie on a line, the largest one through two of them."""
     ax, az, bx, bz = q[0] - p[0], q[1] - p[1], r[0] - p[0], r[1] - p[1]
     twice = 2.0 * (ax * bz - az * bx)
     if twice == 0.0:

@@ -1,9 +1,8 @@
-"""Which points does a mesh file hold? The vertices that its faces use, where they stand in the scene.
+"""Readers of mesh files: the vertices that the faces use, at their places in the scene.
 
-STL (binary and text), OBJ and GLB (binary glTF 2.0) are read, and of them no more than a footprint needs:
-no colours, no textures, no file beside this one, whatever it names. The size of the file bounds STL and OBJ;
-a GLB can ask for far more than it holds (nodes that show one mesh many times, accessors without data), so
-its vertices are counted before any is made.
+STL (binary and text), OBJ and GLB (binary glTF 2.0) are read, as far as a footprint needs: no colours, no
+textures, no other files. The file size limits the vertices of STL and OBJ. A GLB can ask for far more than it
+holds (many nodes with one mesh, accessors without data), so its vertices are counted before they are made.
 
 Source: Khronos Group, glTF 2.0 specification, sections 3.5 (scenes), 3.6 (accessors) and 4.4 (GLB).
 """
@@ -23,26 +22,26 @@ from numpy.typing import NDArray
 from silverball.table.geometry import Floats
 
 KINDS = ("stl", "obj", "glb")
-POINTS_LIMIT = 1_100_000  # vertices, every instance counted; chosen: those of the largest binary STL
+POINTS_LIMIT = 1_100_000  # vertices of all instances; chosen: those of the largest binary STL
 JSON_LIMIT = 2**20  # [bytes] of a GLB's scene; chosen: a thousand nodes take a tenth of it
-NODES_LIMIT = 10_000  # of a scene, every way to a node counted
-LINES_LIMIT = 2_200_000  # of text; chosen: as many as can say something in 16 MiB ("v 1 1 1", "f 1 2 3")
+NODES_LIMIT = 10_000  # of a scene, counted once per path
+LINES_LIMIT = 2_200_000  # of text; chosen: the most short lines ("v 1 1 1", "f 1 2 3") in 16 MiB
 LINE_LIMIT = 2**16  # [bytes] of a line of text; chosen: a face of 5,000 corners
 KNOWN = (
     "KHR_mesh_quantization",
     "KHR_materials_",
     "KHR_texture_",
-)  # extensions that are read, or change no shape
+)  # extensions that are supported, or do not change the shape
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])  # 50 bytes
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 
 
 class MeshError(Exception):
-    """A mesh file that cannot be used; the message ends a sentence that begins with the file's name."""
+    """A mesh file cannot be used; the message continues a sentence that starts with the file's name."""
 
 
 def mesh_points(content: bytes, kind: str) -> Floats:
-    """The vertices of a mesh file, shape [vertex, 3]; some may stand there more than once.
+    """Return the vertices of a mesh file, shape [vertex, 3], some of them repeatedly.
 
     Args:
         content: The whole file.
@@ -53,11 +52,11 @@ def mesh_points(content: bytes, kind: str) -> Floats:
     """
     read = {"stl": _stl, "obj": _obj, "glb": _glb}[kind]
     try:
-        with np.errstate(all="ignore"):  # what is no finite number is refused afterwards
+        with np.errstate(all="ignore"):  # values that are not finite are refused afterwards
             return read(content)
     except (ValueError, OverflowError, struct.error) as error:
         reason = str(error).split("\n")[0][:80]
-        raise MeshError(f"is damaged or no {kind.upper()} file ({reason})") from error
+        raise MeshError(f"is damaged or not a {kind.upper()} file ({reason})") from error
     except (
         TypeError,
         KeyError,
@@ -66,7 +65,7 @@ def mesh_points(content: bytes, kind: str) -> Floats:
         RecursionError,
     ) as error:  # JSON of another shape
         raise MeshError(
-            f"is damaged or no {kind.upper()} file (its scene is not put together right)"
+            f"is damaged or not a {kind.upper()} file (the structure of its scene is invalid)"
         ) from error
 
 
@@ -115,7 +114,7 @@ def _obj(content: bytes) -> Floats:
 
 
 def _lines(content: bytes) -> Iterator[bytes]:
-    """One line after the other; all of them at once would take ten times the file."""
+    """Iterate over the lines; a list of them would take ten times the memory of the file."""
     text = content if b"\n" in content else content.replace(b"\r", b"\n")
     count = text.count(b"\n")
     if count > LINES_LIMIT:
@@ -134,19 +133,19 @@ def _three(words: list[bytes]) -> tuple[float, float, float]:
 
 
 def _glb(content: bytes) -> Floats:
-    """The vertices of all meshes of the scene, each where its node stands."""
+    """The vertices of all meshes of the scene, transformed by their nodes."""
     scene, binary = _chunks(content)
     for extension in scene.get("extensionsRequired", ()):
         if not str(extension).startswith(KNOWN):
             raise MeshError(
-                f"needs the extension {str(extension)[:60]!r}, which is not read: export it without"
+                f"needs the extension {str(extension)[:60]!r}, which is not supported: export it without"
             )
     places = _instances(scene)
     parts = {mesh: scene["meshes"][mesh]["primitives"] for mesh, _ in places}
     counts = {mesh: sum(_count(scene, each) for each in primitives) for mesh, primitives in parts.items()}
     total = sum(counts[mesh] for mesh, _ in places)
     if total > POINTS_LIMIT:
-        many = f"shows {total:,} vertices in {len(places):,} places"
+        many = f"has {total:,} vertices in {len(places):,} places"
         raise MeshError(f"{many}, a mesh has at most {POINTS_LIMIT:,}: simplify it")
     points = {
         mesh: np.concatenate([np.empty((0, 3)), *(_used(scene, binary, each) for each in primitives)])
@@ -157,10 +156,10 @@ def _glb(content: bytes) -> Floats:
 
 
 def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
-    """The scene, and the binary data that it speaks of."""
+    """The scene, and the binary data that it refers to."""
     magic, version, _, length, kind = struct.unpack_from("<4sIIII", content)
     if magic != b"glTF" or version != 2 or kind != 0x4E4F534A:
-        raise ValueError("it does not begin as binary glTF 2.0 does")
+        raise ValueError("it does not have the header of binary glTF 2.0")
     if length > JSON_LIMIT:
         raise MeshError(f"has a scene of {length:,} bytes, at most {JSON_LIMIT:,}: simplify it")
     scene = json.loads(content[20 : 20 + length])
@@ -174,7 +173,7 @@ def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
 
 
 def _instances(scene: dict[str, Any]) -> list[tuple[int, Floats]]:
-    """Every mesh that the scene shows, with the matrix of its place, shape [4, 4]."""
+    """Every instance of a mesh in the scene, with its matrix, shape [4, 4]."""
     nodes = scene.get("nodes", [])
     scenes = scene.get("scenes", [])
     if scenes:
@@ -189,7 +188,7 @@ def _instances(scene: dict[str, Any]) -> list[tuple[int, Floats]]:
             return found
         number, above, depth = open_.pop()
         if depth > len(nodes):
-            raise MeshError("has a node that is inside itself: export it anew")
+            raise MeshError("has a node that contains itself: export it again")
         node = nodes[number]
         matrix = above @ _matrix(node)
         if "mesh" in node:
@@ -197,11 +196,13 @@ def _instances(scene: dict[str, Any]) -> list[tuple[int, Floats]]:
         if len(open_) + len(node.get("children", [])) > NODES_LIMIT:
             break
         open_ += [(_index(child, nodes), matrix, depth + 1) for child in node.get("children", [])]
-    raise MeshError(f"has a scene of more than {NODES_LIMIT:,} nodes, or one inside itself: simplify it")
+    raise MeshError(
+        f"has a scene of more than {NODES_LIMIT:,} nodes, or one that contains itself: simplify it"
+    )
 
 
 def _matrix(node: dict[str, Any]) -> Floats:
-    """The place of a node in the one above it: its matrix, or T · R · S."""
+    """The transformation of a node relative to its parent: its matrix, or T · R · S."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
     x, y, z, w = (float(value) for value in node.get("rotation", (0.0, 0.0, 0.0, 1.0)))
@@ -219,13 +220,13 @@ def _matrix(node: dict[str, Any]) -> Floats:
 
 
 def _count(scene: dict[str, Any], primitive: dict[str, Any]) -> int:
-    """How many vertices reading a primitive would make."""
+    """The number of vertices that reading a primitive makes."""
     names = [primitive["attributes"]["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]
     return max(_whole(scene["accessors"][_index(name, scene["accessors"])]["count"]) for name in names)
 
 
 def _used(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) -> Floats:
-    """The vertices of a primitive, shape [vertex, 3]; of those with indices only what they name."""
+    """The vertices of a primitive, shape [vertex, 3]; with indices only those that are used."""
     points = _accessor(scene, binary, primitive["attributes"]["POSITION"], 3).astype(np.float64)
     if "indices" not in primitive:
         return points
@@ -253,7 +254,7 @@ def _accessor(scene: dict[str, Any], binary: memoryview, name: Any, width: int) 
 def _with_sparse(
     scene: dict[str, Any], binary: memoryview, sparse: dict[str, Any], rows: NDArray[Any]
 ) -> NDArray[Any]:
-    """The rows with those that are given one by one in their places."""
+    """The rows with the sparse ones filled in."""
     count = _whole(sparse["count"])
     if count > len(rows):
         raise ValueError("more sparse rows than rows")
@@ -273,10 +274,10 @@ def _rows(
     count: int,
     width: int,
 ) -> NDArray[Any]:
-    """Rows of a buffer view, which may stand apart by a stride; nothing is read beyond the view."""
+    """Rows of a buffer view, possibly with a stride; nothing is read beyond the view."""
     view = scene["bufferViews"][_index(given["bufferView"], scene["bufferViews"])]
-    if _whole(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only the first is the one in this file
-        raise MeshError("keeps its data in another place, which is not read: export it as one GLB file")
+    if _whole(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only buffer 0 is in this file
+        raise MeshError("has its data in another file, which is not read: export it as one GLB file")
     start, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
     offset, row = _whole(given.get("byteOffset", 0)), kind.itemsize * width
     stride = _whole(view.get("byteStride", 0)) or row
@@ -286,7 +287,7 @@ def _rows(
 
 
 def _index(value: Any, among: list[Any]) -> int:
-    """A number that names one of a list."""
+    """Check a number that refers to an item of a list."""
     number = _whole(value)
     if number >= len(among):
         raise ValueError(f"it names number {number:,} of {len(among):,}")
@@ -295,5 +296,5 @@ def _index(value: Any, among: list[Any]) -> int:
 
 def _whole(value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**32:
-        raise ValueError("a number that counts nothing")
+        raise ValueError("an invalid count")
     return value

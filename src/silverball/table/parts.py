@@ -1,24 +1,28 @@
-"""What is a table made of? One model per part; the attributes are the keys of the TOML file.
+"""The parts of a table: one frozen model per part, whose attributes are the keys of the TOML file.
 
-Every field carries its unit, its range and its default, and a default stands nowhere else. Points are
-written ``[x, z]``: x runs up the table, z to the player's right, the origin is the centre of the board.
-Lengths are table units [u], times seconds, angles degrees, counter-clockwise as the player sees the
-board, from +z (right) towards +x (up). All models are frozen: change one with ``model_copy(update=...)``.
+    import silverball as sb
 
-A part says what it is (`Paddle`) and where its outline lies (`Paddle.corners`); whether the parts fit
-together is the question of `check.py`. The trade says flipper for paddle, bumper for cylinder, drain
-for gutter and nudge for jitter.
+    bumper = sb.parts.Cylinder(center=(5.0, 1.5), radius=0.6)
+    table = sb.load_table("classic").replace(cylinder=[bumper], board={"gravity": 12.0})
+
+Every field states its unit, its range and its default. Points are (x, z): x runs up the table, z to the
+player's right, and the origin is the centre of the board. Lengths are in table units [u], times in seconds,
+angles in degrees, counter-clockwise as the player sees the board, from +z (right) towards +x (up).
+
+A constructor refuses unknown names and values out of range with pydantic's `ValidationError`, a `ValueError`.
+`replace` makes a changed copy. Whether the parts fit together is checked by `check_table`. Other words for
+the same things: flipper for paddle, bumper for cylinder, drain for gutter, nudge for jitter.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import (
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Field,
     ValidationInfo,
@@ -28,14 +32,29 @@ from pydantic import (
 
 from silverball.table.quantity import COORDINATE, POINT, Count, Interval, Quantity, Several, refuse, shown
 
-FORMAT: Literal[1] = 1  # the version of the file format that this module describes
-PARTS_LIMIT = 256  # parts of one kind in a table; chosen: ten times a rich table, checked in a second
+__all__ = [
+    "Arcade",
+    "Board",
+    "Cylinder",
+    "CylinderSurface",
+    "Paddle",
+    "PrismSurface",
+    "RandomRecipe",
+    "SlantWall",
+    "TriangularPrism",
+]
 
 Point: TypeAlias = tuple[float, float]
 """A place on the board, (x, z) [u]."""
 
 Triangle: TypeAlias = tuple[Point, Point, Point]
 """Three corners, (x, z) [u] each."""
+
+Outline: TypeAlias = tuple[Triangle, float]
+"""The three points of a convex core (x, z) and the radius around it [u]; fewer points are repeated."""
+
+SineCosine: TypeAlias = Callable[[float], tuple[float, float]]
+"""The sine and the cosine of an angle [rad]."""
 
 _Place = Annotated[Point, POINT]
 _Corners = Annotated[Triangle, Several(POINT, 3, "[[x, z], [x, z], [x, z]]")]
@@ -44,48 +63,66 @@ _Falloff = Annotated[float, Quantity(0.0, 10.0, "s/u")]
 _SpeedFactor = Annotated[float, Quantity(0.1, 3.0)]
 _Points = Annotated[int, Count(0, 1_000_000, "points")]
 _Radius = Annotated[float, Quantity(0.05, 10.0, "u")]
-_Name = Annotated[str, Field(max_length=80)]
+Name = Annotated[str, Field(max_length=80)]
 
 
 def _counter_clockwise(corners: Triangle) -> Triangle:
-    """The same corners, counter-clockwise: Σ(zᵢ·xᵢ₊₁ − xᵢ·zᵢ₊₁) > 0 with z to the right and x up."""
+    """Return the corners counter-clockwise: Σ(zᵢ·xᵢ₊₁ − xᵢ·zᵢ₊₁) > 0 with z to the right and x up."""
     a, b, c = corners
-    # The sum, taken from corner a: the same value, without the cancellation far from the origin.
+    # The sum relative to corner a: the same value, without cancellation far from the origin.
     turn = (b[1] - a[1]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[1] - a[1])
     return (a, b, c) if turn >= 0.0 else (a, c, b)
 
 
-class _Model(BaseModel):
-    """What all models share: frozen, and no key that is not known."""
+def _libm(angle: float) -> tuple[float, float]:
+    return math.sin(angle), math.cos(angle)
+
+
+class Model(BaseModel):
+    """The base of all models: frozen, and without unknown keys."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
+    def replace(self, **changes: Any) -> Self:
+        """Make a copy with some fields changed, validated as by the constructor.
 
-class _Part(_Model):
-    """What everything that a ball can hit has in common."""
+        Raises:
+            ValidationError: A name is unknown, or a value has the wrong type or is out of range.
 
-    name: _Name = ""
-    """A name for people; it changes nothing in play."""
+        Example:
+            >>> import silverball as sb
+            >>> sb.parts.Cylinder(center=(5.0, 1.5), radius=0.6).replace(points=250).points
+            250
+        """
+        return type(self)(**(self.model_dump(exclude_defaults=True) | changes))
 
 
-class Board(_Model):
-    """The board itself, its borders (left, right, top) and what holds for every ball on it."""
+class _Part(Model):
+    """The base of everything that a ball can hit."""
+
+    name: Name = ""
+    """A name for people; it has no effect in play."""
+
+
+class Board(Model):
+    """The board, its borders (left, right, top), and the physics of every ball on it."""
 
     length: Annotated[float, Quantity(4.0, 50.0, "u")] = 20.0
     """[u] along x: the board spans x = −length/2 … length/2."""
     width: Annotated[float, Quantity(2.0, 50.0, "u")] = 10.0
     """[u] along z: the board spans z = −width/2 … width/2."""
     height: Annotated[float, Quantity(0.0, 10.0, "u")] = 1.0
-    """[u] the y at which everything happens."""
+    """[u] height y of the plane in which the balls move."""
     gravity: Annotated[float, Quantity(0.0, 100.0, "u/s²")] = 10.0
-    """[u/s²] in the board, towards −x, of a sliding ball; at 0 nothing pulls, and a ball may never drain."""
+    """[u/s²] acceleration of a sliding ball along the board, towards −x; at 0 a ball may never drain."""
     slope: Annotated[float, Quantity(1.0, 60.0, "deg")] = 6.5
-    """[deg] of the board, which sets the force onto it, gravity / tan(slope); only rolling needs it."""
+    """[deg] slope of the board; it sets the acceleration onto it, gravity / tan(slope), which rolling
+    needs."""
     friction: Annotated[float, Quantity(0.0, 2.0)] = 0.0
     """Coefficient of friction wherever a ball touches something; 0.2 is steel on lacquer."""
     rolling: Annotated[bool, Field(strict=True)] = False
-    """Whether the playfield rubs too, so that balls slip and roll on it; needs friction above 0. Without, or
-    without gravity, which presses them onto it, balls slide over it."""
+    """Whether the playfield has friction too, so that balls slip and roll on it; needs friction above 0.
+    Without it, or without gravity, balls slide."""
     ball_radius: Annotated[float, Quantity(0.1, 2.0, "u")] = 0.25
     """[u] radius of every ball."""
     ball_restitution: _Restitution = 0.95
@@ -97,11 +134,11 @@ class Board(_Model):
     hit_speed: Annotated[float, Quantity(0.01, 10.0, "u/s")] = 0.5
     """[u/s] an impact above it is a hit, below it a touch."""
     jitter: Annotated[float, Quantity(0.0, 20.0, "u/s")] = 1.5
-    """[u/s] size of the player's shove."""
+    """[u/s] speed that a shove by the player adds to a ball."""
     gutter: Annotated[float, COORDINATE] = -9.0
-    """[u] a ball whose centre crosses this x is gone."""
+    """[u] x of the gutter; a ball whose centre crosses it leaves the board."""
     wall_thickness: Annotated[float, Quantity(0.0, 1.0, "u")] = 0.1
-    """[u] borders lie at the board's edge: a ball touches at ball radius + thickness from it."""
+    """[u] thickness of the borders, inwards from the edge of the board."""
     wall_restitution: _Restitution = 0.8
     """Restitution of the borders."""
 
@@ -119,7 +156,7 @@ class Board(_Model):
 
 
 class SlantWall(_Part):
-    """A wall between two points, at any angle, with rounded ends; a ball may meet it from either side."""
+    """A wall between two points, at any angle, with rounded ends; a ball can hit it from both sides."""
 
     start: _Place
     """[u] one end, [x, z]."""
@@ -134,11 +171,17 @@ class SlantWall(_Part):
     points: _Points = 0
     """Points for a hit."""
 
-    def inward_normal(self, board: Board) -> Point:
-        """The unit normal (x, z) that points towards the board's centre, for either order of the ends.
+    def outline(self) -> Outline:
+        """The two ends as a core, and the thickness as its radius."""
+        return (self.start, self.end, self.end), self.thickness
 
-        For a wall whose line passes through the centre, the side is a matter of convention: up, or
-        right if the wall runs straight up the board.
+    def inward_normal(self, board: Board) -> Point:
+        """Return the unit normal (x, z) that points towards the board's centre, for either order of the ends.
+
+        If the line of the wall passes through the centre, the normal points up, or right for a vertical wall.
+
+        Raises:
+            ValueError: The two ends are the same point.
         """
         dx, dz = self.end[0] - self.start[0], self.end[1] - self.start[1]
         length = math.sqrt(dx * dx + dz * dz)  # not hypot, whose last bit differs between systems
@@ -152,14 +195,14 @@ class SlantWall(_Part):
 
 
 class Paddle(_Part):
-    """The player's bat: an isosceles triangle that turns about the middle of its base.
+    """A flipper: an isosceles triangle that turns about the middle of its base.
 
-    Angles are those of a left paddle; the right one is its exact mirror image, so for both a larger
-    angle is a higher tip.
+    Angles are those of a left paddle; a right one is the exact mirror image. So for both a larger angle
+    means a higher tip.
     """
 
     side: Literal["left", "right"]
-    """Which button moves it, and which way it turns; one paddle per side."""
+    """The button that moves it; at most one paddle per side."""
     pivot: _Place
     """[u] the middle of the base, [x, z]."""
     length: Annotated[float, Quantity(0.3, 10.0, "u")] = 2.1
@@ -191,40 +234,49 @@ class Paddle(_Part):
 
     @property
     def reach(self) -> float:
-        """[u] the largest distance of any of its points from the pivot."""
+        """[u] largest distance of a point of the paddle from the pivot."""
         return max(self.length, 0.5 * self.base)
 
     @property
     def tip_speed(self) -> float:
-        """[u/s] of the fastest point during the faster of the two strokes."""
+        """[u/s] speed of the fastest point in the faster of the two strokes."""
         turn = math.radians(self.up_angle - self.rest_angle)
         return turn / min(self.stroke, self.return_stroke) * self.reach
 
+    @property
+    def direction(self) -> float:
+        """1 for a left paddle, whose tip points to +z at 0 deg; −1 for a right one."""
+        return 1.0 if self.side == "left" else -1.0
+
+    def local_corners(self) -> Triangle:
+        """The lower base, tip and upper base (x, z) [u] of a left paddle at 0 deg, relative to its pivot."""
+        half = 0.5 * self.base
+        return (-half, 0.0), (0.0, self.length), (half, 0.0)
+
     def corners(self, angle_deg: float) -> Triangle:
-        """The outline (x, z) [u] at an angle [deg], counter-clockwise.
+        """The corners (x, z) [u] at an angle, counter-clockwise.
 
         Args:
-            angle_deg: The mirrored angle: −10 at rest and 45 up, for a left and a right paddle alike.
+            angle_deg: The mirrored angle [deg]: −10 at rest and 45 up, for a left and a right paddle alike.
         """
-        side = 1.0 if self.side == "left" else -1.0
-        x, z = self.pivot[0], side * self.pivot[1]
-        sine, cosine = math.sin(math.radians(angle_deg)), math.cos(math.radians(angle_deg))
-        half = 0.5 * self.base
-        lower = (x - half * cosine, side * (z + half * sine))
-        tip = (x + self.length * sine, side * (z + self.length * cosine))
-        upper = (x + half * cosine, side * (z - half * sine))
+        sine, cosine = _libm(math.radians(angle_deg))
+        x, z = self.pivot
+        lower, tip, upper = (
+            (x + (across * cosine + along * sine), z + self.direction * (along * cosine - across * sine))
+            for across, along in self.local_corners()
+        )
         return (lower, tip, upper) if self.side == "left" else (upper, tip, lower)
 
 
-class PrismSurface(_Model):
-    """How a triangular prism answers a ball: it takes speed away."""
+class PrismSurface(Model):
+    """How a triangular prism bounces a ball: it slows it down."""
 
     restitution: _Restitution = 0.8
     """Restitution at a slow contact."""
     restitution_falloff: _Falloff = 0.0
     """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
     speed_factor: _SpeedFactor = 0.85
-    """At a hit, the whole velocity after the bounce is multiplied by this: less than 1 takes speed away."""
+    """At a hit, the whole velocity after the bounce is multiplied by this: less than 1 slows it down."""
     points: _Points = 50
     """Points for a hit."""
 
@@ -269,10 +321,13 @@ class TriangularPrism(PrismSurface, _Part):
         return self
 
     def resolved(self, folder: Path | None = None) -> TriangularPrism:
-        """The prism with its mesh, if it has one, replaced by the `vertices` of its footprint.
+        """Return the prism with its mesh, if any, replaced by the `vertices` of its footprint.
 
         Args:
-            folder: Where to look for the mesh; the current folder if not given.
+            folder: Where to look for the mesh; the current folder by default.
+
+        Raises:
+            TableError: The mesh cannot be read or used.
         """
         if self.mesh is None:
             return self
@@ -281,8 +336,13 @@ class TriangularPrism(PrismSurface, _Part):
         vertices = triangle_footprint((folder or Path()) / self.mesh)
         return self.model_copy(update={"mesh": None, "vertices": vertices})
 
-    def corners(self) -> Triangle:
-        """The three corners (x, z) [u], counter-clockwise, whichever way the prism was given."""
+    def corners(self, sine_cosine: SineCosine = _libm) -> Triangle:
+        """Return the three corners (x, z) [u], counter-clockwise, however the prism was specified.
+
+        Args:
+            sine_cosine: The functions that turn an equilateral prism. The physics passes its own, which give
+                the same bits on every machine.
+        """
         if self.vertices is not None:
             return _counter_clockwise(self.vertices)
         if self.mesh is not None:
@@ -290,20 +350,24 @@ class TriangularPrism(PrismSurface, _Part):
         assert self.center is not None
         assert self.size is not None
         x, z = self.center
-        turns = [math.radians(self.rotation + third) for third in (0.0, 120.0, 240.0)]
-        a, b, c = ((x + self.size * math.sin(turn), z + self.size * math.cos(turn)) for turn in turns)
+        angles = (sine_cosine(math.radians(self.rotation + third)) for third in (0.0, 120.0, 240.0))
+        a, b, c = ((x + self.size * sine, z + self.size * cosine) for sine, cosine in angles)
         return (a, b, c)
 
+    def outline(self) -> Outline:
+        """The corners as a core, without a radius."""
+        return self.corners(), 0.0
 
-class CylinderSurface(_Model):
-    """How a cylinder answers a ball: it gives speed."""
+
+class CylinderSurface(Model):
+    """How a cylinder bounces a ball: it speeds it up."""
 
     restitution: _Restitution = 0.9
     """Restitution at a slow contact."""
     restitution_falloff: _Falloff = 0.0
     """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
     speed_factor: _SpeedFactor = 1.25
-    """At a hit, the whole velocity after the bounce is multiplied by this: more than 1 is the boost."""
+    """At a hit, the whole velocity after the bounce is multiplied by this: more than 1 speeds it up."""
     points: _Points = 100
     """Points for a hit."""
 
@@ -329,10 +393,13 @@ class Cylinder(CylinderSurface, _Part):
         return self
 
     def resolved(self, folder: Path | None = None) -> Cylinder:
-        """The cylinder with its mesh, if it has one, replaced by the footprint's `center` and `radius`.
+        """Return the cylinder with its mesh, if any, replaced by the `center` and `radius` of its footprint.
 
         Args:
-            folder: Where to look for the mesh; the current folder if not given.
+            folder: Where to look for the mesh; the current folder by default.
+
+        Raises:
+            TableError: The mesh cannot be read or used.
         """
         if self.mesh is None:
             return self
@@ -342,21 +409,38 @@ class Cylinder(CylinderSurface, _Part):
         return self.model_copy(update={"mesh": None, "center": (x, z), "radius": radius})
 
     def circle(self) -> tuple[float, float, float]:
-        """The footprint: x and z of the centre and the radius [u]."""
+        """Return the footprint: x and z of the centre, and the radius [u]."""
         if self.mesh is not None:
             return self.resolved().circle()
         assert self.center is not None
         assert self.radius is not None
         return (*self.center, self.radius)
 
+    def outline(self) -> Outline:
+        """The centre as a core, and the radius."""
+        x, z, radius = self.circle()
+        return ((x, z), (x, z), (x, z)), radius
 
-class RandomRecipe(_Model):
-    """What to place afresh for every seed, and the rules it is placed by."""
+
+StandingPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
+"""A part that does not move."""
+
+PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {
+    "slant_wall": SlantWall,
+    "paddle": Paddle,
+    "triangular_prism": TriangularPrism,
+    "cylinder": Cylinder,
+}
+"""The sections of a table file that hold a list of parts, and the model of each."""
+
+
+class RandomRecipe(Model):
+    """Which obstacles to place at random for each seed, and the rules for placing them."""
 
     triangular_prisms: Annotated[int, Count(0, 32, "prisms")] = 4
-    """How many triangular prisms."""
+    """Number of triangular prisms."""
     cylinders: Annotated[int, Count(0, 32, "cylinders")] = 3
-    """How many cylinders."""
+    """Number of cylinders."""
     prism_size: Annotated[tuple[float, float], Interval(Quantity(0.2, 5.0, "u"))] = (0.8, 1.0)
     """[u] circumradius of a prism, [least, greatest]."""
     cylinder_radius: Annotated[tuple[float, float], Interval(Quantity(0.1, 5.0, "u"))] = (0.5, 0.7)
@@ -368,11 +452,11 @@ class RandomRecipe(_Model):
     wall_gap: Annotated[float, Quantity(0.0, 10.0, "u")] = 0.9
     """[u] the same from a bounding circle to the surface of any wall and to the turning paddles."""
     rotation: Annotated[tuple[float, float], Interval(Quantity(0.0, 360.0, "deg"))] = (10.0, 80.0)
-    """[deg] how far a prism is turned, [least, greatest]; every edge stays 10° off both axes besides."""
+    """[deg] rotation of a prism, [least, greatest]; every edge also stays 10° off both axes."""
     prism: PrismSurface = PrismSurface()
-    """How the prisms answer a ball."""
+    """How the prisms bounce a ball."""
     cylinder: CylinderSurface = CylinderSurface()
-    """How the cylinders answer a ball."""
+    """How the cylinders bounce a ball."""
 
     @field_validator("area")
     @classmethod
@@ -386,69 +470,40 @@ class RandomRecipe(_Model):
         return area
 
 
-class Arcade(_Model):
-    """The rules of an arcade game on this table; free play knows none of them."""
+class Arcade(Model):
+    """The rules of an arcade game on this table; free play ignores them."""
 
     balls: Annotated[int, Count(1, 99, "balls")] = 3
-    """Balls of a game. With three the reflex player plays for two minutes."""
+    """Balls of a game. With three the reflex player lasts for two minutes."""
     ball_save: Annotated[float, Quantity(0.0, 60.0, "s")] = 5.0
-    """[s] a ball lost so soon after its start is given back; 0: never. A second ball that is brought early,
-    beside the first, is not. Choose somewhat less than a ball lasts that nobody plays (about 8 s)."""
+    """[s] a ball that is lost within this time of its start is returned to the player; 0: never. A second
+    ball launched beside the first is not. Choose a little less than an unplayed ball lasts (about 8 s)."""
     ball_saves: Annotated[int, Count(0, 9, "times")] = 1
-    """How often one and the same ball is given back; with 1 the ball that comes back is not saved again."""
+    """How often the same ball is returned; with 1 a returned ball is not saved again."""
     combo_window: Annotated[float, Quantity(0.0, 10.0, "s")] = 1.0
-    """[s] a hit that scores so soon after the one before goes on with the combo; 0: no combos. With
-    1 s on the built-in tables six hits of ten go on with a combo."""
+    """[s] a scoring hit within this time of the previous one continues the combo; 0: no combos. With 1 s on
+    the built-in tables six hits of ten continue a combo."""
     combo_step: Annotated[int, Count(1, 100, "hits")] = 3
-    """Hits in a row that raise the factor of a combo by one: with 3 the first to third count once, the
-    fourth to sixth twice, and so on."""
+    """Hits that raise the factor of a combo by one: with 3 the first to third count once, the fourth to sixth
+    twice, and so on."""
     combo_limit: Annotated[int, Count(1, 100)] = 5
     """The greatest factor of a combo; 1: combos are counted but pay nothing."""
     double: Annotated[int, Count(1, 100)] = 2
-    """The factor while two balls are on the board. The second ball is one of the balls left and is not
-    saved, so this is what the gamble pays."""
+    """The factor while two balls are on the board. The second ball is one of the remaining balls and is not
+    saved, so this rewards the risk."""
     tilt_decay: Annotated[float, Quantity(0.1, 60.0, "s")] = 1.5
-    """[s] in which the swing of the plumb-bob falls to 1/e. Every shove adds 1 to the swing."""
+    """[s] time in which the swing of the tilt bob falls to 1/e. Each shove adds 1 to the swing."""
     tilt_warning: Annotated[float, Quantity(0.0, 1000.0)] = 1.5
-    """A shove that swings the bob further than this is warned of. With 1.5 and 1.5 s a second shove within a
-    second is, a single one never; below 1 every shove is."""
+    """A shove that swings the bob further than this gives a warning. With 1.5 and a decay of 1.5 s a second
+    shove within a second does, a single one never; below 1 every shove does."""
     tilt_limit: Annotated[float, Quantity(0.0, 1000.0)] = 2.4
-    """A swing further than this is a tilt at once: the paddles are dead and nothing scores until the board is
-    empty. With 2.4 the third of three quick shoves is one."""
+    """A swing further than this is a tilt: the paddles are dead and nothing scores until the board is
+    empty. With 2.4 the third of three quick shoves is a tilt."""
     warnings: Annotated[int, Count(0, 99, "warnings")] = 2
-    """Warnings for each ball; one shove too many after the last of them is a tilt."""
+    """Warnings per ball; the next one after the last of them is a tilt."""
     un_stick: Annotated[float, Quantity(0.5, 60.0, "s")] = 3.0
-    """[s] a ball lies still before the machine shoves it. A ball within reach of the paddles is let be while
-    a button is held: the player has caught it."""
+    """[s] how long a ball lies still before the machine shoves it. A ball within reach of the paddles is left
+    alone while a button is held: the player has caught it."""
     stall: Annotated[float, Quantity(1.0, 600.0, "s")] = 20.0
-    """[s] without a hit that scores after which the machine shoves in any case, so that a ball cannot be held
-    for ever; longer than any player needs to aim."""
-
-
-def _known_format(value: Any) -> Any:
-    if value != FORMAT or isinstance(value, bool):
-        refuse(f"must be {FORMAT}, got {shown(value)}: a newer file needs a newer Silverball")
-    return FORMAT
-
-
-class Table(_Model):
-    """A whole table. With a `random` section it is a recipe, of which every seed makes a finished table."""
-
-    format: Annotated[Literal[1], BeforeValidator(_known_format)] = FORMAT
-    """The version of the file format."""
-    name: _Name = "Untitled"
-    """What people call it."""
-    board: Board = Board()
-    """The board and its borders."""
-    slant_wall: Annotated[tuple[SlantWall, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The slant walls."""
-    paddle: Annotated[tuple[Paddle, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The paddles, at most one per side."""
-    triangular_prism: Annotated[tuple[TriangularPrism, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The triangular prisms."""
-    cylinder: Annotated[tuple[Cylinder, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The cylinders."""
-    random: RandomRecipe | None = None
-    """What to place afresh for every seed, if anything."""
-    arcade: Arcade = Arcade()
-    """The rules of an arcade game."""
+    """[s] time without a scoring hit after which the machine shoves in any case, so that a ball cannot be
+    held forever; longer than any player needs to aim."""

@@ -1,36 +1,47 @@
-"""Where do the obstacles of a recipe go? Finished boards, made of random numbers.
+"""Placement of the obstacles of a recipe: finished boards from random numbers.
 
-The standing parts of the recipe stay; prisms and cylinders are placed one after the other at the first of
-some random places that keeps all rules of `rules.py`. An obstacle that finds none sends the layout back
-to its start. A finished board must pass every check; one that does not is started afresh too.
+The parts of the recipe stay. Prisms and cylinders are placed one after the other, each at the first of some
+random places that meets all rules of `placement_rules.py`. If there is none, or if the finished board fails a
+check, the layout starts again.
 
-The same seed makes the same board everywhere: the random numbers are the raw 64-bit words of PCG64 (a
-stream that NumPy guarantees), places are rounded to thousandths before the rules are tested, and angles
-are drawn from a list of tenths of a degree.
+The same seed makes the same board on every machine: the random numbers are the raw 64-bit words of PCG64 (a
+stream that NumPy guarantees), places are rounded to thousandths before the rules are tested, and angles are
+drawn from a list of tenths of a degree.
 """
 
 from __future__ import annotations
 
 import functools
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
-from silverball.table.geometry import Floats, Standing
-from silverball.table.parts import Cylinder, RandomRecipe, Table, TriangularPrism
+from silverball.table.geometry import Floats
+from silverball.table.parts import Cylinder, RandomRecipe, TriangularPrism
 from silverball.table.placement_rules import Surroundings, allowed_rotations, circle_distances
 
-PLACES = 64  # random places that are tried for one obstacle in one layout
-LAYOUTS = 500  # layouts that are started before giving up
-BOARDS = 20  # finished layouts that may fail the check before giving up
-ROUNDING = 1e-9  # [u] by which the rules are kept more strictly, so that nobody's rounding breaks them
+if TYPE_CHECKING:
+    from silverball.table.table import Table
+
+PLACES = 64  # random places tried for one obstacle in one layout
+LAYOUTS = 500  # layouts started before giving up
+BOARDS = 20  # finished layouts that may fail the checks before giving up
+ROUNDING = 1e-9  # [u] by which the rules are met more strictly, so that rounding cannot break them
 _DECIMALS = 3  # of lengths [u] in a generated table
+
+# The trial of a recipe spends a tenth of the effort that a game may spend on a board, so that luck decides
+# nothing: a recipe of which one layout in a hundred can be played passes the trial and fails later with a
+# chance of 4 in a million; for every other share the chance is less.
+TRIAL_SHARE = 10
+TRIAL_SEEDS = 8  # that must each make a board
+FEW_TRIAL_SEEDS = 2  # where a board costs up to a second
+MANY_PARTS = 100  # from which it does
 
 
 class _Placed(NamedTuple):
-    """One obstacle: its bounding circle [u] and its rotation [deg], which a cylinder has not."""
+    """One obstacle: its bounding circle [u] and its rotation [deg], 0 for a cylinder."""
 
     x: float
     z: float
@@ -38,8 +49,8 @@ class _Placed(NamedTuple):
     rotation: float
 
 
-class _Kit(NamedTuple):
-    """A recipe made ready, once for all seeds."""
+class _Prepared(NamedTuple):
+    """What all seeds of a recipe share."""
 
     table: Table
     recipe: RandomRecipe
@@ -48,70 +59,85 @@ class _Kit(NamedTuple):
 
 
 def board_of(recipe: Table, seed: int, layouts: int = LAYOUTS, boards: int = BOARDS) -> Table:
-    """The board that a seed makes of a recipe that passes `check_layout`.
+    """Make the board of a seed from a recipe that passes `check_layout`.
 
     Args:
         recipe: A table with a ``[random]`` section.
-        seed: Any whole number from 0.
-        layouts: That are started before giving up.
-        boards: Finished layouts that may fail the check before giving up.
+        seed: An integer ≥ 0.
+        layouts: The number of layouts to start before giving up.
+        boards: The number of finished layouts that may fail the checks before giving up.
 
     Raises:
-        TableError: No layout keeps the rules; the problem's path names the one that is in the way.
+        TableError: No layout meets the rules; the problem's path names the rule that fails most.
     """
-    kit = _prepare(recipe)
+    prepared = _prepare(recipe)
     stream = np.random.PCG64(seed)
     problems: list[Problem] = []
     for _ in range(boards):
-        table = _finish(kit, seed, _layout(kit, stream, layouts))
+        table = _finish(prepared, seed, _layout(prepared, stream, layouts))
         problems = check_layout(Layout.of(table))
         if not problems:
             return table
-    raise TableError(kit.table.name, [_no_board(problems[0], boards)])
+    raise TableError(prepared.table.name, [_no_board(problems[0], boards)])
+
+
+def try_recipe(table: Table) -> list[Problem]:
+    """Try whether a recipe with valid parts makes boards.
+
+    Returns:
+        The problems of the first seed that makes no board; an empty list for a finished table.
+    """
+    if table.random is None:
+        return []
+    for seed in range(TRIAL_SEEDS if len(table.standing_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
+        try:
+            board_of(table, seed, layouts=LAYOUTS // TRIAL_SHARE, boards=BOARDS // TRIAL_SHARE)
+        except TableError as error:
+            return list(error.problems)
+    return []
 
 
 @functools.lru_cache(maxsize=16)
-def _prepare(table: Table) -> _Kit:
-    """A recipe with what all its seeds share."""
+def _prepare(table: Table) -> _Prepared:
+    """Prepare a recipe, once for all seeds."""
     assert table.random is not None
-    parts: tuple[Standing, ...] = (*table.slant_wall, *table.triangular_prism, *table.cylinder)
-    around = Surroundings.of(table.board, parts, table.paddle)
-    return _Kit(table, table.random, around, np.array(allowed_rotations(table.random)))
+    around = Surroundings.of(table.board, table.standing_parts, table.paddle)
+    return _Prepared(table, table.random, around, np.array(allowed_rotations(table.random)))
 
 
-def _layout(kit: _Kit, stream: np.random.PCG64, layouts: int) -> list[_Placed]:
-    """Places for all obstacles, prisms first: the larger ones need the room."""
-    recipe = kit.recipe
+def _layout(prepared: _Prepared, stream: np.random.PCG64, layouts: int) -> list[_Placed]:
+    """Place all obstacles, prisms first, because they are larger."""
+    recipe = prepared.recipe
     count = recipe.triangular_prisms + recipe.cylinders
-    in_the_way = {"random.wall_gap": 0, "random.gap": 0}
+    failures = {"random.wall_gap": 0, "random.gap": 0}
     for _ in range(layouts):
-        x, z, size, rotation = _draw(kit, count, stream)
-        circles = list(kit.around.obstacle_circles)
+        x, z, size, rotation = _draw(prepared, count, stream)
+        circles = list(prepared.around.obstacle_circles)
         placed: list[_Placed] = []
         for item in range(count):
             points = np.stack([x[item], z[item]], axis=-1)
             near = circle_distances(points, np.array(circles).reshape(-1, 3)) - size[item]
             apart = near >= recipe.gap + ROUNDING
-            clear_of_walls = kit.around.wall_distances(points) - size[item]
+            clear_of_walls = prepared.around.wall_distances(points) - size[item]
             far_enough = clear_of_walls >= recipe.wall_gap + ROUNDING
             places = np.nonzero(far_enough & apart)[0]
             if len(places) == 0:
-                in_the_way["random.wall_gap"] += int((apart & ~far_enough).sum())
-                in_the_way["random.gap"] += int((far_enough & ~apart).sum())
+                failures["random.wall_gap"] += int((apart & ~far_enough).sum())
+                failures["random.gap"] += int((far_enough & ~apart).sum())
                 break
             values = (float(row[item, places[0]]) for row in (x, z, size, rotation))
             placed.append(_Placed(*values))
             circles.append(np.array(placed[-1][:3]))
         else:
             return placed
-    raise TableError(kit.table.name, [_no_layout(recipe, in_the_way, layouts)])
+    raise TableError(prepared.table.name, [_no_layout(recipe, failures, layouts)])
 
 
-def _draw(kit: _Kit, count: int, stream: np.random.PCG64) -> tuple[Floats, Floats, Floats, Floats]:
-    """Random places: x, z, size [u] and rotation [deg], shape [obstacle, place] each."""
-    recipe = kit.recipe
+def _draw(prepared: _Prepared, count: int, stream: np.random.PCG64) -> tuple[Floats, Floats, Floats, Floats]:
+    """Draw random places: x, z, size [u] and rotation [deg], shape [obstacle, place] each."""
+    recipe = prepared.recipe
     words = stream.random_raw(4 * count * PLACES).reshape(4, count, PLACES)
-    share = (words >> np.uint64(11)) * 2.0**-53  # the usual doubles in [0, 1)
+    share = (words >> np.uint64(11)) * 2.0**-53  # doubles in [0, 1)
     (low_x, low_z), (high_x, high_z) = recipe.area
     bounds = [recipe.prism_size] * recipe.triangular_prisms + [recipe.cylinder_radius] * recipe.cylinders
     low, high = np.array(bounds, dtype=np.float64).reshape(-1, 2).T[:, :, None]
@@ -119,19 +145,19 @@ def _draw(kit: _Kit, count: int, stream: np.random.PCG64) -> tuple[Floats, Float
     z = np.round(low_z + share[1] * (high_z - low_z), _DECIMALS)
     # Rounding must not leave the range, which may end between two thousandths.
     size = np.clip(np.round(low + share[2] * (high - low), _DECIMALS), low, high)
-    if len(kit.rotations):
-        rotation = kit.rotations[(share[3] * len(kit.rotations)).astype(np.int64)]
+    if len(prepared.rotations):
+        rotation = prepared.rotations[(share[3] * len(prepared.rotations)).astype(np.int64)]
     else:
         rotation = np.zeros_like(size)
     return np.clip(x, low_x, high_x), np.clip(z, low_z, high_z), size, rotation
 
 
-def _no_layout(recipe: RandomRecipe, in_the_way: dict[str, int], layouts: int) -> Problem:
-    """The rule that most places broke as the only one."""
-    rule = max(in_the_way, key=lambda key: in_the_way[key])
+def _no_layout(recipe: RandomRecipe, failures: dict[str, int], layouts: int) -> Problem:
+    """The problem of the rule that most places broke as the only one."""
+    rule = max(failures, key=lambda key: failures[key])
     key = rule.removeprefix("random.")
     message = (
-        f"could not be kept at {getattr(recipe, key):g} u for {recipe.triangular_prisms} prisms and "
+        f"could not be met at {getattr(recipe, key):g} u for {recipe.triangular_prisms} prisms and "
         f"{recipe.cylinders} cylinders in {layouts} layouts: make it smaller, enlarge random.area, or place "
         "fewer or smaller obstacles"
     )
@@ -139,7 +165,7 @@ def _no_layout(recipe: RandomRecipe, in_the_way: dict[str, int], layouts: int) -
 
 
 def _no_board(last: Problem, boards: int) -> Problem:
-    """Boards that keep the rules and are no tables all the same."""
+    """The problem of a recipe whose boards meet the rules but fail the checks."""
     message = (
         f"makes boards that cannot be played, {boards} of {boards} tried; of the last one, "
         f"{last.path or 'the board'} {last.message}: enlarge random.area or "
@@ -148,9 +174,9 @@ def _no_board(last: Problem, boards: int) -> Problem:
     return Problem("random", message)
 
 
-def _finish(kit: _Kit, seed: int, placed: list[_Placed]) -> Table:
-    """The recipe with its obstacles placed and without its `random` section."""
-    recipe = kit.recipe
+def _finish(prepared: _Prepared, seed: int, placed: list[_Placed]) -> Table:
+    """Make the finished table: the recipe with placed obstacles and without its `random` section."""
+    recipe = prepared.recipe
     prism, cylinder = recipe.prism.model_dump(), recipe.cylinder.model_dump()
     prisms = tuple(
         TriangularPrism(center=(x, z), size=size, rotation=rotation, **prism)
@@ -160,11 +186,11 @@ def _finish(kit: _Kit, seed: int, placed: list[_Placed]) -> Table:
         Cylinder(center=(x, z), radius=size, **cylinder)
         for x, z, size, _ in placed[recipe.triangular_prisms :]
     )
-    return kit.table.model_copy(
+    return prepared.table.model_copy(
         update={
-            "name": f"{kit.table.name} {seed}",
-            "triangular_prism": (*kit.table.triangular_prism, *prisms),
-            "cylinder": (*kit.table.cylinder, *cylinders),
+            "name": f"{prepared.table.name} {seed}",
+            "triangular_prism": (*prepared.table.triangular_prism, *prisms),
+            "cylinder": (*prepared.table.cylinder, *cylinders),
             "random": None,
         }
     )

@@ -1,9 +1,9 @@
-"""By which rules does a recipe place its obstacles, and can they be met at all?
+"""The rules for placing the obstacles of a recipe, and whether they can be met at all.
 
-An obstacle counts as its bounding circle. It must leave `gap` to every other obstacle, and `wall_gap` to
-the surface of every wall and to the circle that holds a turning paddle. Since both are wider than a ball,
-a ball never touches an obstacle and something else at once, so no obstacle makes a pocket; and since
-every edge of a prism stays 10° off both axes, none is level. All lengths [u], points (x, z).
+An obstacle counts as its bounding circle. It must leave `gap` to every other obstacle, and `wall_gap` to the
+surface of every wall and to the circle around a turning paddle. Both are wider than a ball, so a ball never
+touches an obstacle and something else at once, and no obstacle makes a pocket. Every edge of a prism stays
+10° off both axes, so none is level. All lengths are in [u], points are (x, z).
 """
 
 from __future__ import annotations
@@ -15,25 +15,25 @@ from typing import NamedTuple
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.table.geometry import Floats, Shapes, Standing, border_gaps, distances, outline
-from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall
+from silverball.table.geometry import Floats, Shapes, border_gaps, distances
+from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StandingPart
 from silverball.table.reach import PASSAGE
 
-EDGE_ANGLE = 10  # [deg] that every edge of a placed prism keeps off both axes
-_TRIALS = 48  # points along each side of the area, to see whether anything fits
+EDGE_ANGLE = 10  # [deg] of every edge of a placed prism from both axes
+_TRIALS = 48  # sample points along each side of the area
 
-# Angles are drawn in tenths of a degree, as whole numbers: exact, and readable in the file.
+# Angles are drawn as integers, in tenths of a degree: exact, and readable in the file.
 _TENTHS = 10
 
 
 class Surroundings(NamedTuple):
-    """What stands on the board before anything is placed.
+    """The parts on the board before anything is placed.
 
     Attributes:
         board: The board, for its borders.
         walls: The slant walls.
-        paddle_circles: A circle around everything that each paddle can reach: x, z, radius, [paddle, 3].
-        obstacle_circles: The bounding circles of obstacles that stand already: x, z, radius, [obstacle, 3].
+        paddle_circles: A circle around the reach of each paddle: x, z, radius, [paddle, 3].
+        obstacle_circles: The bounding circles of the obstacles: x, z, radius, [obstacle, 3].
     """
 
     board: Board
@@ -45,19 +45,19 @@ class Surroundings(NamedTuple):
     def of(
         cls,
         board: Board,
-        parts: Sequence[Standing],
+        parts: Sequence[StandingPart],
         paddles: Sequence[Paddle],
     ) -> Surroundings:
-        """The surroundings that some parts and paddles make."""
-        walls = Shapes.of([outline(part) for part in parts if isinstance(part, SlantWall)])
-        others = Shapes.of([outline(part) for part in parts if not isinstance(part, SlantWall)])
+        """Return the surroundings made of some parts and paddles."""
+        walls = Shapes.of([part.outline() for part in parts if isinstance(part, SlantWall)])
+        others = Shapes.of([part.outline() for part in parts if not isinstance(part, SlantWall)])
         center, radius = others.bounds()
         circles = np.concatenate([center, radius[:, None]], axis=1)
         turning = [(*paddle.pivot, paddle.reach) for paddle in paddles]
         return cls(board, walls, np.array(turning, dtype=np.float64).reshape(-1, 3), circles)
 
     def wall_distances(self, points: Floats) -> Floats:
-        """From points [..., 2] to the nearest surface of a wall or circle of a paddle, shape [...]."""
+        """Return the distances [u] of points [..., 2] to the nearest wall or paddle circle, shape [...]."""
         nearest = border_gaps(points, self.board).min(axis=-1)
         nearest = np.minimum(nearest, points[..., 0] - self.board.gutter)
         if len(self.walls.radius):
@@ -67,17 +67,17 @@ class Surroundings(NamedTuple):
 
 
 def circle_distances(points: Floats, circles: Floats) -> Floats:
-    """From points [..., 2] to the nearest of some circles [circle, 3], shape [...]; infinite without any."""
+    """Return the distance [u] of points [..., 2] to the nearest circle [circle, 3]; infinite without any."""
     away = points[..., None, :] - circles[:, :2]
     nearest: Floats = (np.sqrt((away**2).sum(axis=-1)) - circles[:, 2]).min(axis=-1, initial=math.inf)
     return nearest
 
 
 def allowed_rotations(recipe: RandomRecipe) -> list[float]:
-    """The angles [deg], in tenths, by which an equilateral prism may be turned.
+    """Return the rotations [deg] that an equilateral prism may have, in steps of a tenth.
 
-    Its edges run at 30° plus its rotation, modulo 60°, and so do the axes at 0° and 30°: an edge is as far
-    from an axis as the rotation is from a multiple of 30°.
+    Its edges run at 30° plus its rotation, modulo 60°; the axes lie at 0° and 30°. So an edge is as far from
+    an axis as the rotation is from a multiple of 30°.
     """
     low, high = (bound * _TENTHS for bound in recipe.rotation)
     least, period = EDGE_ANGLE * _TENTHS, 30 * _TENTHS
@@ -87,11 +87,11 @@ def allowed_rotations(recipe: RandomRecipe) -> list[float]:
 
 def recipe_problems(
     board: Board,
-    parts: Sequence[Standing],
+    parts: Sequence[StandingPart],
     paddles: Sequence[Paddle],
     recipe: RandomRecipe,
 ) -> list[Problem]:
-    """The rules of a recipe that no layout can meet."""
+    """Find the rules of a recipe that no layout can meet."""
     problems = []
     least = (2.0 + PASSAGE) * board.ball_radius
     for key in ("gap", "wall_gap"):
@@ -118,7 +118,7 @@ def recipe_problems(
         return problems
     around = Surroundings.of(board, parts, paddles)
     x, z = np.linspace(low_x, high_x, _TRIALS), np.linspace(low_z, high_z, _TRIALS)
-    rows = (np.stack([np.full_like(z, height), z], axis=-1) for height in x)  # one at a time: walls are many
+    rows = (np.stack([np.full_like(z, height), z], axis=-1) for height in x)  # to bound the memory
     widest = max(float(around.wall_distances(row).max()) for row in rows)
     if widest < max(sizes) + recipe.wall_gap:
         message = (

@@ -1,13 +1,12 @@
-"""What counts as a valid number, point or interval in a table file?
+"""Validation rules for the numbers, points and intervals of a table file.
 
-The rules are small objects that stand in the annotations of `parts.py`::
+The rules are small objects in the annotations of `parts.py`::
 
     gravity: Annotated[float, Quantity(0.0, 100.0, "u/s²")] = 10.0
 
-Each takes what TOML gives (or a Python caller), returns the canonical Python value (float, int,
-tuple) and refuses everything else with the range, the unit and the value it got. A boolean is no
-number here, a quoted number is none either, and nothing is infinite. Negative zero becomes zero, so
-that equal tables have equal texts and digests.
+Each takes a value from TOML or Python, returns the canonical Python value (float, int, tuple), and refuses
+everything else with the range, the unit and the value it got. Booleans, quoted numbers and infinities are not
+numbers here. Negative zero becomes zero, so that equal tables have equal texts and digests.
 """
 
 from __future__ import annotations
@@ -23,17 +22,17 @@ from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-SHOWN = 40  # characters of a refused value that a message repeats; chosen to keep it on one line
+SHOWN = 40  # characters of a refused value in a message; chosen to keep it on one line
 
 
 def shown(value: object) -> str:
-    """The value as a message repeats it: as TOML would write it, and never long."""
+    """Return a value as it stands in a message: as TOML would write it, and short."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, dict):
         return "a section"
     if isinstance(value, int) and not -(10**18) < value < 10**18:
-        return "a whole number of more than 18 digits"
+        return "an integer of more than 18 digits"
     if isinstance(value, str) and len(value) > SHOWN:
         value = value[:SHOWN]  # a megabyte of text is cut before it is quoted
     if isinstance(value, date | time):  # a datetime is a date too
@@ -46,20 +45,20 @@ def shown(value: object) -> str:
 
 
 def refuse(message: str) -> Never:
-    """Stop the validation of one value with a whole sentence."""
+    """Refuse a value with a sentence for the person who wrote it."""
     raise PydanticCustomError("silverball", "{message}", {"message": message})
 
 
 class Rule(ABC):
-    """One rule for one value: `check` returns the canonical value or refuses."""
+    """A rule for a value: `check` returns the canonical value or refuses it."""
 
     @abstractmethod
     def check(self, value: Any) -> Any:
-        """The canonical value, or a refusal that says what was expected and what was given."""
+        """Return the canonical value, or refuse with what was expected and what was given."""
 
     @abstractmethod
     def json_schema(self) -> JsonSchemaValue:
-        """The same rule as JSON Schema, for editors and generated reference pages."""
+        """Return the rule as JSON Schema, for editors and generated reference pages."""
 
     def __get_pydantic_core_schema__(self, _source: Any, _handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.check)
@@ -77,7 +76,7 @@ class Quantity(Rule):
     Attributes:
         low: The least value that is allowed.
         high: The greatest value that is allowed.
-        unit: The unit as people write it, empty for a pure number.
+        unit: The unit, empty for a pure number.
     """
 
     low: float
@@ -90,7 +89,7 @@ class Quantity(Rule):
         return f"{self.low:g} to {self.high:g} {self.unit}".rstrip()
 
     def check(self, value: Any) -> float:
-        """The value as a float inside the range."""
+        """Return the value as a float inside the range."""
         if isinstance(value, bool) or not isinstance(value, Real):
             refuse(f"must be a number, {self.span}, got {shown(value)}")
         try:
@@ -102,41 +101,41 @@ class Quantity(Rule):
         return number
 
     def json_schema(self) -> JsonSchemaValue:
-        """A number with its bounds."""
+        """Return the schema of a number with its bounds."""
         return {"type": "number", "minimum": self.low, "maximum": self.high, "unit": self.unit}
 
 
 @dataclass(frozen=True)
 class Count(Rule):
-    """A whole number between two bounds (both allowed)."""
+    """An integer between two bounds (both allowed)."""
 
     low: int
     high: int
     unit: str = ""
 
     def check(self, value: Any) -> int:
-        """The value as an int inside the range."""
+        """Return the value as an int inside the range."""
         span = f"{self.low:,} to {self.high:,} {self.unit}".rstrip()
         if isinstance(value, bool) or not isinstance(value, Integral):
-            refuse(f"must be a whole number, {span}, got {shown(value)}")
+            refuse(f"must be an integer, {span}, got {shown(value)}")
         number = int(value)
         if not self.low <= number <= self.high:
             refuse(f"must be {span}, got {shown(value)}")
         return number
 
     def json_schema(self) -> JsonSchemaValue:
-        """An integer with its bounds."""
+        """Return the schema of an integer with its bounds."""
         return {"type": "integer", "minimum": self.low, "maximum": self.high}
 
 
 @dataclass(frozen=True)
 class Several(Rule):
-    """A list of a fixed length whose items follow one rule: a point, a triangle, an area.
+    """A list of a fixed length with one rule for its items: a point, a triangle, an area.
 
     Attributes:
         item: The rule for each item.
-        count: How many items there must be.
-        form: How to write it, for messages: ``[x, z]``.
+        count: The number of items.
+        form: The notation in messages: ``[x, z]``.
     """
 
     item: Rule
@@ -144,32 +143,32 @@ class Several(Rule):
     form: str
 
     def check(self, value: Any) -> tuple[Any, ...]:
-        """The items, checked, as a tuple."""
+        """Return the checked items as a tuple."""
         if not isinstance(value, list | tuple) or len(value) != self.count:
             refuse(f"must be written {self.form}, got {shown(value)}")
         return tuple(self.item.check(item) for item in value)
 
     def json_schema(self) -> JsonSchemaValue:
-        """An array of exactly that many items."""
+        """Return the schema of an array of exactly that many items."""
         schema: JsonSchemaValue = {"type": "array", "items": self.item.json_schema()}
         return schema | {"minItems": self.count, "maxItems": self.count}
 
 
 @dataclass(frozen=True)
 class Interval(Rule):
-    """Two numbers, the least and the greatest, for a value that is drawn at random between them."""
+    """Two numbers, the least and the greatest, between which a value is drawn at random."""
 
     item: Quantity
 
     def check(self, value: Any) -> tuple[float, float]:
-        """The two bounds, in order."""
+        """Return the two bounds, in order."""
         low, high = Several(self.item, 2, "[least, greatest]").check(value)
         if low > high:
             refuse(f"must be written [least, greatest], got {shown(value)}: swap the two")
         return low, high
 
     def json_schema(self) -> JsonSchemaValue:
-        """An array of two numbers."""
+        """Return the schema of an array of two numbers."""
         return Several(self.item, 2, "[least, greatest]").json_schema()
 
 

@@ -1,41 +1,44 @@
-"""Where on the board can a ball be, and where may one be created?
+"""Reachability: where a ball can be on the board, and where one may be created.
 
-The places of a ball's centre are sampled on a square grid: a sample is free when a ball there touches
-no border, no standing part and no paddle at rest, and it is reached when free neighbours (eight of
-them) lead from it to the gutter. A passage must be wider than a ball by about 0.45 ball radii to be
-seen as one; `check.py` refuses narrower ones, so that for a checked table the samples tell the truth.
+The places of a ball's centre are sampled on a square grid. A sample is free if a ball there touches no
+border, no standing part and no paddle at rest. It is reached if it is eight-connected to the gutter. A
+passage is found if it is wider than a ball by about 0.45 ball radii; `check.py` refuses narrower ones, so for
+a checked table the result is exact.
 
-The grid's step is 5/16 of a ball radius. Four by four samples make one square cell of 1.25 ball radii,
-smaller than any part with a ball's radius around it: no cell reaches through a wall.
+The step of the grid is 5/16 of a ball radius. Four by four samples make a square cell of 1.25 ball radii. A
+cell is smaller than any part with a ball's radius around it, so no cell extends through a wall.
 """
 
 from __future__ import annotations
 
 import math
 from collections import defaultdict
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.table.geometry import Bools, Floats, Standing, outline
-from silverball.table.parts import Board, Paddle, Table, Triangle
+from silverball.table.geometry import Bools, Floats
+from silverball.table.parts import Board, Outline, Paddle, Triangle
+
+if TYPE_CHECKING:
+    from silverball.table.table import Table
 
 CELL = 1.25  # [ball radii] side of a cell in which a ball may be created
 SAMPLES = 4  # samples along each side of a cell
 STEP = CELL / SAMPLES  # [ball radii] between two samples
 PASSAGE = (
     math.sqrt(2.0) * STEP
-)  # [ball radii] a passage at any angle that is wider than a ball by this is seen
+)  # [ball radii] a passage at any angle is found if it is wider than a ball by this
 
 
 class Grid(NamedTuple):
     """The samples of one board.
 
     Attributes:
-        x: Their heights on the board [u], from just above the gutter to the top, shape [row].
-        z: Their places across [u], symmetric about the middle, shape [column].
-        step: The distance between two neighbours [u].
+        x: The x of each row [u], from just above the gutter to the top, shape [row].
+        z: The z of each column [u], symmetric about the middle, shape [column].
+        step: The distance between neighbours [u].
         floor_row: The first row in which balls may be created: out of the paddles' reach.
     """
 
@@ -46,7 +49,7 @@ class Grid(NamedTuple):
 
     @classmethod
     def of(cls, board: Board, paddles: tuple[Paddle, ...]) -> Grid:
-        """The grid whose cells start right above the paddles' reach."""
+        """Make the grid whose cells start right above the reach of the paddles."""
         radius = board.ball_radius
         step = STEP * radius
         floor = creation_floor(board, paddles)
@@ -59,10 +62,10 @@ class Grid(NamedTuple):
 
 
 class Space(NamedTuple):
-    """What the samples say.
+    """The free space of a board, sampled.
 
     Attributes:
-        grid: Where the samples lie.
+        grid: The positions of the samples.
         free: Whether a ball there touches nothing, shape [row, column].
         reached: Whether it is free and leads to the gutter, shape [row, column].
     """
@@ -72,14 +75,14 @@ class Space(NamedTuple):
     reached: Bools
 
     def reaches(self, point: tuple[float, float]) -> bool:
-        """Whether a ball that comes from the gutter can be at this place, give or take four steps."""
+        """Return whether a way leads from the gutter to a place, within four steps."""
         row = round((point[0] - float(self.grid.x[0])) / self.grid.step) if len(self.grid.x) else 0
         column = round((point[1] - float(self.grid.z[0])) / self.grid.step)
         rows, columns = slice(max(0, row - 4), max(0, row + 5)), slice(max(0, column - 4), max(0, column + 5))
         return bool(self.reached[rows, columns].any())
 
     def places(self) -> tuple[Floats, float]:
-        """See `ball_places`."""
+        """Return the cells in which a ball may be created, as `ball_places` does."""
         grid = self.grid
         cells = self.reached[grid.floor_row :]
         rows, columns = cells.shape[0] // SAMPLES, cells.shape[1] // SAMPLES
@@ -92,32 +95,31 @@ class Space(NamedTuple):
 
 
 def creation_floor(board: Board, paddles: tuple[Paddle, ...]) -> float:
-    """[u] the x above which balls are created: out of every paddle's reach, or clear of the gutter."""
+    """Return the x [u] above which balls are created: beyond the paddles' reach, clear of the gutter."""
     if not paddles:
         return board.gutter + 2.0 * board.ball_radius
     return max(paddle.pivot[0] + paddle.reach for paddle in paddles) + board.ball_radius
 
 
 def ball_places(table: Table) -> tuple[Floats, float]:
-    """The square cells of the board in which a ball may be created.
+    """Return the square cells of the board in which a ball may be created.
 
-    A cell is offered when a ball at one of its sixteen samples touches nothing and can get to the
-    gutter, so never behind a corner wall or in a sealed pocket. Other points of a cell may be taken:
-    whoever creates a ball tests its very place.
+    In each cell a ball at one of the sixteen samples touches nothing and can get to the gutter; so no cell
+    lies behind a corner wall or in a closed pocket. Other points of a cell may be occupied, so the place of a
+    new ball must be tested.
 
     Args:
         table: A finished table, with or without paddles.
 
     Returns:
-        The centres of the cells (x, z) [u], shape [cell, 2], in rows from the paddles up to the top, each
+        The centres of the cells (x, z) [u], shape [cell, 2], row by row from the paddles to the top, each
         from left to right; and the side of a cell [u].
     """
-    parts: tuple[Standing, ...] = (*table.slant_wall, *table.triangular_prism, *table.cylinder)
-    return space(table.board, table.paddle, [outline(part) for part in parts]).places()
+    return space(table.board, table.paddle, [part.outline() for part in table.standing_parts]).places()
 
 
-def space(board: Board, paddles: tuple[Paddle, ...], standing: list[tuple[Triangle, float]]) -> Space:
-    """The space for a ball between the standing parts and the paddles at rest."""
+def space(board: Board, paddles: tuple[Paddle, ...], standing: list[Outline]) -> Space:
+    """Return the free space for a ball between the standing parts and the paddles at rest."""
     grid = Grid.of(board, paddles)
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in paddles]
     margin = board.wall_thickness + board.ball_radius
@@ -128,7 +130,7 @@ def space(board: Board, paddles: tuple[Paddle, ...], standing: list[tuple[Triang
 
 
 def _block(free: Bools, grid: Grid, core: Triangle, radius: float) -> None:
-    """Mark the samples nearer to a core than a radius as not free, in place."""
+    """Mark the samples closer to a core than a radius as not free, in place."""
     xs, zs = [x for x, _ in core], [z for _, z in core]
     rows = slice(*np.searchsorted(grid.x, [min(xs) - radius, max(xs) + radius]))
     columns = slice(*np.searchsorted(grid.z, [min(zs) - radius, max(zs) + radius]))
@@ -136,7 +138,7 @@ def _block(free: Bools, grid: Grid, core: Triangle, radius: float) -> None:
     edges = [(a, b) for a, b in zip(core, (*core[1:], core[0]), strict=True) if a != b]
     if not edges:  # a single point
         edges = [(core[0], core[0])]
-    elif core[1] == core[2]:  # there and back
+    elif core[1] == core[2]:  # two points
         edges = edges[:1]
     outside = np.ones((x.shape[0], z.shape[1]), dtype=bool)
     inside = np.ones_like(outside)
@@ -152,10 +154,10 @@ def _block(free: Bools, grid: Grid, core: Triangle, radius: float) -> None:
 
 
 def _connected_to_first_row(free: Bools) -> Bools:
-    """The free samples that free neighbours, eight each, connect to the first row.
+    """Region labelling: the free samples that are eight-connected to the first row.
 
-    Neighbouring free samples of a row make a run; the runs of neighbouring rows that touch make a graph,
-    small enough to walk in Python.
+    Adjacent free samples of a row make a run; the runs of adjacent rows that touch make a graph, small enough
+    to traverse in Python.
     """
     if free.size == 0:
         return free
@@ -179,7 +181,7 @@ def _connected_to_first_row(free: Bools) -> Bools:
 
 
 def _touching(low: NDArray[np.int32], high: NDArray[np.int32]) -> list[tuple[int, int]]:
-    """The pairs of runs that stand above each other, each about once."""
+    """The pairs of runs that touch, most of them once."""
     pair = (low > 0) & (high > 0)
     pair[:, 1:] &= (low[:, 1:] != low[:, :-1]) | (high[:, 1:] != high[:, :-1])
     return list(zip(low[pair].tolist(), high[pair].tolist(), strict=True))

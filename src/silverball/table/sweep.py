@@ -1,11 +1,10 @@
-"""What would a turning paddle touch?
+"""The parts that a paddle would touch while it turns.
 
-The nearest that a paddle comes to a part, over all its angles, is found by bisection with a bound that
-nothing can slip through: when a paddle turns by an angle, none of its points moves further than that
-angle times the reach. So an interval of angles is clear when the distance at its middle, less the reach
-times half its width, leaves the clearance; else it is halved, until it is so narrow that the bound is
-worth a ten-thousandth of a unit. Two paddles turn independently, so for them it is a bisection of
-rectangles: one angle of each.
+The least distance of a paddle to a part, over all its angles, is bounded by bisection: when a paddle turns by
+an angle, no point of it moves further than that angle times the reach. So an interval of angles is clear if
+the distance at its middle, minus the reach times half its width, is at least the clearance. Otherwise it is
+halved, until the bound is below a ten-thousandth of a unit. Two paddles turn independently, so for them
+rectangles of two angles are bisected.
 """
 
 from __future__ import annotations
@@ -20,19 +19,19 @@ from silverball.table.geometry import Floats, border_gaps, core_distances, dista
 from silverball.table.parts import Board, Paddle, Triangle
 
 CLEARANCE = 0.02  # [u] that a turning paddle must leave; chosen: far above rounding, far below a ball
-FINEST = 1e-4  # [u] a motion smaller than this is not looked at more closely
-CACHED = 256  # answers that are kept: boards of one recipe ask the same of their standing parts
+FINEST = 1e-4  # [u] least motion that is still bisected
+CACHED = 256  # cached results; the boards of a recipe share their standing parts
 SPLITS = 40  # halvings at most; from 170° and a reach of 10 u, twenty are enough
 
 
 def sweep_angles(paddle: Paddle) -> tuple[float, float]:
-    """The angles [deg] between which a paddle turns."""
+    """Return the angles [deg] between which a paddle turns."""
     return paddle.rest_angle, paddle.up_angle
 
 
 @functools.lru_cache(maxsize=CACHED)
 def touches_shape(paddle: Paddle, core: Triangle, radius: float) -> float | None:
-    """The angle [deg] at which a paddle comes too near to a standing part; None if it never does."""
+    """Return an angle [deg] at which a paddle is too close to a standing part, or None."""
     other = np.array(core)
     if float(distances(np.array(paddle.pivot), other)) - radius > paddle.reach + CLEARANCE:
         return None
@@ -41,7 +40,7 @@ def touches_shape(paddle: Paddle, core: Triangle, radius: float) -> float | None
 
 @functools.lru_cache(maxsize=CACHED)
 def touches_border(paddle: Paddle, board: Board) -> tuple[float, int] | None:
-    """The angle [deg] at which a paddle comes too near to a border, and which border; None if never."""
+    """Return an angle [deg] at which a paddle is too close to a border, and the border; or None."""
     for border in range(3):
 
         def gap(cores: Floats, border: int = border) -> Floats:
@@ -56,7 +55,7 @@ def touches_border(paddle: Paddle, board: Board) -> tuple[float, int] | None:
 
 @functools.lru_cache(maxsize=CACHED)
 def touches_paddle(first: Paddle, second: Paddle) -> tuple[float, float] | None:
-    """The angles [deg] of two paddles at which they come too near to each other; None if they never do."""
+    """Return the angles [deg] of two paddles at which they are too close to each other, or None."""
     if math.dist(first.pivot, second.pivot) > first.reach + second.reach + CLEARANCE:
         return None
     low = np.array([[first.rest_angle, second.rest_angle]])
@@ -82,7 +81,7 @@ def touches_paddle(first: Paddle, second: Paddle) -> tuple[float, float] | None:
 
 
 def _nearest_below(paddle: Paddle, gap_at: Callable[[Floats], Floats]) -> float | None:
-    """An angle [deg] at which the gap falls below the clearance, near the smallest; None if there is none."""
+    """An angle [deg] at which the gap is below the clearance, near the smallest gap; or None."""
     edges = np.linspace(*sweep_angles(paddle), 17)
     low, high = edges[:-1], edges[1:]
     for _ in range(SPLITS):

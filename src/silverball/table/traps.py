@@ -1,17 +1,17 @@
-"""Where can a ball lie for ever?
+"""Traps: the places where a ball would lie forever.
 
-A ball at rest is carried in one of two ways: by a face that is level, or by two contacts whose normals
-hold it up from both sides. Both are found exactly, not on a grid: faces by their slope, and pairs of
-contacts as the crossings of the outlines, a ball's radius further out, of every two parts that are
-nearer to each other than a ball is wide (and of every part and border). A crossing counts when
+A ball at rest lies on a level face, or on two contacts whose normals support it from both sides. Both are
+found exactly, not on a grid: faces by their slope, pairs of contacts as the crossings of outlines that are
+offset by a ball's radius. All pairs of parts closer than a ball is wide are considered, and every part with
+every border. A crossing is a pocket if
 
     no other part is in the way,
-    straight up lies between the two normals (less than 180° apart), and
-    a ball can get there: `Space.reaches`.
+    straight up lies between the two normals (less than 180° apart),
+    a ball can get there (`Space.reaches`), and
+    the way out over the lower part climbs higher than the hops that every touch leaves.
 
-and when the way out over the nearer part climbs by more than the hops that every touch leaves.
-On a single round top a ball can only balance; that is no trap. Paddles stand at rest here: what a player
-must free by hand lies there for ever when nobody plays.
+On a single round top a ball can only balance, which is not a trap. Paddles are at rest here: a ball that only
+a paddle can free would lie there forever in an unplayed game.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from typing import NamedTuple
 import numpy as np
 
 from silverball.table.geometry import (
-    AT_ONCE,
     BORDER_NAMES,
     BORDER_NORMALS,
+    CHUNK,
     Bools,
     Floats,
     Indices,
@@ -38,13 +38,13 @@ from silverball.table.geometry import (
 from silverball.table.parts import Board, Point
 from silverball.table.reach import Space
 
-LEVEL = 2.0  # [deg] a face is level below this slope; chosen: a ball there needs 8 s to slide a table's width
-SHALLOW = 1e-4  # [u] a ball hops out of a less deep pocket; chosen: a fifth of the least hop of a touch
-CONTACT = 1e-7  # [u] a gap below this is a contact; the crossings themselves are good to 1e-12
+LEVEL = 2.0  # [deg] a face below this slope is level; chosen: a ball on it slides a table's width in 8 s
+SHALLOW = 1e-4  # [u] a ball hops out of a shallower pocket; chosen: a fifth of the least hop of a touch
+CONTACT = 1e-7  # [u] a gap below this is a contact; crossings are accurate to 1e-12
 
 
 class LevelFace(NamedTuple):
-    """A face on which a ball can lie: the shape, the slope [deg] and a place for the ball's centre [u]."""
+    """A face on which a ball can lie: the shape, the slope [deg], and the ball's centre [u]."""
 
     shape: int
     slope: float
@@ -52,7 +52,7 @@ class LevelFace(NamedTuple):
 
 
 class Pocket(NamedTuple):
-    """Two contacts that hold a ball: the shape, what else it leans on, and the ball's centre [u]."""
+    """Two contacts that hold a ball: a shape, the other shape or border, and the ball's centre [u]."""
 
     shape: int
     other: int | str
@@ -60,7 +60,7 @@ class Pocket(NamedTuple):
 
 
 def level_faces(shapes: Shapes, board: Board, space: Space) -> list[LevelFace]:
-    """The faces on which a ball can lie, at most one for each shape."""
+    """Find the faces on which a ball can lie, at most one for each shape."""
     found: dict[int, LevelFace] = {}
     normals = outward_normals(shapes.core)
     for shape, edge in np.argwhere(normals[..., 0] >= math.cos(math.radians(LEVEL))).tolist():
@@ -81,7 +81,7 @@ def level_faces(shapes: Shapes, board: Board, space: Space) -> list[LevelFace]:
 
 
 def pockets(shapes: Shapes, board: Board, space: Space) -> list[Pocket]:
-    """The places where two contacts hold a ball, the lowest first, each once."""
+    """Find the places where two contacts hold a ball, each once, the lowest first."""
     balls = _crossings(shapes, board)
     found: list[Pocket] = []
     for ball in balls:
@@ -93,23 +93,23 @@ def pockets(shapes: Shapes, board: Board, space: Space) -> list[Pocket]:
 
 
 def _is_clear(balls: Floats, shapes: Shapes, board: Board) -> Bools:
-    """Whether balls touch things at most, shape [ball]."""
+    """Whether balls overlap nothing, bool [ball]."""
     inside = border_gaps(balls, board).min(axis=-1) - board.ball_radius > -CONTACT
     is_clear: Bools = inside & clear_of(balls, board.ball_radius, shapes, CONTACT)
     return is_clear
 
 
 def _gaps(balls: Floats, shapes: Shapes, board: Board) -> Floats:
-    """From balls' surfaces to all shapes and the three borders [u], shape [ball, shape + 3]."""
+    """The gaps from balls to all shapes and the three borders [u], shape [ball, shape + 3]."""
     away = offsets(balls[:, None, :], shapes.core[None])
     to_shapes = np.sqrt((away**2).sum(axis=-1)) - shapes.radius - board.ball_radius
     return np.concatenate([to_shapes, border_gaps(balls, board) - board.ball_radius], axis=1)
 
 
 def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
-    """The two contacts that hold a ball at this place, if there are two."""
+    """The pocket made of the contacts that hold a ball at a place, or None."""
     gaps = _gaps(ball[None, :], shapes, board)[0]
-    contacts: list[tuple[float, int]] = []  # (how far the normal leans to the right [rad], collider)
+    contacts: list[tuple[float, int]] = []  # (angle of the normal to the right [rad], shape)
     for collider in np.nonzero(np.abs(gaps) < CONTACT)[0].tolist():
         if collider < len(shapes.radius):
             x, z = offsets(ball, shapes.core[collider]).tolist()
@@ -120,12 +120,12 @@ def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
     rightmost = min((contact for contact in contacts if contact[0] >= 0.0), default=None)
     if leftmost is None or rightmost is None or leftmost[1] == rightmost[1]:
         return None
-    if rightmost[0] - leftmost[0] >= math.pi - 1e-9:  # pinched between upright faces: it slides down
+    if rightmost[0] - leftmost[0] >= math.pi - 1e-9:  # between vertical faces it slides down
         return None
     first, second = sorted((leftmost[1], rightmost[1]))
     count = len(shapes.radius)
     if first >= count:
-        return None  # borders alone hold nothing: none of them faces up
+        return None  # borders alone hold no ball: none of them faces up
     over = [i for i in (first, second) if i < count]
     tops = shapes.core[over, :, 0].max(axis=1) + shapes.radius[over] + board.ball_radius
     if tops.min() - ball[0] < SHALLOW:
@@ -135,16 +135,16 @@ def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
 
 
 def _crossings(shapes: Shapes, board: Board) -> Floats:
-    """Every place where a ball touches two colliders at once and nothing is in its way, [ball, 2].
+    """The places where a ball touches two shapes and overlaps nothing, [ball, 2].
 
-    The lowest first, and each once: walls that lie one on another cross in the same places.
+    The lowest first, and each once: overlapping walls cross in the same places.
     """
     if len(shapes.radius) == 0:
         return np.empty((0, 2))
     first, second, _ = near_pairs(shapes, 2.0 * board.ball_radius)
     found = []
-    for begin in range(0, len(first), AT_ONCE):
-        chunk = slice(begin, begin + AT_ONCE)
+    for begin in range(0, len(first), CHUNK):
+        chunk = slice(begin, begin + CHUNK)
         found.append(_pair_crossings(shapes, first[chunk], second[chunk], board.ball_radius))
     center, bound = shapes.bounds()
     near_border = border_gaps(center, board) - bound[:, None] < 2.0 * board.ball_radius
@@ -158,14 +158,14 @@ def _crossings(shapes: Shapes, board: Board) -> Floats:
 
 
 def _lines(shapes: Shapes, which: Indices, ball_radius: float) -> tuple[Floats, Floats]:
-    """The ball's centre on the faces of shapes: normals n and levels d of n·p = d, [shape, 3(, 2)]."""
+    """The lines of a ball's centre along the faces of shapes: normals n and levels d of n·p = d."""
     normal = outward_normals(shapes.core[which])
     level = (normal * shapes.core[which]).sum(axis=-1)
     return normal, level + (shapes.radius[which] + ball_radius)[:, None]
 
 
 def _pair_crossings(shapes: Shapes, first: Indices, second: Indices, ball_radius: float) -> Floats:
-    """Where the outlines of pairs of shapes, a ball's radius further out, cross: [ball, 2]."""
+    """The crossings of the outlines of pairs of shapes, offset by a ball's radius: [ball, 2]."""
     lines, corners, radii = [], [], []
     for which in (first, second):
         lines.append(_lines(shapes, which, ball_radius))
@@ -183,7 +183,7 @@ def _pair_crossings(shapes: Shapes, first: Indices, second: Indices, ball_radius
     )
     pairs = np.arange(len(first))
     kept = []
-    for points in found:  # most crossings of whole lines and circles lie off the outlines: drop them early
+    for points in found:  # most crossings of lines and circles do not lie on the outlines
         flat = points.reshape(len(pairs), -1, 2)
         ok = np.asarray(np.isfinite(flat).all(axis=-1))
         for which in (first, second):
@@ -195,11 +195,11 @@ def _pair_crossings(shapes: Shapes, first: Indices, second: Indices, ball_radius
 
 
 def _border_crossings(shapes: Shapes, which: Indices, border: int, board: Board) -> Floats:
-    """Where the outlines of shapes, a ball's radius further out, cross the line of a border: [ball, 2]."""
+    """The crossings of the outlines of shapes, offset by a ball's radius, with a border: [ball, 2]."""
     if len(which) == 0:
         return np.empty((0, 2))
     normal = np.array(BORDER_NORMALS[border])
-    # On this line the ball touches the border: its gap at the origin, less the radius, is the distance.
+    # On this line the ball touches the border; its distance is the gap at the origin minus the radius.
     level = np.array(board.ball_radius - border_gaps(np.zeros(2), board)[border])
     n, d = _lines(shapes, which, board.ball_radius)
     radius = (shapes.radius[which] + board.ball_radius)[:, None]
@@ -210,7 +210,7 @@ def _border_crossings(shapes: Shapes, which: Indices, border: int, board: Board)
 
 
 def _line_line(n1: Floats, d1: Floats, n2: Floats, d2: Floats) -> Floats:
-    """Where n1·p = d1 and n2·p = d2; not finite for parallel lines."""
+    """The point with n1·p = d1 and n2·p = d2; not finite for parallel lines."""
     turn = n1[..., 0] * n2[..., 1] - n1[..., 1] * n2[..., 0]
     turn = np.where(np.abs(turn) > 1e-9, turn, np.nan)
     x = (d1 * n2[..., 1] - d2 * n1[..., 1]) / turn
@@ -219,7 +219,7 @@ def _line_line(n1: Floats, d1: Floats, n2: Floats, d2: Floats) -> Floats:
 
 
 def _line_circle(normal: Floats, level: Floats, center: Floats, radius: Floats) -> tuple[Floats, Floats]:
-    """Where n·p = d meets a circle: both places; not finite where they do not meet."""
+    """The two intersections of a line n·p = d and a circle; not finite if there are none."""
     gap = level - (normal * center).sum(axis=-1)
     square = radius**2 - gap**2
     half = np.sqrt(np.where(square >= 0.0, square, np.nan))
@@ -229,7 +229,7 @@ def _line_circle(normal: Floats, level: Floats, center: Floats, radius: Floats) 
 
 
 def _circle_circle(c1: Floats, r1: Floats, c2: Floats, r2: Floats) -> tuple[Floats, Floats]:
-    """Where two circles meet: both places; not finite where they do not meet."""
+    """The two intersections of two circles; not finite if there are none."""
     between = c2 - c1
     square = (between**2).sum(axis=-1)
     square = np.where(square > 0.0, square, np.nan)

@@ -1,9 +1,4 @@
-"""Tables come to life: `World` (one), `WorldBatch` (thousands), `Snapshot` (saved ones), and what they show.
-
-`compile.py` turns tables into the arrays that the step reads, `single_step.py` moves a single world with
-one short
-call, `state.py` and `snapshot.py` know what is saved.
-"""
+"""Tables in motion: `World` (one), `WorldBatch` (thousands), and `Snapshot` (saved worlds)."""
 
 from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState

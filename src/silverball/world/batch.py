@@ -1,8 +1,8 @@
-"""Many worlds moved by one call: `WorldBatch`, on all cores.
+"""Many worlds that move together, on all cores: `WorldBatch`.
 
-A batch holds one flat record per world; world i of a batch with seed s is, bit for bit, the single world
-with seed s + i at the same tick rate. Slices of worlds go to threads (the kernels hold no lock), which cannot
-change a bit, since no world reads another.
+A batch holds one flat record per world. World i of a batch with seed s is, bit for bit, the single world with
+seed s + i at the same tick rate. Slices of worlds run on threads (the kernels release the interpreter lock);
+the number of threads never changes a result, because no world reads another.
 """
 
 from __future__ import annotations
@@ -17,30 +17,45 @@ from numpy.typing import ArrayLike, NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
-from silverball.physics.records import LOG, WORLD, Fault, Outcome, Part, records
+from silverball.physics.records import LOG, BatchGeometry, Fault, Lanes, Outcome, records
 from silverball.physics.step import run_worlds
 from silverball.table import Table, generate_table, load_table
-from silverball.world import saved_world as states
-from silverball.world.compile import Boards, compile_tables
-from silverball.world.snapshot import Index, Snapshot, put_back, taken
+from silverball.world import saved_world
+from silverball.world.arguments import Index, checked_int, checked_row, checked_seeds
+from silverball.world.compile import Boards, blank_worlds, compile_tables
+from silverball.world.events import Event, read_events
+from silverball.world.snapshot import Snapshot, gather, scatter
 from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
-LEAST_SLICE = 512  # world-ticks below which a slice costs more to hand out than to run
-PIECE_WORK = 2**16  # world-ticks a thread: Python hears of Ctrl-C between two pieces, which take some 50 ms
-GREATEST_SEED = 2**63 - 1
+SMALLEST_SLICE = 512  # world-ticks; a smaller slice costs more to hand out than to run
+CHUNK = 2**16  # world-ticks per thread and call, some 50 ms; Python notices Ctrl-C between two calls
 
 
 class WorldBatch:
     """Thousands of worlds, each with its own state and, if wanted, its own table.
 
     Attributes:
-        state: WORLD records, shape [world]: everything that changes. Copies of rows continue exactly.
-        boards: The compiled tables.
-        board_of: The board of each world, shape [world].
-        tables: The finished table of each board.
-        tallies: Hits of every part since the batch was made, shape [world, part]. Statistics, not state.
-        logs: LOG records, shape [world]: what happened in the last step.
+        count: The number of worlds.
+        tick_rate: Ticks per second.
+        threads: The number of threads that `step` may use.
+        state: WORLD records, shape [world]: everything that changes. A copy of a row continues exactly.
+        tables: The finished tables; worlds on the same table share one.
+        board_of: The number of each world's table in `tables`, int64 [world].
+        tallies: Hits of every part since the batch was made, int64 [world, part]; statistics, not state.
+            `part_numbers` says which column is whose.
+        boards: The compiled tables, for kernels (see `silverball.world.compile`).
+        logs: LOG records, shape [world], for kernels; `events` reads them.
+
+    Example:
+        >>> import numpy as np, silverball as sb
+        >>> batch = sb.WorldBatch("classic", count=1000)
+        >>> created = batch.create_balls()
+        >>> actions = np.zeros((1000, 3), bool)
+        >>> actions[:500, 0] = True  # the left button, in the first 500 worlds
+        >>> batch.step(actions, ticks=240)
+        >>> set(batch.state["tick"].tolist()), batch.state["score"].shape
+        ({240}, (1000,))
     """
 
     def __init__(
@@ -48,7 +63,7 @@ class WorldBatch:
         table: Table | str | os.PathLike[str] | Sequence[Table],
         count: int = 1,
         seed: int | Sequence[int] = 0,
-        tick_rate: int = 60,
+        tick_rate: int = 240,
         threads: int | None = None,
     ) -> None:
         """Make `count` worlds.
@@ -56,31 +71,45 @@ class WorldBatch:
         Args:
             table: One table for all worlds, or one each. From a recipe (a table with a `[random]` section)
                 every world gets a board of its own, made with its own seed.
-            count: How many worlds.
+            count: The number of worlds, 1 to 4,194,304.
             seed: World i gets seed + i; or one seed each. 0 to 2⁶³ − 1.
-            tick_rate: Ticks per second, 10 to 100,000. 240 plays finely; 60 is enough for agents.
-            threads: How many threads `step` may use; None: one for each core. It never changes a result.
+            tick_rate: Ticks per second, 10 to 100,000. 60 is enough for agents, and four times as fast.
+            threads: The number of threads that `step` may use; None: one for each core.
 
         Raises:
-            ValueError: A count, seed, tick rate or number of tables that cannot be.
-            TableError: A file has problems, or parts that make no sense. A table made in Python is otherwise
-                taken as it is: `check_table` tells what is wrong with it.
+            ValueError: A count, seed, tick rate, or the number of tables or seeds is invalid.
+            TableError: A file has problems, or a part has no extent. A table made in Python is otherwise
+                not checked; `check_table` lists what is wrong with it.
         """
-        self.count = checked_int("count", count, 1, 2**22)
-        self.tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
-        self.threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
-        seeds = _seeds(seed, self.count)
-        self.tables, self.board_of = _finished(table, seeds, self.count)
-        self.boards: Boards = compile_tables(self.tables)
-        self.state: NDArray[Any] = records(self.count, WORLD)
-        self.state["seed"] = seeds
+        count = checked_int("count", count, 1, 2**22)
+        tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
+        threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
+        seeds = checked_seeds(seed, count)
+        tables, board_of = _finished(table, seeds, count)
+        boards = compile_tables(tables)
+        state = blank_worlds(boards, board_of)
+        state["seed"] = seeds
+        self._hold(tables, boards, state, board_of, tick_rate, threads)
+
+    def _hold(
+        self,
+        tables: tuple[Table, ...],
+        boards: Boards,
+        state: NDArray[Any],
+        board_of: NDArray[np.int64],
+        tick_rate: int,
+        threads: int,
+    ) -> None:
+        """Set every attribute: worlds with these records, WORLD [world], on these boards [world]."""
+        self.count = len(state)
+        self.tick_rate = tick_rate
+        self.threads = threads
+        self.tables = tables
+        self.boards = boards
+        self.board_of = board_of
+        self.state = state
         self.logs: NDArray[Any] = records(self.count, LOG)
-        self.tallies = np.zeros((self.count, max(len(names) for names in self.boards.names)), np.int64)
-        first = self.boards.board["collider_first"][self.board_of]
-        for side, part in enumerate((Part.LEFT_PADDLE, Part.RIGHT_PADDLE)):
-            rest = self.boards.collider["angle_rest"][first + part]
-            self.state["paddle"]["angle"][:, side] = rest
-            self.state["paddle"]["angle_commanded"][:, side] = rest
+        self.tallies = np.zeros((self.count, max(len(names) for names in boards.names)), np.int64)
 
     def __repr__(self) -> str:
         return f"<WorldBatch of {self.count} at {self.tick_rate} ticks/s on {len(self.tables)} board(s)>"
@@ -89,19 +118,29 @@ class WorldBatch:
         """The number of worlds."""
         return self.count
 
-    def step(self, actions: ArrayLike, ticks: int = 1) -> None:
-        """Move every world on.
+    @property
+    def lanes(self) -> Lanes:
+        """What changes in the worlds, as kernels take it."""
+        return Lanes(self.state, self.board_of, self.logs, self.tallies)
 
-        Ctrl-C ends a long call within a fraction of a second. All worlds then stand at the end of the same
-        tick, as after a shorter call (no batch is stopped within a tick, however many worlds it has).
+    @property
+    def geometries(self) -> BatchGeometry:
+        """What the worlds move through, as kernels take it."""
+        return BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
+
+    def step(self, actions: ArrayLike, ticks: int = 1) -> None:
+        """Advance every world by a number of ticks.
+
+        Ctrl-C ends a long call within a fraction of a second; all worlds then stand at the end of the same
+        tick, as after a shorter call.
 
         Args:
-            actions: bool [world, 3]: left, right, jitter, held for all ticks with one shove on the first;
-                or [ticks, world, 3], one row for every tick. For example `np.zeros((count, 3), bool)`.
-            ticks: How many ticks.
+            actions: bool [world, 3]: left, right, jitter. The buttons are held for all ticks, the jitter
+                comes on the first. Or bool [ticks, world, 3], one row for every tick.
+            ticks: The number of ticks, 0 or more.
 
         Raises:
-            ValueError: The shape of the actions does not fit, or ticks is not a whole number of at least 0.
+            ValueError: The shape of the actions is wrong, or ticks is not an integer ≥ 0.
         """
         ticks = checked_int("ticks", ticks, 0, 2**40)
         held = np.ascontiguousarray(actions, np.bool_)
@@ -112,36 +151,45 @@ class WorldBatch:
                 f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), "
                 f"got {np.shape(actions)}"
             )
-        self.run(held, ticks)
+        self.step_unchecked(held, ticks)
 
-    def run(self, held: NDArray[np.bool_], ticks: int) -> None:
-        """`step` without its checks: actions as a C-contiguous bool array [1 or ticks, world, 3]."""
-        if ticks > 1 and ticks > (piece := PIECE_WORK * self.threads // self.count or 1):
-            self._run_pieces(held, ticks, piece)
+    def step_unchecked(self, held: NDArray[np.bool_], ticks: int) -> None:
+        """Do what `step` does without its checks.
+
+        Args:
+            held: The actions, a C-contiguous bool array [1 or ticks, world, 3].
+            ticks: The number of ticks; a negative one continues the call before: events are kept, and a
+                single row shoves no ball again.
+        """
+        if ticks > 1 and ticks > (chunk := CHUNK * self.threads // self.count or 1):
+            self._step_in_chunks(held, ticks, chunk)
             return
-        boards = self.boards
+        lanes = Lanes(self.state, self.board_of, self.logs, self.tallies)
+        geometries = BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
         self.on_threads(
-            lambda first, end: run_worlds(
-                self.state, boards.board, self.board_of, boards.collider, boards.grid, self.logs,
-                self.tallies, held, first, end, ticks, 1.0 / self.tick_rate,
-            ),
+            lambda first, end: run_worlds(lanes, geometries, held, first, end, ticks, 1.0 / self.tick_rate),
             self.count * abs(ticks),
-        )  # fmt: skip
+        )
 
-    def _run_pieces(self, held: NDArray[np.bool_], ticks: int, piece: int) -> None:
-        for begun in range(0, ticks, piece):
-            end = min(begun + piece, ticks)
-            rows = held if len(held) == 1 else held[begun:end]
+    def _step_in_chunks(self, held: NDArray[np.bool_], ticks: int, chunk: int) -> None:
+        for start in range(0, ticks, chunk):
+            end = min(start + chunk, ticks)
+            rows = held if len(held) == 1 else held[start:end]
             if len(rows) < len(held) and len(rows) == 1:
-                rows = rows.repeat(2, axis=0)  # a single row would be one that is held, without its jitter
-            self.run(rows, end - begun if begun == 0 else begun - end)
+                rows = rows.repeat(2, axis=0)  # a single row would be held, and its jitter ignored
+            self.step_unchecked(rows, end - start if start == 0 else start - end)
 
     def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
-        """Call task(first, end) for slices of the worlds, on threads if the work [world-ticks] pays.
+        """Call task(first, end) for slices of the worlds, on threads if there is enough work.
 
-        An exception from outside, such as Ctrl-C, is raised when all slices are done.
+        An exception from outside, for example Ctrl-C, is raised when all slices are done.
+
+        Args:
+            task: A function that releases the interpreter lock, called with the first world and one past
+                the last.
+            work: The cost of all worlds [world-ticks].
         """
-        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // LEAST_SLICE)
+        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // SMALLEST_SLICE)
         if self.threads == 1 or slices < 2:
             task(0, self.count)
             return
@@ -149,13 +197,22 @@ class WorldBatch:
         run_on_threads(task, list(pairwise(edges)), self.threads)
 
     def create_balls(self, mask: ArrayLike | None = None) -> NDArray[np.bool_]:
-        """Create a ball in every world of the mask that has room for one.
+        """Create a ball at rest, at a random free place, in every chosen world that can take one.
 
         Args:
-            mask: bool [world]; None: all.
+            mask: Which worlds, bool [world]; None: all.
 
         Returns:
-            Where a ball was created, bool [world]. Never raises for want of room.
+            Where a ball was created, bool [world]. A world that has `max_balls`, no free place or a fault
+            stays as it is.
+
+        Raises:
+            ValueError: The mask has another shape.
+
+        Example:
+            >>> import silverball as sb
+            >>> sb.WorldBatch("classic", count=3).create_balls([True, False, True]).tolist()
+            [True, False, True]
         """
         wanted = np.ones(self.count, np.bool_) if mask is None else np.ascontiguousarray(mask, np.bool_)
         if wanted.shape != (self.count,):
@@ -175,41 +232,89 @@ class WorldBatch:
         created: NDArray[np.bool_] = outcomes == Outcome.CREATED
         return created
 
+    def events(self, index: int) -> tuple[Event, ...]:
+        """Return what happened in one world, as `World.events` does.
+
+        Args:
+            index: The number of the world, 0 to count − 1; negative numbers count from the end.
+
+        Raises:
+            ValueError: There is no such world.
+
+        Example:
+            >>> import numpy as np, silverball as sb
+            >>> batch = sb.WorldBatch("classic", count=3)
+            >>> created = batch.create_balls()
+            >>> batch.step(np.zeros((3, 3), bool))
+            >>> [event.kind for event in batch.events(2)]
+            ['created']
+        """
+        row = checked_row(index, self.count)
+        board = self.board_of[row]
+        return read_events(self.logs[row], self.boards.names[board], self.tables[board].board.height)
+
     def save(self, index: Index = None) -> Snapshot:
         """Copy the state of some worlds, random generators included, for `restore`.
 
         Args:
-            index: Which worlds: None (all), a number, a slice, numbers, or a mask bool [world].
+            index: Which worlds: None (all), a number, a slice, a list of numbers, or a mask bool [world].
 
         Raises:
-            ValueError: The index is none, or out of range.
+            ValueError: The index is invalid or out of range.
         """
-        return taken(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
+        return gather(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
 
     def restore(self, snapshot: Snapshot, index: Index = None) -> None:
         """Go back to saved states, bit for bit; each world then stands on the table it was saved on.
 
-        The record i of the snapshot goes into the i-th world of the index, a single record into all of them:
-        ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches have the same random
-        generator, so the same actions lead to the same future; ``batch.state["seed"] = ...`` parts them. Logs
-        of these worlds are emptied, tallies stay. On any error nothing has changed. A record that somebody
-        has made impossible stops its world with a named fault in the next step.
+        Record i of the snapshot goes into the i-th chosen world, a single record into all of them:
+        ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches share the seed, so
+        the same actions lead to the same future until ``batch.state["seed"]`` is changed. The events of these
+        worlds are dropped, tallies stay. On any error nothing has changed. An impossible record stops its
+        world with a named fault in the next step.
 
         Args:
             snapshot: What `save` of this or another batch returned.
-            index: Which worlds: None (all), a number, a slice, numbers, or a mask bool [world].
+            index: Which worlds: None (all), a number, a slice, a list of numbers, or a mask bool [world].
 
         Raises:
             StateError: The snapshot has another tick rate, or a table that this batch does not have.
-            ValueError: The index is none, out of range, names a world twice, or has another length.
+            ValueError: The index is invalid, out of range, names a world twice, or has another length.
+
+        Example:
+            >>> import silverball as sb
+            >>> batch = sb.WorldBatch("classic", count=3)
+            >>> batch.restore(batch.save(0))
+            >>> len(set(batch.digests()))
+            1
         """
         digests, board_of = self.boards.digests, self.board_of
-        rows = put_back(snapshot, self.state, digests, board_of, self.tick_rate, index)
-        self.logs["count"][rows] = self.logs["lost"][rows] = 0
+        rows = scatter(snapshot, self.state, digests, board_of, self.tick_rate, index)
+        for name in ("count", "lost", "carried", "done"):
+            self.logs[name][rows] = 0
 
     def digests(self) -> list[str]:
-        """The digest of each world, as `World.digest` gives it; about half a microsecond each."""
-        return states.digests(self.state)
+        """Return the digest of each world, as `World.digest` does; about half a microsecond each."""
+        return saved_world.digests(self.state)
+
+    def render(self, index: int = 0, height: int = 480, theme: str = "neon") -> NDArray[np.uint8]:
+        """Draw one of the worlds as it is now, as `World.render` does.
+
+        Args:
+            index: Which world.
+            height: Height of the picture [pixel]; the width follows from the table's shape.
+            theme: "neon", "parlour" or "clear".
+
+        Returns:
+            RGB, uint8 `[height, width, 3]`; row 0 is the upper edge.
+
+        Raises:
+            IndexError: There is no such world.
+            ValueError: The height is below 2, or the theme is unknown.
+        """
+        from silverball.drawing.renderer import render
+
+        return render(self.tables[self.board_of[index]], self.state[index], self.tick_rate, height, theme)
 
 
 @kernel
@@ -223,38 +328,17 @@ def _create_balls(
     wanted: Any,
     outcomes: Any,
 ) -> None:
-    """Create a ball in each wanted world; write an Outcome for each."""
+    """Create a ball in each wanted world, and write an `Outcome` for each."""
     for index in range(len(worlds)):
         if wanted[index] and worlds[index].fault == Fault.NONE:
             board = boards[board_of[index]]
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
 
 
-def checked_int(name: str, value: Any, least: int, greatest: int) -> int:
-    """The value as an int, if it is a whole number in the range; else a ValueError that says so."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
-        raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
-    return int(value)
-
-
-def _seeds(seed: int | Sequence[int], count: int) -> list[int]:
-    if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
-        first = checked_int("seed", seed, 0, GREATEST_SEED - count + 1)
-        return [first + index for index in range(count)]
-    if isinstance(seed, (bool, float, str)) or seed is None:
-        raise ValueError(
-            f"seed must be a whole number from 0 to 2⁶³ − 1, or one for each world, got {seed!r}"
-        )
-    seeds = [checked_int("seed", value, 0, GREATEST_SEED) for value in seed]
-    if len(seeds) != count:
-        raise ValueError(f"seed must be one number or {count} of them, one for each world, got {len(seeds)}")
-    return seeds
-
-
 def _finished(
     table: Table | str | os.PathLike[str] | Sequence[Table], seeds: list[int], count: int
 ) -> tuple[tuple[Table, ...], NDArray[np.int64]]:
-    """The distinct finished tables of a batch, and which world plays on which."""
+    """The distinct finished tables of a batch, and the number of each world's table, int64 [world]."""
     if isinstance(table, str | os.PathLike):
         table = load_table(table)
     if isinstance(table, Table):

@@ -1,10 +1,15 @@
-"""How does a table come to life: from the parts a person wrote to the arrays that the step reads?
+"""Compiling tables: from parts as data to the arrays that the physics reads.
 
-Every board takes a run of rows of one shared array of colliders, in the order of `physics.layout.Part`:
-three borders, two paddles, then slant walls, prisms and cylinders in the order of the file.
+The parts of every board are a run of rows in one shared array of colliders, in the order of `part_names`:
+three borders, two paddles, then slant walls, prisms and cylinders in the order of the file. An event, a tally
+and a collider row name a part by this number.
 
-Tables from files and from the generator have passed `check_table`; one made in Python is taken as it is, so
-that strange boards can be tried, unless its parts make no sense at all.
+    compile_tables   everything for a world: rows, grids, places for new balls, hashes
+    compile_parts    the rows of one table alone, for drawing
+    part_numbers     the number of each part, without compiling
+
+Tables from files and from the generator have passed `check_table`. A table made in Python is not checked, so
+that strange boards can be tried; only parts without an extent are refused.
 """
 
 from __future__ import annotations
@@ -17,24 +22,40 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import Problem, TableError
-from silverball.physics.grid import fill_grid
-from silverball.physics.records import BOARD, COLLIDER, Kind, Part, records
+from silverball.physics.broad_phase import fill_grid
+from silverball.physics.portable_math import sine_cosine
+from silverball.physics.records import BOARD, COLLIDER, WORLD, Kind, Part, records
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
-    LIGHT,
-    LONGEST_SEARCH,
+    LOW_GRAVITY,
+    MAX_SEARCH_TIME,
     SEARCH_TIME,
     SKIN,
     SKIN_SHARE,
 )
-from silverball.physics.trigonometry import sine_cosine
-from silverball.table import Board, Paddle, Table, TriangularPrism, ball_places, table_digest
+from silverball.table import (
+    Board,
+    Cylinder,
+    Paddle,
+    SlantWall,
+    Table,
+    TriangularPrism,
+    ball_places,
+    table_digest,
+)
 
 SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
-GRID_ROOM = 1024  # numbers for a board's grid at first; most need fewer
-TINY = 1e-300  # what a divisor is at least
-FAR = 1e9  # [u] where the paddle lies that a table does not have: out of every ball's reach
+FIRST_GRID_SIZE = 1024  # numbers for a board's grid at first; most need fewer
+TINY = 1e-300  # least divisor
+FAR = 1e9  # [u] place of a paddle that the table does not have, out of every ball's reach
+NAMES_OF_FIRST_PARTS = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
+PADDLES = ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right"))
+SAME_NAMES = (
+    "ball_radius", "ball_restitution", "friction", "gravity", "gutter", "hit_speed", "jitter", "max_balls",
+    "speed_cap",
+)  # fmt: skip
+"""Fields that `silverball.table.Board` and BOARD records share."""
 
 
 class Boards(NamedTuple):
@@ -43,7 +64,7 @@ class Boards(NamedTuple):
     Attributes:
         board: BOARD records, shape [board].
         collider: COLLIDER records of all boards, shape [collider].
-        grid: The grids of all boards, 32-bit numbers (see physics/grid.py).
+        grid: The grids of all boards, 32-bit numbers (see physics/broad_phase.py).
         place: Centres (x, z) [u] of the squares in which balls may be created, shape [place, 2].
         names: For each board, the names of its parts in the order of their numbers.
         digests: For each board, the hash of its table.
@@ -58,49 +79,26 @@ class Boards(NamedTuple):
 
 
 def compile_tables(tables: Sequence[Table]) -> Boards:
-    """Compile finished tables (without a `[random]` section) into arrays."""
+    """Compile finished tables (without a `[random]` section) into arrays.
+
+    Raises:
+        TableError: A part has no extent, or two paddles are on one side.
+    """
     boards = records(len(tables), BOARD)
-    colliders: list[NDArray[Any]] = []
-    places: list[NDArray[np.float64]] = []
-    names: list[tuple[str, ...]] = []
+    colliders = [compile_parts(table) for table in tables]
+    places = []
     collider_count = place_count = 0
-    for row, table in zip(boards, tables, strict=True):
-        parts, part_names = _colliders(table)
-        cells, size = ball_places(table)
-        b = table.board
-        row["pull_x"], row["pull_z"] = 0.0 - b.gravity, 0.0  # not −0.0
-        for name in (
-            "ball_radius",
-            "ball_restitution",
-            "speed_cap",
-            "hit_speed",
-            "jitter",
-            "gutter",
-            "max_balls",
-        ):
-            row[name] = getattr(b, name)
-        row["curvature"] = 1.0 / b.ball_radius
-        row["half_length"], row["half_width"] = b.length / 2, b.width / 2
-        row["low_z"], row["high_z"] = (
-            parts[Part.LEFT_WALL]["z"] + b.ball_radius,
-            parts[Part.RIGHT_WALL]["z"] - b.ball_radius,
-        )
-        row["top_x"] = parts[Part.TOP_WALL]["x"] - b.ball_radius
-        row["left_x"] = row["right_x"] = FAR
-        for p in table.paddle:
-            x, z, reach = _sweep(p)
-            row[f"{p.side}_x"], row[f"{p.side}_z"], row[f"{p.side}_reach"] = x, z, reach + b.ball_radius
-        row["paddle_top"] = max((_top(p) + b.ball_radius for p in table.paddle), default=-FAR)
-        _set_friction(row, b)
+    for row, table, parts in zip(boards, tables, colliders, strict=True):
+        _set_board(row, table.board)
+        _set_bounds(row, table, parts)
+        centers, size = ball_places(table)
         row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
-        row["place_first"], row["place_end"] = place_count, place_count + len(cells)
+        row["place_first"], row["place_end"] = place_count, place_count + len(centers)
         row["place_size"] = size
-        row["place_lowest"] = cells[:, 0].min() - size / 2 if len(cells) else math.inf
-        colliders.append(parts)
-        places.append(cells)
-        names.append(part_names)
+        row["place_lowest"] = centers[:, 0].min() - size / 2 if len(centers) else math.inf
+        places.append(centers)
         collider_count += len(parts)
-        place_count += len(cells)
+        place_count += len(centers)
     collider = records(collider_count, COLLIDER)
     np.concatenate(colliders, out=collider)
     return Boards(
@@ -108,24 +106,105 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         collider,
         _grids(boards, collider),
         np.ascontiguousarray(np.concatenate(places)),
-        tuple(names),
+        tuple(part_names(table) for table in tables),
         tuple(table_digest(table) for table in tables),
     )
 
 
-def _set_friction(row: Any, board: Board) -> None:
-    """The friction of a board, and the greatest acceleration that a flight on it can have."""
-    row["friction"] = board.friction
+def compile_parts(table: Table) -> NDArray[Any]:
+    """Return the COLLIDER records of a finished table in the order of `part_names`, without its grid.
+
+    Raises:
+        TableError: A part has no extent, or two paddles are on one side.
+    """
+    _refuse_degenerate(table)
+    rows = records(Part.FIRST_SHAPE + len(table.standing_parts), COLLIDER)
+    rows["speed_factor"] = 1.0
+    _set_borders(rows, table.board)
+    paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
+    for number, side in PADDLES:
+        _set_paddle(rows[number], paddles.get(side))
+    for row, part in zip(rows[Part.FIRST_SHAPE :], table.standing_parts, strict=True):
+        if isinstance(part, SlantWall):
+            _set_slant_wall(row, part, table.board)
+        elif isinstance(part, TriangularPrism):
+            _set_prism(row, part)
+        else:
+            _set_cylinder(row, part)
+        _set_surface(row, part)
+    return rows
+
+
+def part_names(table: Table) -> tuple[str, ...]:
+    """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
+    kinds = ("slant_wall", "triangular_prism", "cylinder")
+    return (
+        *NAMES_OF_FIRST_PARTS,
+        *(f"{kind}[{index}]" for kind in kinds for index in range(len(getattr(table, kind)))),
+    )
+
+
+def part_numbers(table: Table) -> dict[str, int]:
+    """Return the number of each part by its name: its row among the colliders and its column of tallies.
+
+    Example:
+        >>> import silverball as sb
+        >>> from silverball.world.compile import part_numbers
+        >>> part_numbers(sb.load_table("classic"))["paddle.left"]
+        3
+    """
+    return {name: number for number, name in enumerate(part_names(table))}
+
+
+def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
+    """Make worlds in which nothing has happened: no balls, paddles at rest, seed 0.
+
+    Args:
+        boards: The compiled tables.
+        board_of: The board of each world [world].
+
+    Returns:
+        WORLD records, shape [world].
+    """
+    worlds = records(len(board_of), WORLD)
+    first = boards.board["collider_first"][board_of]
+    for side, (number, _) in enumerate(PADDLES):
+        rest = boards.collider["angle_rest"][first + number]
+        worlds["paddle"]["angle"][:, side] = rest
+        worlds["paddle"]["angle_commanded"][:, side] = rest
+    return worlds
+
+
+def _set_board(row: Any, board: Board) -> None:
+    """Set what a board says of itself, and the greatest acceleration that a flight on it can have."""
+    for name in SAME_NAMES:
+        row[name] = getattr(board, name)
+    row["accel_x"], row["accel_z"] = 0.0 - board.gravity, 0.0  # not −0.0
+    row["curvature"] = 1.0 / board.ball_radius
+    row["half_length"], row["half_width"] = board.length / 2, board.width / 2
     if board.rolling and board.friction > 0.0:
         sine, cosine = sine_cosine(math.radians(board.slope))
-        row["press"] = board.gravity * cosine / sine
-    row["gravity"] = board.gravity
-    row["steepest"] = board.gravity + board.friction * row["press"]
+        row["normal_accel"] = board.gravity * cosine / sine
+    row["max_accel"] = board.gravity + board.friction * row["normal_accel"]
+
+
+def _set_bounds(row: Any, table: Table, parts: NDArray[Any]) -> None:
+    """Set where the borders stop a ball's centre, and where the paddles can reach it."""
+    radius = table.board.ball_radius
+    row["low_z"] = parts[Part.LEFT_WALL]["z"] + radius
+    row["high_z"] = parts[Part.RIGHT_WALL]["z"] - radius
+    row["top_x"] = parts[Part.TOP_WALL]["x"] - radius
+    row["left_x"] = row["right_x"] = FAR
+    for paddle in table.paddle:
+        x, z, reach = _swept_circle(paddle)
+        side = paddle.side
+        row[f"{side}_x"], row[f"{side}_z"], row[f"{side}_reach"] = x, z, reach + radius
+    row["paddle_top"] = max((_top(paddle) + radius for paddle in table.paddle), default=-FAR)
 
 
 def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
-    """The grids of all boards, in one array."""
-    grid = np.zeros(GRID_ROOM * len(boards), np.int32)
+    """The grids of all boards, in one array; also sets the boards' fields about them."""
+    grid = np.zeros(FIRST_GRID_SIZE * len(boards), np.int32)
     used = 0
     for row in boards:
         shapes = row["collider_end"] - row["collider_first"] - Part.FIRST_SHAPE
@@ -144,54 +223,41 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
 
 
 def _search_time(board: Any) -> float:
-    """How long a search may be [s]; where hardly anything pulls, until a ball from rest has gone the skin."""
-    if board["gravity"] >= LIGHT:
+    """How far ahead a search may look [s]; at low gravity, until a ball from rest has moved by the skin."""
+    if board["gravity"] >= LOW_GRAVITY:
         return SEARCH_TIME
-    return min(math.sqrt(board["skin"] / max(board["steepest"], TINY)), LONGEST_SEARCH)
+    return min(math.sqrt(board["skin"] / max(board["max_accel"], TINY)), MAX_SEARCH_TIME)
 
 
-def _colliders(table: Table) -> tuple[NDArray[Any], tuple[str, ...]]:
-    """The COLLIDER records of one table, and the names of its parts."""
-    count = Part.FIRST_SHAPE + len(table.slant_wall) + len(table.triangular_prism) + len(table.cylinder)
-    _refuse_nonsense(table)
-    rows = records(count, COLLIDER)
-    rows["speed_factor"] = 1.0
-    names = ["board.left", "board.right", "board.top", "paddle.left", "paddle.right"]
-    _set_borders(rows, table)
-    for number, side in ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right")):
-        paddle = next((p for p in table.paddle if p.side == side), None)
-        _set_paddle(rows[number], paddle)
-    next_row = iter(rows[Part.FIRST_SHAPE :])
-    for index, wall in enumerate(table.slant_wall):
-        row = next(next_row)
-        row["kind"] = Kind.SLANT_WALL
-        _set_segment(row, wall.start, wall.end, wall.thickness, wall.inward_normal(table.board))
-        _set_surface(row, wall)
-        names.append(f"slant_wall[{index}]")
-    for index, prism in enumerate(table.triangular_prism):
-        row = next(next_row)
-        row["kind"] = Kind.TRIANGULAR_PRISM
-        corners = _corners(prism)
-        _set_triangle(row, corners)
-        row["x"], row["z"], row["reach"] = _circle_around(corners)
-        _set_surface(row, prism)
-        names.append(f"triangular_prism[{index}]")
-    for index, cylinder in enumerate(table.cylinder):
-        row = next(next_row)
-        row["kind"] = Kind.CYLINDER
-        row["x"], row["z"], row["radius"] = cylinder.circle()
-        row["reach"] = row["radius"]
-        _set_surface(row, cylinder)
-        names.append(f"cylinder[{index}]")
-    return rows, tuple(names)
+def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
+    row["kind"] = Kind.SLANT_WALL
+    _set_side(row, 0, wall.start, wall.end)
+    row["x1"], row["z1"] = wall.end
+    row["radius"] = wall.thickness
+    row["inward_x"], row["inward_z"] = wall.inward_normal(board)
+    row["x"], row["z"] = (wall.start[0] + wall.end[0]) / 2, (wall.start[1] + wall.end[1]) / 2
+    row["reach"] = row["length0"] / 2 + wall.thickness
 
 
-def _refuse_nonsense(table: Table) -> None:
-    """Refuse parts that have no outline or no side, which only a table made in Python can have."""
+def _set_prism(row: Any, prism: TriangularPrism) -> None:
+    row["kind"] = Kind.TRIANGULAR_PRISM
+    corners = prism.corners(sine_cosine)
+    _set_triangle(row, corners)
+    row["x"], row["z"], row["reach"] = _circle_around(corners)
+
+
+def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
+    row["kind"] = Kind.CYLINDER
+    row["x"], row["z"], row["radius"] = cylinder.circle()
+    row["reach"] = row["radius"]
+
+
+def _refuse_degenerate(table: Table) -> None:
+    """Refuse parts without an extent and paddles on one side, which only a table made in Python can have."""
     problems = []
     sides = [paddle.side for paddle in table.paddle]
     if len(set(sides)) < len(sides):
-        problems.append(Problem("paddle", f"there can be one paddle a side, got {', '.join(sides)}"))
+        problems.append(Problem("paddle", f"there can be one paddle per side, got {', '.join(sides)}"))
     for index, wall in enumerate(table.slant_wall):
         if wall.start == wall.end:
             problems.append(Problem(f"slant_wall[{index}]", "must have two different ends"))
@@ -203,37 +269,26 @@ def _refuse_nonsense(table: Table) -> None:
         raise TableError(table.name, problems)
 
 
-def _corners(prism: TriangularPrism) -> Sequence[tuple[float, float]]:
-    """The corners of a prism, those of an equilateral one by our own sine: the same bits on every machine."""
-    if prism.center is None or prism.size is None:
-        return prism.corners()
-    x, z = prism.center
-    turns = (sine_cosine(math.radians(prism.rotation + third)) for third in (0.0, 120.0, 240.0))
-    return [(x + prism.size * sine, z + prism.size * cosine) for sine, cosine in turns]
-
-
-def _set_borders(rows: NDArray[Any], table: Table) -> None:
-    b = table.board
+def _set_borders(rows: NDArray[Any], board: Board) -> None:
     borders = rows[Part.LEFT_WALL : Part.TOP_WALL + 1]
     borders["kind"] = Kind.WALL
-    borders["restitution"] = b.wall_restitution
-    rows[Part.LEFT_WALL]["z"] = -b.width / 2 + b.wall_thickness
-    rows[Part.RIGHT_WALL]["z"] = b.width / 2 - b.wall_thickness
-    rows[Part.TOP_WALL]["x"] = b.length / 2 - b.wall_thickness
+    borders["restitution"] = board.wall_restitution
+    rows[Part.LEFT_WALL]["z"] = -board.width / 2 + board.wall_thickness
+    rows[Part.RIGHT_WALL]["z"] = board.width / 2 - board.wall_thickness
+    rows[Part.TOP_WALL]["x"] = board.length / 2 - board.wall_thickness
     rows[Part.LEFT_WALL]["inward_z"], rows[Part.RIGHT_WALL]["inward_z"] = 1.0, -1.0
     rows[Part.TOP_WALL]["inward_x"] = -1.0
 
 
 def _set_paddle(row: Any, paddle: Paddle | None) -> None:
-    """A paddle in its own frame (see physics/paddle.py): base at the origin, tip along z′, x′ > 0 lifts."""
+    """Set a paddle in its own frame (see physics/paddle.py): pivot at the origin, tip along z′."""
     if paddle is None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         return
     row["kind"] = Kind.PADDLE
-    row["side"] = 1.0 if paddle.side == "left" else -1.0
+    row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
-    half = paddle.base / 2
-    _set_triangle(row, ((-half, 0.0), (0.0, paddle.length), (half, 0.0)))
+    _set_triangle(row, paddle.local_corners())
     row["reach"] = paddle.reach
     row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
     swing = row["angle_up"] - row["angle_rest"]
@@ -244,26 +299,23 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
 
 
 def _top(paddle: Paddle) -> float:
-    """An x [u] that no point of a paddle gets above, at any of its angles."""
+    """An x [u] above every point of a paddle at each of its angles."""
     tip = paddle.length * math.sin(math.radians(paddle.up_angle))
     return paddle.pivot[0] + max(tip, 0.5 * paddle.base) + SLACK
 
 
-def _sweep(paddle: Paddle) -> tuple[float, float, float]:
-    """A circle (x, z, radius) [u] that holds a paddle at all its angles.
+def _swept_circle(paddle: Paddle) -> tuple[float, float, float]:
+    """A circle (x, z, radius) [u] around a paddle at all its angles.
 
-    Its middle lies halfway to the tip at the middle angle; the farthest from it are the tip at either stop
-    and the ends of the base.
+    The centre lies halfway to the tip at the middle angle; the farthest points are the tip at either stop and
+    the ends of the base.
     """
     middle = math.radians(0.5 * (paddle.rest_angle + paddle.up_angle))
     swing = math.radians(0.5 * (paddle.up_angle - paddle.rest_angle))
-    way = 0.5 * paddle.length
-    x, z = (
-        way * math.sin(middle),
-        math.copysign(way * math.cos(middle), 1.0 if paddle.side == "left" else -1.0),
-    )
-    tip = math.sqrt(paddle.length**2 + way**2 - 2 * paddle.length * way * math.cos(swing))
-    return paddle.pivot[0] + x, paddle.pivot[1] + z, max(tip, way + 0.5 * paddle.base) + SLACK
+    half = 0.5 * paddle.length
+    x, z = half * math.sin(middle), math.copysign(half * math.cos(middle), paddle.direction)
+    tip = math.sqrt(paddle.length**2 + half**2 - 2 * paddle.length * half * math.cos(swing))
+    return paddle.pivot[0] + x, paddle.pivot[1] + z, max(tip, half + 0.5 * paddle.base) + SLACK
 
 
 def _set_surface(row: Any, part: Any) -> None:
@@ -288,19 +340,8 @@ def _set_triangle(row: Any, corners: Sequence[Sequence[float]]) -> None:
         _set_side(row, number, corners[number], corners[(number + 1) % 3])
 
 
-def _set_segment(
-    row: Any, start: Sequence[float], end: Sequence[float], thickness: float, inward: Sequence[float]
-) -> None:
-    _set_side(row, 0, start, end)
-    row["x1"], row["z1"] = end
-    row["radius"] = thickness
-    row["inward_x"], row["inward_z"] = inward
-    row["x"], row["z"] = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-    row["reach"] = row["length0"] / 2 + thickness
-
-
 def _circle_around(corners: Sequence[Sequence[float]]) -> tuple[float, float, float]:
-    """Centroid of the corners, and the distance of the farthest: not the smallest circle, but simple."""
+    """A circle (x, z, radius) [u] around a triangle, centred on its centroid."""
     x = sum(corner[0] for corner in corners) / 3
     z = sum(corner[1] for corner in corners) / 3
     farthest = max((corner[0] - x) ** 2 + (corner[1] - z) ** 2 for corner in corners)

@@ -1,6 +1,6 @@
-"""What does a caller see of a world: balls, paddles and events as plain named tuples.
+"""What a caller sees of a world: balls, paddles and events as named tuples.
 
-Positions are (x, y, z) [u] with y locked to the board's height; x runs up the table, z to the player's right.
+Positions are (x, y, z) [u]: x runs up the table, z to the player's right, y is the height of the board.
 """
 
 from __future__ import annotations
@@ -22,7 +22,13 @@ class BallState(NamedTuple):
         id: 1, 2, 3, … in the order of creation.
         position: Centre (x, y, z) [u].
         velocity: (vx, 0, vz) [u/s].
-        spin: Angular velocity about x, y, z [rad/s].
+        spin: Angular velocity about x, y and z [rad/s]; zero on a table without friction.
+
+    Example:
+        >>> import silverball as sb
+        >>> ball = sb.World("classic").create_ball(position=(2.0, 1.5))
+        >>> ball.id, ball.position
+        (1, (2.0, 1.0, 1.5))
     """
 
     id: int
@@ -37,6 +43,14 @@ class PaddleState(NamedTuple):
     Attributes:
         angle: From the horizontal towards up [rad].
         angular_velocity: Positive while lifting [rad/s].
+
+    Example:
+        >>> import silverball as sb
+        >>> world = sb.World("classic")
+        >>> world.step(left=True, ticks=240)
+        >>> left, right = world.paddles
+        >>> left.angle > right.angle
+        True
     """
 
     angle: float
@@ -44,18 +58,30 @@ class PaddleState(NamedTuple):
 
 
 class Event(NamedTuple):
-    """Something that happened.
+    """Something that happened to a ball.
 
     Attributes:
-        kind: "hit", "touch", "ball_hit", "ball_touch", "gutter", "created", "jitter" or "jam".
-        part: The part's path in the table, such as "cylinder[1]"; for what each board has once "board.left",
-            "board.right", "board.top", "paddle.left", "paddle.right"; "gutter", "ball", or "" for none.
+        kind: "hit" (a contact above `Board.hit_speed`), "touch" (a slower one), "ball_hit" and "ball_touch"
+            (the same with the other ball), "gutter" (the ball left), "created", "jitter" (it was shoved), or
+            "jam" (it was pinched, and stopped).
+        part: The part's path in the table, for example "cylinder[1]"; for the borders and paddles
+            "board.left", "board.right", "board.top", "paddle.left", "paddle.right"; else "gutter", "ball",
+            or "" for none.
         ball: The ball's id.
         tick: The tick in which it happened, counted from 0.
         offset: Time since that tick began [s].
         position: The ball's centre (x, y, z) [u].
         normal: Unit normal (x, 0, z) from the part to the ball; for jitter the direction of the shove.
-        speed: Of the approach along the normal, relative to the surface [u/s].
+        speed: Speed of approach along the normal, relative to the surface [u/s]; for jitter the speed that
+            the shove adds.
+
+    Example:
+        >>> import silverball as sb
+        >>> world = sb.World("classic")
+        >>> ball = world.create_ball(position=(9.0, 0.0), velocity=(5.0, 0.0))
+        >>> world.step(ticks=60)
+        >>> [(event.kind, event.part) for event in world.events]
+        [('created', ''), ('hit', 'board.top')]
     """
 
     kind: str
@@ -69,7 +95,7 @@ class Event(NamedTuple):
 
 
 def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
-    """The balls of a WORLD record, in the order of its slots."""
+    """Return the balls of a WORLD record, in the order of its slots, at a height y [u]."""
     return tuple(
         BallState(
             id_,
@@ -83,13 +109,13 @@ def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
 
 
 def read_paddles(world: Any) -> tuple[PaddleState, PaddleState]:
-    """The left and the right paddle of a WORLD record."""
+    """Return the left and the right paddle of a WORLD record."""
     left, right = (PaddleState(angle, turn) for angle, _, turn in world["paddle"].tolist())
     return left, right
 
 
 def read_events(log: Any, names: tuple[str, ...], height: float) -> tuple[Event, ...]:
-    """The events of a LOG record."""
+    """Return the events of a LOG record, with the names of the parts, at a height y [u]."""
     return tuple(
         Event(
             KIND_NAMES[kind],

@@ -1,8 +1,8 @@
-"""What are the bytes of a saved world?
+"""The bytes of a saved world: a header, the world's record, and a checksum.
 
-A header (magic, format, physics version, tick rate, hash of the table), the record of the world, and a
-checksum of all that. Every field of a world record is eight bytes wide, so the record has no padding: its
-bytes are its fields in order. The same frame, with another magic, holds the many worlds of a `Snapshot`.
+The header holds a magic number, the format, the physics version, the tick rate and the hash of the table.
+Every field of a world record is eight bytes wide, so a record has no padding and its bytes are its fields in
+order. Snapshots and saved games use the same frame with another magic number.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from silverball.physics.records import WORLD
 
 MAGIC = b"SILVERBL"
 FORMAT = 1
-FRAME = struct.Struct("<8sqq")  # magic, format, physics version: what every saved thing begins with
+FRAME = struct.Struct("<8sqq")  # magic, format, physics version: the start of every header
 HEADER = struct.Struct("<8sqqq32s")
 CHECKSUM = 16
 
@@ -39,18 +39,24 @@ assert _field_bytes(WORLD) == WORLD.itemsize, "a world record has padding: hash 
 
 
 def pack(record: Any, table: str, tick_rate: int) -> bytes:
-    """A world's record with its header and checksum."""
+    """Return a world's record with a header and a checksum.
+
+    Args:
+        record: A WORLD record.
+        table: The hash of its table.
+        tick_rate: Ticks per second.
+    """
     header = HEADER.pack(MAGIC, FORMAT, PHYSICS_VERSION, tick_rate, bytes.fromhex(table))
-    return sealed(header + record.tobytes())
+    return seal(header + record.tobytes())
 
 
 def unpack(state: bytes, table: str, tick_rate: int) -> Any:
-    """The record of saved bytes, for a world on this table (its hash) with this tick rate.
+    """Return the record in saved bytes, for a world on the table with this hash at this tick rate.
 
     Raises:
-        StateError: The bytes are damaged, or belong to another table, tick rate or version.
+        StateError: The bytes are damaged, or of another table, tick rate or version.
     """
-    data = opened(state, MAGIC, HEADER, "World.save")
+    data = unseal(state, MAGIC, HEADER, "World.save")
     expected = HEADER.size + WORLD.itemsize
     if len(data) != expected:
         raise StateError(f"the state is damaged: {len(data)} bytes where {expected} are expected")
@@ -64,13 +70,19 @@ def unpack(state: bytes, table: str, tick_rate: int) -> Any:
     return np.frombuffer(data[HEADER.size :], WORLD)[0]
 
 
-def sealed(body: bytes) -> bytes:
-    """A frame with its checksum behind it."""
+def seal(body: bytes) -> bytes:
+    """Append a checksum."""
     return body + hashlib.sha256(body).digest()[:CHECKSUM]
 
 
-def opened(state: Any, magic: bytes, header: struct.Struct, maker: str) -> bytes:
-    """The frame of saved bytes without its checksum, if they are what `maker` made in this version.
+def unseal(state: Any, magic: bytes, header: struct.Struct, maker: str) -> bytes:
+    """Check the header and the checksum of saved bytes, and return them without the checksum.
+
+    Args:
+        state: The bytes.
+        magic: The magic number that they must begin with.
+        header: The header.
+        maker: The function that made them, for messages.
 
     Raises:
         StateError: The bytes are something else, damaged, or of another version.
@@ -95,12 +107,12 @@ def opened(state: Any, magic: bytes, header: struct.Struct, maker: str) -> bytes
 
 
 def digest(record: Any) -> str:
-    """A stable hex string of a world record and the version of the physics."""
+    """Return the SHA-256 of a world record and the physics version, as a hex string."""
     return hashlib.sha256(PHYSICS_VERSION.to_bytes(8, "little") + record.tobytes()).hexdigest()
 
 
 def digests(records: NDArray[Any]) -> list[str]:
-    """The digest of each world record, shape [world], about half a microsecond each."""
+    """Return the digest of each world record [world], about half a microsecond each."""
     version, size = PHYSICS_VERSION.to_bytes(8, "little"), records.dtype.itemsize
     data = np.ascontiguousarray(records).tobytes()
     starts = range(0, len(data), size)

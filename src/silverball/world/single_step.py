@@ -1,9 +1,9 @@
-"""How is a single world moved with one short call?
+"""The single-world fast path: one short call moves a world, in about a microsecond.
 
-Numba unpacks every argument of a call anew: seven arrays cost some 0.6 µs, more than the tick itself. So the
-addresses of a batch's arrays are written down once, in one small array, and a kernel looks the arrays up
-there. Whoever holds the addresses must hold the arrays as well; `World` does. Nor does Numba look at the
-types of the arguments again (`straight`), since they are always the same.
+Numba unpacks every argument at each call: seven arrays cost some 0.6 µs, more than the tick itself. So the
+addresses of a batch's arrays are stored once, in one small array, and the kernel makes views of the arrays
+from it. The owner of the addresses must keep the arrays alive. The types of the arguments never change, so
+Numba's dispatch on them is skipped as well (`bind_types`).
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, kernel, straight
-from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
+from silverball.physics.kernel import SETTINGS, bind_types, kernel
+from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, BatchGeometry, Lanes
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
 
@@ -41,13 +41,13 @@ ADDRESSES = np.dtype(
 
 
 class SingleStepper:
-    """The one world of a batch, with all that moves it: these very arrays, none that take their place."""
+    """Steps the one world of a batch, in place, in the arrays that it was made with."""
 
     def __init__(
         self, boards: Boards, state: NDArray[Any], board_of: NDArray[np.int64], logs: NDArray[Any],
         tallies: NDArray[np.int64], tick: float,
     ) -> None:  # fmt: skip
-        """Write the addresses down; `tick` is the length of a tick [s]."""
+        """Store the addresses of the arrays; `tick` is the length of a tick [s]."""
         self._action = np.zeros((1, 1, 3), np.bool_)
         named: dict[str, NDArray[Any]] = {
             "world": state,
@@ -74,27 +74,39 @@ class SingleStepper:
         self._step: Callable[[Any, int, int], int] = self._first_step
 
     def __reduce__(self) -> Any:
-        """Refuse to be copied: the addresses are those of the original's arrays."""
+        """Refuse to be copied: a copy would hold the addresses of the original's arrays."""
         raise TypeError("SingleStepper holds addresses and cannot be copied; copy the World that owns it")
 
     def step(self, buttons: int, ticks: int) -> int:
-        """Move the world on with these buttons held, for ticks as `run_worlds` takes them; its fault."""
+        """Advance the world.
+
+        Args:
+            buttons: Bits LEFT, RIGHT and JITTER.
+            ticks: The number of ticks, as `run_worlds` takes it.
+
+        Returns:
+            The fault of the world, 0 for none.
+        """
         if SETTINGS.DISABLE_JIT:
             self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
-            cast(Any, run_worlds)(*self._arrays, 0, 1, ticks, self._tick)
+            state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
+            run_worlds(
+                Lanes(state, board_of, logs, tallies), BatchGeometry(board, colliders, grid),
+                action, 0, 1, ticks, self._tick,
+            )  # fmt: skip
             return int(self._arrays[0][0]["fault"])
         return self._step(self._addresses, buttons, ticks)
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
-        """Make the step; it is compiled now, and no earlier."""
-        self._step = step = straight(step_alone, addresses, buttons, ticks)
+        """Compile the step at the first call, and do it."""
+        self._step = step = bind_types(step_alone, addresses, buttons, ticks)
         fault: int = step(addresses, buttons, ticks)
         return fault
 
 
 @intrinsic  # type: ignore[untyped-decorator]
 def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any) -> Any:
-    """The array of this shape and element type at an address; `numba.carray` needs reference counting."""
+    """A view of an address as an array of a shape and a type; `numba.carray` needs reference counting."""
     array_type = types.Array(dtype.dtype, len(shape), "C")
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
@@ -112,7 +124,7 @@ def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any
 
 
 def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """The same without the compiler."""
+    """Do the same without the compiler."""
     size = math.prod(shape) * dtype.itemsize
     memory: Any = (ctypes.c_char * size).from_address(int(address))
     array: NDArray[Any] = np.frombuffer(memory, dtype).reshape(shape)
@@ -124,25 +136,23 @@ array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_arr
 
 @kernel
 def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
-    """Move the world on that lies at these addresses (see `ADDRESSES`), as `run_worlds` does; its fault."""
+    """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
     at = addresses[0]
     worlds = array_at(at.world, (1,), WORLD)
     action = array_at(at.action, (1, 1, 3), BOOL)
     action[0, 0, 0] = buttons & LEFT != 0
     action[0, 0, 1] = buttons & RIGHT != 0
     action[0, 0, 2] = buttons & JITTER != 0
-    run_worlds(
+    lanes = Lanes(
         worlds,
-        array_at(at.board, (1,), BOARD),
         array_at(at.board_of, (1,), INT),
-        array_at(at.collider, (at.colliders,), COLLIDER),
-        array_at(at.grid, (at.numbers,), SHORT_INT),
         array_at(at.log, (1,), LOG),
         array_at(at.tally, (1, at.parts), INT),
-        action,
-        0,
-        1,
-        ticks,
-        at.tick,
     )
+    geometries = BatchGeometry(
+        array_at(at.board, (1,), BOARD),
+        array_at(at.collider, (at.colliders,), COLLIDER),
+        array_at(at.grid, (at.numbers,), SHORT_INT),
+    )
+    run_worlds(lanes, geometries, action, 0, 1, ticks, at.tick)
     return int(worlds[0].fault)

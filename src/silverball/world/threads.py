@@ -1,4 +1,4 @@
-"""How are slices of worlds handed to threads, and what if Ctrl-C comes meanwhile? All are done first."""
+"""Slices of worlds on threads; an interruption waits until all slices are done."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from functools import cache
 from types import CodeType
 from typing import Any
 
-WAIT_SECONDS = 0.1  # on Windows a wait hears of Ctrl-C only when it ends
-_compiled: set[CodeType] = set()  # tasks that have been called
+WAIT_SECONDS = 0.1  # on Windows a wait notices Ctrl-C only when it ends
+_compiled: set[CodeType] = set()  # code of the tasks that have been called
 
 
 def cores() -> int:
-    """The cores that this process may use."""
+    """Return the number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
-class _Round:
-    """Slices of work, which threads take one after the other."""
+class _Work:
+    """Slices of work that threads take one after the other."""
 
     def __init__(self, task: Callable[[int, int], None], slices: Sequence[tuple[int, int]]) -> None:
         self._task = task
         self._to_do = deque(slices)
-        self._open = [None] * len(slices)  # one for each slice that is not done
+        self._open = [None] * len(slices)  # one item for each slice that is not done
         self.errors: list[BaseException] = []
         self.over = threading.Event()
 
     def work(self) -> None:
-        """Take slices until there are none; what a list or a deque does is done at once."""
+        """Run slices until none is left; the operations on the list and the deque are atomic."""
         while True:
             try:
                 slice_ = self._to_do.popleft()
@@ -41,7 +41,7 @@ class _Round:
                 return
             try:
                 self._task(*slice_)
-            except BaseException as error:  # raised by whoever waits
+            except BaseException as error:  # raised again by the thread that waits
                 self.errors.append(error)
             finally:
                 self._open.pop()
@@ -50,23 +50,23 @@ class _Round:
 
 
 def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -> None:
-    """Call task(first, end) for every slice on so many threads and wait until all are done.
+    """Call task(first, end) for every slice on a number of threads, and wait until all are done.
 
-    Whatever a signal's handler raises meanwhile is kept back until then: worlds must not part.
+    An exception that a signal handler raises meanwhile is raised afterwards.
     """
     code = getattr(task, "func", task).__code__
     if code not in _compiled:
-        task(0, 0)  # no world: what it calls is compiled here, where it can be interrupted
+        task(0, 0)  # no world: its kernel is compiled here, where it can be interrupted
         _compiled.add(code)
-    work = _Round(task, slices)
+    work = _Work(task, slices)
     interruption: BaseException | None = None
     while not work.over.is_set():
         try:
             for _ in range(min(threads, len(slices))):
-                pool_of_threads(threads).submit(work.work)
+                thread_pool(threads).submit(work.work)
             while not work.over.wait(WAIT_SECONDS):
                 pass
-        except RuntimeError:  # Python ends: no thread begins any more
+        except RuntimeError:  # Python is shutting down: no new threads
             work.work()
         except BaseException as error:
             interruption = error
@@ -77,10 +77,10 @@ def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -
 
 
 @cache
-def pool_of_threads(threads: int) -> ThreadPoolExecutor:
-    """So many threads, which wait for work."""
+def thread_pool(threads: int) -> ThreadPoolExecutor:
+    """Return the pool with this number of threads."""
     return ThreadPoolExecutor(threads, thread_name_prefix="silverball")
 
 
-if hasattr(os, "register_at_fork"):  # threads do not survive a fork; the child makes its own
-    os.register_at_fork(after_in_child=pool_of_threads.cache_clear)
+if hasattr(os, "register_at_fork"):  # threads do not survive a fork; a child makes its own
+    os.register_at_fork(after_in_child=thread_pool.cache_clear)

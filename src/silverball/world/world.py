@@ -1,6 +1,6 @@
-"""One table in motion: `World`, the face that most callers use.
+"""One table in motion: `World`, which most callers use.
 
-A World is a `WorldBatch` of one; there is no second code path. Time moves in ticks of 1/tick_rate seconds.
+A world is a `WorldBatch` of one; there is no second code path. Time advances in ticks of 1/tick_rate seconds.
 """
 
 from __future__ import annotations
@@ -19,20 +19,21 @@ from silverball.physics.balls import (
     clearance_of_balls,
     create_ball,
     empty_slot,
-    part_balls,
     put_ball,
+    separate_balls,
 )
-from silverball.physics.records import WORLD, Fault, Outcome
-from silverball.physics.tolerances import FREE_GAP, LEAST_ADVANCE_GAP
-from silverball.physics.validation import is_sound
+from silverball.physics.records import WORLD, Fault, Outcome, Part
+from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
+from silverball.physics.validation import validate_world
 from silverball.table import Table
-from silverball.world import saved_world as states
-from silverball.world.batch import WorldBatch, checked_int
+from silverball.world import saved_world
+from silverball.world.arguments import checked_int
+from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
 from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
 
 MEASURES = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
-PIECE_TICKS = 2**12  # of a long step: Python hears of Ctrl-C between two pieces, which take some milliseconds
+CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
 COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
 
 
@@ -41,17 +42,25 @@ class World:
 
     Args:
         table: A table, a built-in name, or a path to a file. A recipe makes a board with the world's seed.
-        seed: Of everything random in this world, 0 to 2⁶³ − 1. The same table, seed and inputs give the
-            same bits.
-        tick_rate: Ticks per second. 240 plays finely; 60 is enough for studies.
+        seed: The seed of everything random in this world, 0 to 2⁶³ − 1. The same table, seed and inputs give
+            the same bits, on every machine.
+        tick_rate: Ticks per second, 10 to 100,000. Paddles react once a tick; 60 is enough for studies.
+
+    Attributes:
+        table: The finished table.
+        tick_rate: Ticks per second.
+
+    Raises:
+        TableError: The table cannot be loaded, or a part has no extent.
+        ValueError: The seed or the tick rate is invalid.
 
     Example:
         >>> import silverball as sb
         >>> world = sb.World("classic", seed=7)
         >>> ball = world.create_ball()
         >>> world.step(left=True, ticks=24)
-        >>> world.time
-        0.1
+        >>> world.time, [event.kind for event in world.events]
+        (0.1, ['created'])
     """
 
     def __init__(self, table: Table | str | os.PathLike[str], seed: int = 0, tick_rate: int = 240) -> None:
@@ -64,7 +73,7 @@ class World:
         self._names = self._batch.boards.names[0]
         self._height = self.table.board.height
         batch = self._batch
-        self._alone = SingleStepper(
+        self._stepper = SingleStepper(
             batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
         )
         self._static = (self._board, self._batch.boards.collider)
@@ -76,50 +85,57 @@ class World:
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """How `copy` and `pickle` make another: the records are views into arrays and must be made anew."""
-        made = (self.table, self.seed, self.tick_rate, self.save(), self._batch.tallies.copy())
-        return _made_again, made
+        """Support `copy` and `pickle`: a copy is rebuilt, because the records are views into arrays."""
+        arguments = (self.table, self.seed, self.tick_rate, self.save(), self._batch.tallies.copy())
+        return _rebuild, arguments
 
     def copy(self) -> World:
-        """Another world in the same state, which goes its own way from here."""
-        make, made = self.__reduce__()
-        world: World = make(*made)
+        """Make another world in the same state, which from then on is independent.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic")
+            >>> other = world.copy()
+            >>> other.step()
+            >>> world.tick, other.tick
+            (0, 1)
+        """
+        rebuild, arguments = self.__reduce__()
+        world: World = rebuild(*arguments)
         return world
 
-    # --- what moves it
-    # -------------------------------------------------------------------------------------------
-
     def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
-        """Move on with the paddle buttons held or not.
+        """Advance the world by a number of ticks.
 
-        Ctrl-C ends a long call within a fraction of a second. The world then stands at the end of one of the
-        ticks, as after a shorter call: `tick` says of which, and `events` are those of the ticks played.
+        Ctrl-C ends a long call within a fraction of a second; the world then stands at the end of a tick, as
+        after a shorter call.
 
         Args:
             left: Whether the left button is held, in all ticks.
-            right: The same of the right one.
-            jitter: Whether to shove the balls once, on the first tick.
-            ticks: How many ticks.
+            right: Whether the right button is held, in all ticks.
+            jitter: Whether to shove the balls once, at the start of the first tick.
+            ticks: The number of ticks, 0 or more.
 
         Raises:
-            FaultError: The world's state has become impossible and it has stopped.
-            ValueError: The number of ticks is not a whole number of at least 0.
+            FaultError: The state of the world has become impossible, and it has stopped.
+            ValueError: The number of ticks is not an integer ≥ 0.
         """
         buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
-        if ticks.__class__ is not int or not 0 <= ticks <= PIECE_TICKS:
+        if ticks.__class__ is not int or not 0 <= ticks <= CHUNK_TICKS:
             ticks = checked_int("ticks", ticks, 0, 2**40)
-            ticks = self._play_pieces(buttons, ticks)
-        if self._alone.step(buttons, ticks):
+            ticks = self._step_in_chunks(buttons, ticks)
+        if self._stepper.step(buttons, ticks):
             self._raise_fault()
 
     def create_ball(
         self, position: Sequence[float] | None = None, velocity: Sequence[float] = (0.0, 0.0)
     ) -> BallState:
-        """Put one more ball on the board.
+        """Create a ball.
 
         Args:
-            position: Centre (x, z), or (x, y, z) at the board's height [u]; None: some free place, at rest.
-            velocity: (vx, vz), or (vx, 0, vz) [u/s], for a given position.
+            position: Centre (x, z), or (x, y, z) at the board's height [u]; None: a random free place above
+                the paddles, at rest.
+            velocity: (vx, vz), or (vx, 0, vz) [u/s]; needs a position.
 
         Returns:
             The new ball.
@@ -128,7 +144,13 @@ class World:
             BoardFull: The board already holds `max_balls`; nothing has changed.
             FaultError: The world has stopped.
             NoRoom: No place is free, or the given one overlaps something; nothing has changed.
-            ValueError: A position or velocity that is not two finite numbers, or faster than the speed cap.
+            ValueError: A position or velocity is not two finite numbers, or is faster than the speed cap.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic")
+            >>> world.create_ball(position=(9.0, 0.0), velocity=(0.0, -3.0)).velocity
+            (0.0, 0.0, -3.0)
         """
         if self._record["fault"]:
             self._raise_fault()
@@ -142,36 +164,46 @@ class World:
         if outcome == Outcome.NO_ROOM:
             raise NoRoom(
                 f"the board {self.table.name!r} has no free place for a ball above the paddles; "
-                "wait until a ball has left, or take an obstacle away"
+                "wait until a ball has left, or remove an obstacle"
             )
         return self._newest()
 
-    # --- what it shows
-    # -------------------------------------------------------------------------------------------
-
     @property
     def balls(self) -> tuple[BallState, ...]:
-        """The balls on the board."""
+        """The balls on the board, at most two; see `BallState`."""
         return read_balls(self._record, self._height)
 
     @property
     def paddles(self) -> tuple[PaddleState, PaddleState]:
-        """The left and the right paddle."""
+        """The left and the right paddle; see `PaddleState`."""
         return read_paddles(self._record)
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """What happened in the last step, in order; at most 64 events, see `events_lost`."""
+        """What happened since the step before the last one ended, in order.
+
+        These are the balls created before the last step, what happened in that step, and the balls created
+        since. So a loop that reads after each step sees every event once. A step holds at most 64 events,
+        see `events_lost`.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic", seed=7)
+            >>> ball = world.create_ball(position=(0.0, 1.0))
+            >>> world.step(jitter=True)
+            >>> [event.kind for event in world.events]
+            ['created', 'jitter']
+        """
         return read_events(self._log, self._names, self._height)
 
     @property
     def events_lost(self) -> int:
-        """Events of the last step that did not fit into the log."""
+        """The number of events of the last step that did not fit into the log."""
         return int(self._log["lost"])
 
     @property
     def time(self) -> float:
-        """Time since the world was made [s]."""
+        """Simulated time since the world was made [s]."""
         return self.tick / self.tick_rate
 
     @property
@@ -191,47 +223,94 @@ class World:
 
     @property
     def created(self) -> int:
-        """Balls created so far."""
+        """The number of balls created so far."""
         return int(self._record["created"])
 
     @property
     def drained(self) -> int:
-        """Balls that have left through the gutter."""
+        """The number of balls that have left through the gutter."""
         return int(self._record["drained"])
 
     @property
     def jams(self) -> int:
-        """How often a pinched ball had to be held."""
+        """How often a pinched ball was stopped; see the event "jam"."""
         return int(self._record["jams"])
 
     @property
     def hits(self) -> dict[str, int]:
-        """Hits of every part by its path in the table, since this World was made; `restore` leaves them."""
+        """Hits of every part since this World was made, by the part's name; `restore` does not change them.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic")
+            >>> ball = world.create_ball(position=(9.0, 0.0), velocity=(5.0, 0.0))
+            >>> world.step(ticks=60)
+            >>> world.hits["board.top"]
+            1
+        """
         return dict(zip(self._names, self._batch.tallies[0].tolist(), strict=True))
 
     @property
     def fault(self) -> str | None:
-        """Why the world has stopped, or None: the name of a `Fault`, such as "not_finite" or "inside"."""
+        """Why the world has stopped, or None while it can move.
+
+        "not_finite" (a value is not a finite number), "outside" (a ball is beyond the borders), "too_fast" (a
+        ball exceeds the speed cap), "inside" (a ball is inside something), or "beyond_stop" (a paddle).
+        """
         fault = Fault(int(self._record["fault"]))
         return None if fault == Fault.NONE else fault.name.lower()
 
-    # --- saving
-    # --------------------------------------------------------------------------------------------------
+    def render(self, height: int = 480, theme: str = "neon") -> NDArray[np.uint8]:
+        """Draw the world as it is now, in full quality and without a display.
+
+        The first picture of a table at a size is baked, which takes a second or two (ten more on a machine
+        that has not compiled the drawing yet). Later ones take a millisecond, and the baked picture is kept
+        on disk. A `Renderer` draws the flashes, sparks and trails of play too, and in any size.
+
+        Args:
+            height: Height of the picture [pixel]; the width follows from the table's shape.
+            theme: "neon", "parlour" or "clear".
+
+        Returns:
+            RGB, uint8 `[height, width, 3]`; row 0 is the upper edge.
+
+        Raises:
+            ValueError: The height is below 2, or the theme is unknown.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic")
+            >>> world.render(height=160).shape
+            (160, 100, 3)
+        """
+        from silverball.drawing.renderer import render
+
+        return render(self.table, self._record, self.tick_rate, height, theme)
 
     def save(self) -> bytes:
-        """The whole state, random generator included, as bytes for `restore`."""
-        return states.pack(self._record, self._batch.boards.digests[0], self.tick_rate)
+        """Return the whole state, random generator included, as bytes for `restore`.
+
+        Example:
+            >>> import silverball as sb
+            >>> world = sb.World("classic")
+            >>> state = world.save()
+            >>> world.step(ticks=100)
+            >>> world.restore(state)
+            >>> world.tick
+            0
+        """
+        return saved_world.pack(self._record, self._batch.boards.digests[0], self.tick_rate)
 
     def restore(self, state: bytes) -> None:
         """Go back to a saved state, bit for bit.
 
-        Two overlapping balls in a state from outside are moved apart equally. On any error nothing has
-        changed.
+        The events are dropped. Two overlapping balls in an edited state are moved apart equally. On any error
+        nothing has changed.
 
         Raises:
             StateError: The state is damaged, impossible, or of another table or tick rate.
         """
-        record = states.unpack(state, self._batch.boards.digests[0], self.tick_rate)
+        record = saved_world.unpack(state, self._batch.boards.digests[0], self.tick_rate)
         before = self._record.copy()
         self._batch.state[0] = record
         try:
@@ -242,31 +321,31 @@ class World:
         self._batch.logs[0] = 0
 
     def digest(self) -> str:
-        """A hash of the state: equal digests mean equal worlds."""
-        return states.digest(self._record)
+        """Return a SHA-256 of the state and the physics version: equal digests mean equal worlds."""
+        return saved_world.digest(self._record)
 
     @property
     def records(self) -> tuple[Any, Any, Any]:
-        """The world's record, its board's and the colliders: what kernels of players and drawings read."""
+        """The records that kernels read: WORLD, BOARD, and the COLLIDER rows of its parts."""
         return self._record, *self._static
 
     @property
     def grid(self) -> NDArray[np.int32]:
-        """The grid of the board, which a kernel needs that plays copies of the record on."""
+        """The grid of the board, for kernels that simulate copies of the record."""
         return self._batch.boards.grid
 
-    def _play_pieces(self, buttons: int, ticks: int) -> int:
-        """Play all but the last piece of a step; what is left to be played, as `run_worlds` wants it."""
+    def _step_in_chunks(self, buttons: int, ticks: int) -> int:
+        """Play all but the last chunk of a step; returns the rest, as `run_worlds` takes it."""
         sign = 1
-        while ticks > PIECE_TICKS and not self._alone.step(buttons, sign * PIECE_TICKS):
-            ticks, sign = ticks - PIECE_TICKS, -1
+        while ticks > CHUNK_TICKS and not self._stepper.step(buttons, sign * CHUNK_TICKS):
+            ticks, sign = ticks - CHUNK_TICKS, -1
         return sign * ticks
 
-    # --- helpers
-    # -------------------------------------------------------------------------------------------------
-
     def clearance(self, x: float, z: float) -> float:
-        """The smallest gap [u] between a ball centred at (x, z) and any part, paddles as they stand now."""
+        """Return the smallest gap [u] between a ball centred at (x, z) and any part.
+
+        Paddles count as they stand now, other balls do not. Negative inside a part.
+        """
         return float(clearance(self._record, *self._static, x, z)[0])
 
     def _newest(self) -> BallState:
@@ -317,9 +396,9 @@ class World:
         record = self._record
         balls = record["ball"]
         if record["fault"] not in Fault.__members__.values():
-            raise StateError(f"the state has a fault of an unknown number, {record['fault']}")
+            raise StateError(f"the state has an unknown fault, number {record['fault']}")
         if record["fault"]:
-            return  # a stopped world may be looked at; it does not move
+            return  # a stopped world does not move; its state is shown as it is
         if any((record[name] < 0).any() for name in COUNTS):
             raise StateError("the state holds a negative count")
         rows = [*balls[list(MEASURES)].tolist(), *record["paddle"].tolist()]
@@ -327,28 +406,28 @@ class World:
             raise StateError("the state holds a number that is not finite")
         ids = balls["id"][balls["id"] != 0]
         if (ids < 0).any() or (ids > record["created"]).any() or len(set(ids.tolist())) < len(ids):
-            raise StateError("the state holds balls whose ids are not those of balls that were created")
-        if not is_sound(self._record, self._board):
+            raise StateError("the state holds balls with ids that no created ball has")
+        if not validate_world(self._record, self._board):
             raise StateError("the state holds a ball that is outside of the board, too fast, or not a number")
         if len(ids) > self.table.board.max_balls:
             raise StateError("the state holds more balls than the table allows")
-        first = self._batch.boards.collider[3:5]
-        low = np.minimum(first["angle_rest"], first["angle_up"])
-        high = np.maximum(first["angle_rest"], first["angle_up"])
+        paddles = self._batch.boards.collider[Part.LEFT_PADDLE : Part.RIGHT_PADDLE + 1]
+        low = np.minimum(paddles["angle_rest"], paddles["angle_up"])
+        high = np.maximum(paddles["angle_rest"], paddles["angle_up"])
         angles = record["paddle"]["angle"]
         if not ((low <= angles) & (angles <= high)).all():
             raise StateError("the state holds a paddle beyond its stops")
-        if not part_balls(self._record, *self._static):
+        if not separate_balls(self._record, *self._static):
             raise StateError(
-                "the state holds two overlapping balls that cannot be parted without pressing one into a part"
+                "the state holds two overlapping balls; moving them apart would press one into a part"
             )
         for x, z, id_ in balls[["x", "z", "id"]].tolist():
             gap, part = clearance(self._record, *self._static, x, z)
-            if id_ and gap < -LEAST_ADVANCE_GAP:
+            if id_ and gap < -MIN_ADVANCE_GAP:
                 raise StateError(f"the state holds a ball {-gap:.3g} u deep inside {self._names[part]}")
 
 
-def _made_again(table: Table, seed: int, tick_rate: int, state: bytes, tallies: NDArray[np.int64]) -> World:
+def _rebuild(table: Table, seed: int, tick_rate: int, state: bytes, tallies: NDArray[np.int64]) -> World:
     world = World(table, seed, tick_rate)
     world.restore(state)
     world._batch.tallies[:] = tallies
@@ -356,7 +435,7 @@ def _made_again(table: Table, seed: int, tick_rate: int, state: bytes, tallies: 
 
 
 def _pair(name: str, value: Any, middle: float) -> tuple[float, float]:
-    """Two finite numbers of (x, z), or of (x, y, z) with the only y there is."""
+    """Return (x, z) from two finite numbers, or from three of which y has the only value possible."""
     try:
         numbers = [float(number) for number in value]
     except (TypeError, ValueError):

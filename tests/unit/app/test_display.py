@@ -22,7 +22,7 @@ FACE = GameView(
     save_left=0.0,
     warnings=0,
     tilted=False,
-    most_balls=2,
+    max_balls=2,
 )
 
 
@@ -113,7 +113,7 @@ def test_ball_save_blinks_while_it_lasts():
         (news(GameEventKind.WARNING, 1), "WARNING!"),
         (news(GameEventKind.BALL_LOST, 2), "BALL 2 LOST"),
         (news(GameEventKind.SCORED, 250), "+250"),
-        (news(GameEventKind.UN_STUCK), "A SHOVE FOR A STILL BALL"),
+        (news(GameEventKind.UNSTUCK), "A SHOVE FOR A STILL BALL"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

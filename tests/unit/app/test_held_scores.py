@@ -14,8 +14,8 @@ from silverball.app.game_archive import NOT_YET, REMIND_SECONDS, RETRY_SECONDS, 
 from silverball.app.program import OVER_SECONDS
 from silverball.app.settings import Settings
 from silverball.game.scores import database
-from silverball.game.scores.proof import prove
 from silverball.game.scores.store import FILE, Store
+from silverball.game.scores.verify_score import verify_score
 from silverball.game.view import Mode
 
 
@@ -55,7 +55,7 @@ def test_a_score_waits_and_is_saved_when_the_file_is_free(evening, tmp_path, sec
     assert [points for points, _ in in_the_file(tmp_path)] == [score]
     (row,) = evening.store.scores()
     (one,) = evening.store.lists()
-    assert prove(row, evening.store.replay(row.id), evening.store.table_text(one.id)) == (True, "")
+    assert verify_score(row, evening.store.replay(row.id), evening.store.table_text(one.id)) == (True, "")
 
 
 def test_initials_that_are_given_while_the_file_is_held_are_saved_too(evening, tmp_path):
@@ -90,7 +90,7 @@ def test_settings_that_could_not_be_read_at_the_start_are_used_when_they_can_and
 ):
     kept = Settings(table="Leaky", volume=2, initials="ZZZ", theme="dusk")
     with Store(tmp_path) as store:
-        store.keep_settings(kept.model_dump(mode="json"))
+        store.save_settings(kept.model_dump(mode="json"))
     monkeypatch.setattr(database, "BEGIN_SECONDS", 0.05)
     with held(tmp_path / FILE, ALONE):
         evening = Evening(tmp_path)

@@ -406,6 +406,7 @@ def test_five_hundred_files_are_all_offered_though_none_is_waited_for(tmp_path, 
     for number in range(500):
         write(tmp_path, f"t{number:03}.toml", text.replace("Classic", f"Table {number}"))
     gate = threading.Event()
+    monkeypatch.setattr("silverball.app.table_files.PACE", 0.001)
     monkeypatch.setattr(
         "silverball.app.table_files.load_table", lambda name: gate.wait() and load_table(name)
     )

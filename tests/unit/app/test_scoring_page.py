@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from silverball.app.scoring import how_to_score, quick_shoves
-from silverball.game.rules import Laws, Standing, hit, shoved, started
+from silverball.game.builtin_rules import ArcadeRules
+from silverball.game.rules import RuleState
 from silverball.game.view import GameEventKind, Mode
 from silverball.table import Arcade, Board, Cylinder, Table, TriangularPrism, generate_table, load_table
 
@@ -24,12 +25,13 @@ def table_with(**arcade) -> Table:
 
 def factor_of(table: Table, count: int, balls: int = 1) -> int:
     """By which the last of so many hits in a row is multiplied, by the rules of the game."""
-    laws, now, news = Laws.of(table, Mode.ARCADE, RATE), Standing(), ()
+    rules, state, events = ArcadeRules(), RuleState(), ()
+    config = rules.configure(table, RATE)
     for ball in range(balls):
-        now, _ = started(laws, now, 0, ball + 1)
+        state, _ = rules.started(config, state, 0, ball + 1)
     for _ in range(count):
-        now, news = hit(laws, now, 1, 1, "cylinder[0]")
-    return next(one.value for one in news if one.kind is GameEventKind.SCORED)
+        state, events = rules.hit(config, state, 1, 1, "cylinder[0]")
+    return next(one.value for one in events if one.kind is GameEventKind.SCORED)
 
 
 @given(
@@ -72,12 +74,13 @@ def test_where_a_second_ball_gains_nothing_nothing_is_said_of_it(numbers):
 def test_the_shoves_that_warn_and_tilt_are_those_of_the_rules(warning, limit, warnings):
     arcade = Arcade(tilt_warning=warning, tilt_limit=limit, warnings=warnings)
     table = Table(arcade=arcade)
-    laws, now = Laws.of(table, Mode.ARCADE, RATE), Standing()
+    rules, state = ArcadeRules(), RuleState()
+    config = rules.configure(table, RATE)
     warned, count = None, 0
-    while not now.tilted:
+    while not state.tilted:
         count += 1
-        now, news = shoved(laws, now, 0)
-        if any(one.kind is GameEventKind.WARNING for one in news):
+        state, events = rules.shoved(config, state, 0)
+        if any(one.kind is GameEventKind.WARNING for one in events):
             warned = warned or count
     assert quick_shoves(arcade) == (warned, count)
     assert re.search(rf"{count}\w\w (of quick ones )?tilts", text_of(table, "Tilt"))

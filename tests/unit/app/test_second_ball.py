@@ -104,7 +104,7 @@ def test_a_tilted_table_says_so_and_asks_nothing():
     for _ in range(5):
         stage.game.jitter()
         wait(stage, 0.1)
-    assert stage.game.face.tilted
+    assert stage.game.view.tilted
     with pytest.raises(SilverballError, match="tilt"):
         stage.bring_ball("SPACE")
 
@@ -115,12 +115,12 @@ def test_a_game_with_questions_is_the_same_game_and_its_replay_is_whole():
     stage.bring_ball("SPACE")
     plain.create_ball()
     wait(stage, 1.5)
-    plain.advance(ticks=360)
+    plain.step(ticks=360)
     stage.bring_ball("SPACE")
     stage.bring_ball("SPACE")
     plain.create_ball()
     wait(stage, 2.0)
-    plain.advance(ticks=480)
+    plain.step(ticks=480)
     assert stage.game.digest() == plain.digest()
     assert verify(stage.game.replay).ok
 

@@ -280,7 +280,7 @@ def test_dead_paddles_are_silent_until_the_next_ball():
         (GameEventKind.BALL_SAVED, "ball_saved"),
         (GameEventKind.WARNING, "warning"),
         (GameEventKind.TILT, "tilt"),
-        (GameEventKind.UN_STUCK, "un_stuck"),
+        (GameEventKind.UNSTUCK, "un_stuck"),
         (GameEventKind.DOUBLE_ON, "double_on"),
         (GameEventKind.OVER, "game_over"),
     ],

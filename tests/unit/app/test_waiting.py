@@ -67,7 +67,7 @@ def test_the_share_grows_as_kernels_are_compiled_and_nothing_is_said_of_what_is_
     assert starting.is_done
     assert starting.progress is None
     monkeypatch.setattr(kernel, "is_compiled", lambda: False)
-    monkeypatch.setattr(kernel, "forget_old_code", lambda: None)
+    monkeypatch.setattr(kernel, "evict_old_code", lambda: None)
     monkeypatch.setattr(startup, "warm_up", lambda _: time.sleep(0.2))
     compiling = startup.Startup(table)
     compiling.wait()

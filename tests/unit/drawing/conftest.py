@@ -1,13 +1,13 @@
-"""Baked pictures of tests go to a folder of their own, and no machine's cache is looked at."""
+"""Baked pictures of tests go to a folder of their own; the cache of the machine is not used."""
 
 from __future__ import annotations
 
 import pytest
 
-from silverball.drawing.picture_cache import Store
+from silverball.drawing.picture_cache import PictureCache
 
 
 @pytest.fixture(scope="session")
-def store(tmp_path_factory):
+def picture_cache(tmp_path_factory):
     """A store that all tests share, so that a table is baked once."""
-    return Store(tmp_path_factory.mktemp("pictures"))
+    return PictureCache(tmp_path_factory.mktemp("pictures"))

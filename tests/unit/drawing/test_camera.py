@@ -26,8 +26,8 @@ def test_the_ray_through_a_point_of_the_picture_meets_what_is_seen_there():
     camera = Camera(BOARD, (500, 900))
     x, y, z = 3.0, 0.4, -2.0
     dx, dy, dz = camera.ray(*camera.to_pixel(x, z, y))
-    way = (y - camera.frustum.eye_y) / dy
-    assert (camera.frustum.eye_x + way * dx, way * dz) == pytest.approx((x, z))
+    t = (y - camera.frustum.eye_y) / dy
+    assert (camera.frustum.eye_x + t * dx, t * dz) == pytest.approx((x, z))
 
 
 def test_far_things_look_smaller_and_the_left_is_the_right_in_the_mirror():
@@ -41,11 +41,11 @@ def test_far_things_look_smaller_and_the_left_is_the_right_in_the_mirror():
 @pytest.mark.parametrize(("length", "width"), SHAPES)
 def test_nothing_of_any_board_is_cut_off_at_any_size(length, width, size):
     camera = Camera(Board(length=length, width=width, gutter=-0.45 * length), size)
-    build = camera.build
-    long, wide = build.half_length + build.rail, build.half_width + build.rail
+    dimensions = camera.dimensions
+    long, wide = dimensions.half_length + dimensions.rail, dimensions.half_width + dimensions.rail
     for x in (-long, long):
         for z in (-wide, wide):
-            for y in (0.0, build.rail_height):
+            for y in (0.0, dimensions.rail_height):
                 across, down = camera.to_pixel(x, z, y)
                 assert -1e-6 <= across <= size[0] + 1e-6
                 assert camera.panel.bottom - 1.0 <= down <= size[1] + 1e-6

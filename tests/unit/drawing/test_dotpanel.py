@@ -1,4 +1,4 @@
-"""Does the panel show every dot as a light, at every size, and work only when something has changed?"""
+"""The dot panel: every dot is a light at every size, and unchanged dots are not drawn again."""
 
 import numpy as np
 import pygame

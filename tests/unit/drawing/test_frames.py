@@ -23,13 +23,13 @@ RADIUS = TABLE.board.ball_radius
 
 
 @pytest.fixture(scope="module")
-def shared(store):
-    return Renderer(TABLE, SIZE, theme="clear", store=store)
+def shared(picture_cache):
+    return Renderer(TABLE, SIZE, theme="clear", cache=picture_cache)
 
 
 @pytest.fixture
 def renderer(shared):
-    shared.effects.forget()
+    shared.effects.clear()
     return shared
 
 
@@ -58,9 +58,9 @@ def test_the_same_moment_has_the_same_bytes_whatever_was_drawn_in_between(render
     moment = START._replace(balls=(BallAt(1, 0.4, 0.3),), angles=(10.0, 30.0))
     first = renderer.array(moment)
     with_balls(renderer, (3.0, -3.0), (-6.0, 1.0), angles=(45.0, -10.0))
-    renderer.effects.forget()
+    renderer.effects.clear()
     assert (renderer.array(moment) == first).all()
-    renderer.effects.forget()
+    renderer.effects.clear()
     assert (renderer.array(START) == picture).all()
 
 
@@ -95,44 +95,46 @@ def test_a_ball_behind_a_raised_paddle_is_hidden_and_before_it_is_not(renderer):
     length = np.hypot(way_x, way_z)
     above = (edge[0] + way_z / length * 1.001 * RADIUS, edge[1] - way_x / length * 1.001 * RADIUS)
     bare = with_balls(renderer, angles=angles)
-    renderer.effects.forget()
+    renderer.effects.clear()
     behind = with_balls(renderer, above, angles=angles)
-    height = renderer.camera.build.paddle_height
+    height = renderer.camera.dimensions.paddle_height
     # Just inside the paddle's upper edge its top is seen: the ball that touches it there lies behind.
     inside = (edge[0] - way_z / length * 0.07, edge[1] + way_x / length * 0.07)
     assert np.abs(at(behind, renderer, *inside, height) - at(bare, renderer, *inside, height)).max() < 90
     across, down = renderer.camera.to_pixel(*above, RADIUS)
     assert np.abs(behind[int(down) - 2, int(across)] - bare[int(down) - 2, int(across)]).max() > 60
     # A ball below the paddle covers it wherever the two overlap in the picture.
-    renderer.effects.forget()
+    renderer.effects.clear()
     low = (edge[0] - way_z / length * 0.55, edge[1] + way_x / length * 0.55)
     before = with_balls(renderer, low, angles=angles)
     across, down = renderer.camera.to_pixel(*low, RADIUS)
     assert np.abs(before[int(down) - 2, int(across)] - bare[int(down) - 2, int(across)]).max() > 60
 
 
-def test_a_ball_behind_an_obstacle_is_hidden_by_it(store):
+def test_a_ball_behind_an_obstacle_is_hidden_by_it(picture_cache):
     prism = TriangularPrism(vertices=((0.0, -1.5), (0.0, 1.5), (-1.2, 0.0)))
-    renderer = Renderer(Table(triangular_prism=(prism,), name=""), SIZE, theme="clear", store=store)
+    renderer = Renderer(Table(triangular_prism=(prism,), name=""), SIZE, theme="clear", cache=picture_cache)
     bare = renderer.array(START).astype(int)
     seen = renderer.array(START._replace(balls=(BallAt(1, 0.01 + RADIUS, 0.0),))).astype(int)
-    top = renderer.camera.build.prism_height
+    top = renderer.camera.dimensions.prism_height
     assert np.abs(at(seen, renderer, -0.08, 0.0, top) - at(bare, renderer, -0.08, 0.0, top)).max() < 40
     assert np.abs(at(seen, renderer, 0.3, 0.0, 0.5) - at(bare, renderer, 0.3, 0.0, 0.5)).max() > 60
 
 
-def test_the_shadow_of_a_ball_falls_onto_the_top_of_an_obstacle(store):
+def test_the_shadow_of_a_ball_falls_onto_the_top_of_an_obstacle(picture_cache):
     """A ball that touches a prism's upper edge darkens the prism's top: its shadow has climbed onto it."""
     prism = TriangularPrism(vertices=((0.0, -3.0), (0.0, 3.0), (-2.5, 0.0)))
-    renderer = Renderer(Table(triangular_prism=(prism,), name=""), SIZE, theme="clear", store=store)
-    build = renderer.camera.build
-    place = (-0.07, 0.0, build.prism_height)
+    renderer = Renderer(Table(triangular_prism=(prism,), name=""), SIZE, theme="clear", cache=picture_cache)
+    dimensions = renderer.camera.dimensions
+    place = (-0.07, 0.0, dimensions.prism_height)
     across, down = renderer.camera.to_pixel(*place)
-    assert renderer._painter._height[int(down), int(across)] == pytest.approx(build.prism_height, abs=0.06)
+    assert renderer._painter._height[int(down), int(across)] == pytest.approx(
+        dimensions.prism_height, abs=0.06
+    )
     bare = renderer.array(START).astype(int)
     seen = renderer.array(START._replace(balls=(BallAt(1, 1.001 * RADIUS, 0.0),))).astype(int)
     assert at(seen, renderer, *place).sum() < 0.92 * at(bare, renderer, *place).sum()
-    far = (-0.07, 1.9, build.prism_height)
+    far = (-0.07, 1.9, dimensions.prism_height)
     assert (at(seen, renderer, *far) == at(bare, renderer, *far)).all()
 
 
@@ -140,7 +142,7 @@ def test_the_shadow_of_a_ball_falls_onto_the_top_of_an_obstacle(store):
 def test_paddles_are_drawn_at_their_angle(renderer, angle):
     bare = Renderer(TABLE.model_copy(update={"paddle": ()}), SIZE, theme="clear").array(START).astype(int)
     picture = renderer.array(START._replace(angles=(angle, angle))).astype(int)
-    height = renderer.camera.build.paddle_height
+    height = renderer.camera.dimensions.paddle_height
     for paddle in TABLE.paddle:
         corners = np.array(paddle.corners(angle))
         middle = corners.mean(axis=0)
@@ -166,7 +168,7 @@ def test_the_right_paddle_is_the_left_one_in_the_mirror(renderer):
 def test_a_hit_lights_a_part_and_the_floor_around_it_up_and_the_light_goes_out(renderer, picture):
     x, z, radius = TABLE.cylinder[1].circle()
     event = Event("hit", "cylinder[1]", 1, 240, 0.0, (x, 1.0, z), (1.0, 0.0, 0.0), 5.0)
-    renderer.note([event], 240)
+    renderer.add_events([event], 240)
     times = (0.0, 0.1, 0.2)
     lit = [renderer.array(START._replace(time=1.0 + after)).astype(int) for after in times]
     assert lit[0].sum() > lit[1].sum() > lit[2].sum() > picture.sum()
@@ -175,13 +177,13 @@ def test_a_hit_lights_a_part_and_the_floor_around_it_up_and_the_light_goes_out(r
     assert (renderer.array(START._replace(time=2.0)) == picture).all()
 
 
-def test_hard_hits_strike_sparks_which_less_effects_leave_out(store):
+def test_hard_hits_strike_sparks_which_less_effects_leave_out(picture_cache):
     hit = Event("hit", "board.left", 1, 240, 0.0, (0.0, 1.0, -4.6), (0.0, 0.0, 1.0), 15.0)
     sums = {}
     for effects in ("full", "less"):
-        renderer = Renderer(TABLE, SIZE, theme="clear", effects=effects, store=store)
+        renderer = Renderer(TABLE, SIZE, theme="clear", effects=effects, cache=picture_cache)
         before = renderer.array(START._replace(time=1.05)).astype(int)
-        renderer.note([hit], 240)
+        renderer.add_events([hit], 240)
         sums[effects] = renderer.array(START._replace(time=1.05)).astype(int).sum() - before.sum()
     assert sums["full"] > 2000
     assert sums["less"] == 0
@@ -197,11 +199,11 @@ def test_a_fast_ball_leaves_a_trail_for_a_moment(renderer, picture):
 
 def test_a_ball_in_the_gutter_rolls_under_the_apron(renderer, picture):
     event = Event("gutter", "gutter", 1, 240, 0.0, (-9.0, 1.0, 0.0), (1.0, 0.0, 0.0), 8.0)
-    renderer.note([event], 240)
+    renderer.add_events([event], 240)
     seen = renderer.array(START._replace(time=1.02)).astype(int)
     changed = np.argwhere(np.abs(seen - picture).max(axis=2) > 0)[:, 0]
-    build = renderer.camera.build
-    apron = renderer.camera.to_pixel(build.apron_top, 0.0, build.apron_height)[1]
+    dimensions = renderer.camera.dimensions
+    apron = renderer.camera.to_pixel(dimensions.apron_top, 0.0, dimensions.apron_height)[1]
     assert changed.size
     assert changed.max() <= apron + 3
     assert (renderer.array(START._replace(time=2.0)) == picture).all()
@@ -214,27 +216,28 @@ def test_the_score_is_shown_in_the_panel_and_nowhere_else(renderer, picture):
     assert all(renderer.score_panel.collidepoint(column, row) for row, column in changed)
 
 
-def test_a_seed_is_written_only_beside_a_board_that_was_made_from_one(picture, store):
+def test_a_seed_is_written_only_beside_a_board_that_was_made_from_one(picture, picture_cache):
     seeded, other = (
-        Renderer(TABLE, SIZE, theme="clear", board_seed=seed, store=store).array(START) for seed in (7, 8)
+        Renderer(TABLE, SIZE, theme="clear", board_seed=seed, cache=picture_cache).array(START)
+        for seed in (7, 8)
     )
     assert (seeded != other).any()
     assert (seeded != picture).any()
 
 
-def test_a_film_of_one_game_is_the_same_twice(store):
+def test_a_film_of_one_game_is_the_same_twice(picture_cache):
     table = generate_table(3)
 
-    def film():
-        world, renderer = World(table, 9), Renderer(table, (120, 192), store=store)
+    def tone_map():
+        world, renderer = World(table, 9), Renderer(table, (120, 192), cache=picture_cache)
         for frame in range(30):
             if len(world.balls) < 2:
                 world.create_ball()
             world.step(left=frame % 5 == 0, right=frame % 7 == 0, ticks=6)
-            renderer.note(world.events, world.tick_rate)
+            renderer.add_events(world.events, world.tick_rate)
             yield renderer.array(Moment.of(world)).copy()
 
-    frames, again = list(film()), list(film())
+    frames, again = list(tone_map()), list(tone_map())
     assert all((one == other).all() for one, other in zip(frames, again, strict=True))
     assert len({frame.tobytes() for frame in frames}) == len(frames)
 

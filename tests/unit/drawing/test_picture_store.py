@@ -1,4 +1,4 @@
-"""The store: what comes out is what went in, and no fault of a disk costs more than time."""
+"""The picture cache: what comes out is what went in, and faults of a disk cost time only."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from silverball.drawing import Moment, Renderer
-from silverball.drawing import picture_cache as store_module
-from silverball.drawing import picture_provider as studio_module
-from silverball.drawing.picture_cache import ENDING, Store, key_of
+from silverball.drawing import picture_cache as cache_module
+from silverball.drawing import picture_provider as provider_module
+from silverball.drawing.picture_cache import ENDING, PictureCache, key_of
 from silverball.table import generate_table, load_table
 
 TABLE = load_table("classic")
@@ -28,13 +28,13 @@ def arrays(number: int, size: int = 10) -> dict[str, np.ndarray]:
 def baked(monkeypatch):
     """How many still tables have been baked."""
     count = []
-    bake = studio_module.bake_still
-    monkeypatch.setattr(studio_module, "bake_still", lambda *a, **k: (count.append(1), bake(*a, **k))[1])
+    bake = provider_module.bake_table
+    monkeypatch.setattr(provider_module, "bake_table", lambda *a, **k: (count.append(1), bake(*a, **k))[1])
     return count
 
 
 def picture(folder, table=TABLE, **options):
-    renderer = Renderer(table, SIZE, store=Store(folder), **options)
+    renderer = Renderer(table, SIZE, cache=PictureCache(folder), **options)
     array = renderer.array(MOMENT)
     renderer.close()
     return array
@@ -56,11 +56,11 @@ def test_another_board_size_or_theme_is_another_picture(tmp_path, baked):
 
 
 def test_a_change_of_the_drawings_sources_makes_all_pictures_anew(monkeypatch):
-    before = key_of("still")
-    store_module._sources.cache_clear()
-    monkeypatch.setattr(store_module.np, "__version__", "another")
-    assert key_of("still") != before
-    store_module._sources.cache_clear()
+    before = key_of("table")
+    cache_module._sources.cache_clear()
+    monkeypatch.setattr(cache_module.np, "__version__", "another")
+    assert key_of("table") != before
+    cache_module._sources.cache_clear()
 
 
 @pytest.mark.parametrize("damage", ["cut", "flipped", "empty", "text", "array", "others", "folder", "pipe"])
@@ -76,7 +76,7 @@ def test_a_damaged_picture_is_baked_anew(tmp_path, baked, damage):
             np.savez(content, a=np.zeros(3))
             changed[damage] = content.getvalue()
             if damage == "others":  # a whole file, but that of another picture
-                Store(tmp_path / "other").save("other", arrays(1))
+                PictureCache(tmp_path / "other").save("other", arrays(1))
                 changed[damage] = (tmp_path / "other" / f"other{ENDING}").read_bytes()
         path.unlink()
         if damage == "folder":
@@ -94,13 +94,13 @@ def test_a_damaged_picture_is_baked_anew(tmp_path, baked, damage):
 def test_a_picture_without_what_belongs_to_it_is_no_picture(tmp_path, baked):
     picture(tmp_path)
     for path in tmp_path.glob("*" + ENDING):
-        Store(tmp_path).save(path.stem, arrays(1))
+        PictureCache(tmp_path).save(path.stem, arrays(1))
     picture(tmp_path)
     assert len(baked) == 2
 
 
 def test_the_oldest_pictures_go_when_there_are_too_many(tmp_path):
-    store = Store(tmp_path, limit=3900)
+    store = PictureCache(tmp_path, limit=3900)
     for number in range(4):
         store.save(f"p{number}", arrays(number, 1000))
         os.utime(tmp_path / f"p{number}{ENDING}", (number, number))
@@ -114,9 +114,9 @@ def test_the_oldest_pictures_go_when_there_are_too_many(tmp_path):
 
 
 def test_a_folder_that_cannot_be_made_costs_nothing_but_time(tmp_path):
-    (tmp_path / "file").write_text("in the way")
+    (tmp_path / "file").write_text("in the t")
     blocked = tmp_path / "file" / "pictures"
-    store = Store(blocked)
+    store = PictureCache(blocked)
     store.save("p", arrays(1))
     assert store.load("p") is None
     assert picture(blocked).shape == (SIZE[1], SIZE[0], 3)

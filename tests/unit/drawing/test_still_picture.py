@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from silverball.drawing import THEMES, Camera, best_size
-from silverball.drawing.bake_table import bake_still, without_obstacles
-from silverball.drawing.bake_threads import Workshop
+from silverball.drawing.bake_table import bake_table, without_obstacles
+from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.kernels.bake import new_canvas
 from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL
 from silverball.drawing.scene import make_scene
@@ -30,7 +30,7 @@ def scene():
 @pytest.fixture(scope="module")
 def canvas(scene):
     canvas = new_canvas(CAMERA.size)
-    Workshop().bake(scene, canvas)
+    BakeThreads().bake(scene, canvas)
     return canvas
 
 
@@ -101,18 +101,20 @@ def test_rails_begin_where_balls_meet_them_and_the_apron_hides_the_gutter(canvas
     for hand in (-1.0, 1.0):
         assert part_at(canvas, 0.0, hand * (side - pixel)) == FLOOR
         assert part_at(canvas, 0.0, hand * (side + pixel)) == RAIL
-    assert part_at(canvas, board.gutter - board.ball_radius - 0.4, 0.0, CAMERA.build.apron_height) == APRON
+    assert (
+        part_at(canvas, board.gutter - board.ball_radius - 0.4, 0.0, CAMERA.dimensions.apron_height) == APRON
+    )
     assert part_at(canvas, board.gutter, 0.0) == FLOOR
 
 
 def test_heights_are_those_of_what_is_seen(canvas):
-    build = CAMERA.build
+    dimensions = CAMERA.dimensions
     x, z, _ = TABLE.cylinder[0].circle()
-    across, down = CAMERA.to_pixel(x, z, build.top)
-    assert canvas.height[int(down) + 2, int(across)] > build.body_height
+    across, down = CAMERA.to_pixel(x, z, dimensions.top)
+    assert canvas.height[int(down) + 2, int(across)] > dimensions.body_height
     corner = np.mean(TABLE.triangular_prism[0].corners(), axis=0)
-    across, down = CAMERA.to_pixel(*corner, build.prism_height)
-    assert canvas.height[int(down), int(across)] == pytest.approx(build.prism_height, abs=0.01)
+    across, down = CAMERA.to_pixel(*corner, dimensions.prism_height)
+    assert canvas.height[int(down), int(across)] == pytest.approx(dimensions.prism_height, abs=0.01)
     assert canvas.height[canvas.part == FLOOR] == pytest.approx(0.0, abs=1e-4)
 
 
@@ -129,9 +131,9 @@ def test_edges_are_smooth(canvas):
 def test_a_board_baked_around_its_obstacles_is_the_board_baked_in_full():
     table = generate_table(5)
     camera = Camera(table.board, best_size(table.board, 260))
-    empty = bake_still(without_obstacles(table), camera, CLEAR, Workshop())
-    patched = bake_still(table, camera, CLEAR, Workshop(), empty)
-    full = bake_still(table, camera, CLEAR, Workshop())
+    empty = bake_table(without_obstacles(table), camera, CLEAR, BakeThreads())
+    patched = bake_table(table, camera, CLEAR, BakeThreads(), empty)
+    full = bake_table(table, camera, CLEAR, BakeThreads())
     assert (patched.pixels == full.pixels).all()
     assert (patched.height == full.height).all()
     assert patched.flashes.keys() == full.flashes.keys()
@@ -140,7 +142,7 @@ def test_a_board_baked_around_its_obstacles_is_the_board_baked_in_full():
 
 def test_any_number_of_threads_bakes_the_same():
     camera = Camera(TABLE.board, best_size(TABLE.board, 150))
-    one, three = (bake_still(TABLE, camera, THEMES["neon"], Workshop(threads)) for threads in (1, 3))
+    one, three = (bake_table(TABLE, camera, THEMES["neon"], BakeThreads(threads)) for threads in (1, 3))
     assert (one.pixels == three.pixels).all()
 
 
@@ -158,7 +160,7 @@ def test_a_mirrored_table_has_a_mirrored_picture():
     }
     camera = Camera(TABLE.board, best_size(TABLE.board, 240))
     one, other = (
-        bake_still(Table(name="", **kinds), camera, CLEAR, Workshop()).pixels.astype(int)
+        bake_table(Table(name="", **kinds), camera, CLEAR, BakeThreads()).pixels.astype(int)
         for kinds in (parts, mirrored)
     )
     difference = np.abs(one - other[:, ::-1]).max(axis=2)
@@ -172,20 +174,20 @@ def test_a_table_of_any_name_can_be_baked_and_its_name_is_read_on_the_apron(name
     table = Table(name=name)
     camera = Camera(table.board, (150, 240))
     named, bare = (
-        bake_still(table.model_copy(update={"name": words}), camera, CLEAR, Workshop()).pixels.astype(int)
+        bake_table(table.model_copy(update={"name": words}), camera, CLEAR, BakeThreads()).pixels.astype(int)
         for words in (name, "")
     )
     rows = np.flatnonzero(np.abs(named - bare).max(axis=(1, 2)) > 30)
     assert bool(len(rows)) == bool(name)
     if name:
-        build = camera.build
-        assert rows.min() >= camera.to_pixel(build.apron_top, 0.0, build.apron_height)[1] - 1.0
+        dimensions = camera.dimensions
+        assert rows.min() >= camera.to_pixel(dimensions.apron_top, 0.0, dimensions.apron_height)[1] - 1.0
 
 
 def test_every_generated_board_and_one_full_of_parts_can_be_baked():
     parts = tuple(Cylinder(center=(x, z), radius=1.0) for x in (-10.0, 10.0) for z in (-5.0, 5.0))
     for table in (generate_table(1), Table(cylinder=parts), Table()):
-        still = bake_still(table, Camera(table.board, (75, 120)), THEMES["parlour"], Workshop())
+        still = bake_table(table, Camera(table.board, (75, 120)), THEMES["parlour"], BakeThreads())
         assert still.pixels.shape == (120, 75, 3)
         assert still.pixels.std() > 10
         assert np.isfinite(still.height).all()

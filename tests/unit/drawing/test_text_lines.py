@@ -1,4 +1,4 @@
-"""Does a text that is broken into lines stay within its width, at every size, with nothing lost?"""
+"""Broken lines stay within their width at every size, and no letter is lost."""
 
 import pytest
 from hypothesis import given

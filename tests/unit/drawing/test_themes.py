@@ -28,7 +28,7 @@ EYES = {
         [1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]
     ],
 }  # fmt: skip
-LEAST_DIFFERENCE = 22.0  # of CIELAB; 2.3 is just seen, and about 10 is seen at a glance
+MIN_DIFFERENCE = 22.0  # of CIELAB; 2.3 is just seen, and about 10 is seen at a glance
 
 # Source: IEC 61966-2-1, linear sRGB to CIE XYZ, and its white D65.
 TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
@@ -49,19 +49,19 @@ def lab(color, eyes):
 
 
 @pytest.fixture(scope="module")
-def seen(store):
+def seen(picture_cache):
     """The mean colours of the kinds of things in a picture of the clear theme."""
-    renderer = Renderer(TABLE, SIZE, theme="clear", store=store)
+    renderer = Renderer(TABLE, SIZE, theme="clear", cache=picture_cache)
     picture = renderer.array(Moment.before(TABLE)._replace(balls=(BALL,))).astype(float)
-    from silverball.drawing.bake_threads import Workshop
+    from silverball.drawing.bake_threads import BakeThreads
     from silverball.drawing.kernels.bake import new_canvas
 
     scene = make_scene(TABLE, renderer.camera, renderer.theme, (-10.0, -10.0))
     canvas = new_canvas(SIZE)
-    Workshop().bake(scene, canvas)
+    BakeThreads().bake(scene, canvas)
     forms = {Form.CYLINDER: "cylinder", Form.PRISM: "prism", Form.PADDLE: "paddle"}
     colors = {
-        name: picture[np.isin(canvas.part, np.flatnonzero(scene.looks["form"] == form))].mean(axis=0)
+        name: picture[np.isin(canvas.part, np.flatnonzero(scene.solids["form"] == form))].mean(axis=0)
         for form, name in forms.items()
     }
     colors["floor"] = picture[canvas.part == FLOOR].mean(axis=0)
@@ -80,7 +80,7 @@ def test_all_eyes_tell_the_kinds_of_things_of_the_clear_theme_apart(seen, eyes):
         for one, other in combinations(seen, 2)
     }
     assert len(differences) == 10
-    assert min(differences.values()) > LEAST_DIFFERENCE, differences
+    assert min(differences.values()) > MIN_DIFFERENCE, differences
 
 
 def test_the_kinds_of_the_clear_theme_differ_in_brightness_alone_too(seen):
@@ -92,13 +92,13 @@ def test_the_kinds_of_the_clear_theme_differ_in_brightness_alone_too(seen):
 
 
 @pytest.mark.parametrize("name", THEMES)
-def test_every_theme_has_colours_that_are_colours_and_a_bright_ball(name, store):
+def test_every_theme_has_colours_that_are_colours_and_a_bright_ball(name, picture_cache):
     theme = THEMES[name]
     for value in vars(theme).values():
         for color in value if isinstance(value, tuple) and isinstance(value[0], tuple) else ():
             assert all(0 <= level <= 255 for level in color)
     moment = Moment.before(TABLE)
-    renderer = Renderer(TABLE, SIZE, theme=name, store=store)
+    renderer = Renderer(TABLE, SIZE, theme=name, cache=picture_cache)
     bare = renderer.array(moment).astype(int)
     across, down = renderer.camera.to_pixel(BALL.x, BALL.z, TABLE.board.ball_radius)
     with_ball = renderer.array(moment._replace(balls=(BALL,))).astype(int)
@@ -106,10 +106,11 @@ def test_every_theme_has_colours_that_are_colours_and_a_bright_ball(name, store)
     assert with_ball[box].mean() > bare[box].mean() + 60
 
 
-def test_themes_are_looks_that_differ(store):
+def test_themes_are_looks_that_differ(picture_cache):
     moment = Moment.before(TABLE)
     pictures = {
-        name: Renderer(TABLE, SIZE, theme=name, store=store).array(moment).astype(int) for name in THEMES
+        name: Renderer(TABLE, SIZE, theme=name, cache=picture_cache).array(moment).astype(int)
+        for name in THEMES
     }
     for one, other in combinations(pictures.values(), 2):
         assert np.abs(one - other).mean() > 10.0

@@ -1,6 +1,6 @@
-"""The games that the tests of games play: how a ball gets where a test wants it, and who presses.
+"""Helpers that play games for tests.
 
-Nothing in here knows the rules: every expected value is worked out in the test.
+Nothing in here knows the rules: every expected value is computed in the test.
 """
 
 from __future__ import annotations
@@ -41,23 +41,23 @@ def put(game: Game, x: float, z: float, vx: float = 0.0, vz: float = 0.0, slot: 
 
 
 def hit_bumper(game: Game, slot: int = 0) -> list[GameEvent]:
-    """Let a ball hit the bumper once from the right; the news of that."""
+    """Let a ball hit the bumper once from the right; the events of that."""
     put(game, 0.0, 1.2, vz=-10.0, slot=slot)
-    game.take_news()
-    game.advance(ticks=15)
-    return game.take_news()
+    game.take_game_events()
+    game.step(ticks=15)
+    return game.take_game_events()
 
 
 def lose(game: Game, slot: int = 0) -> list[GameEvent]:
-    """Let a ball go into the gutter; the news of that."""
+    """Let a ball go into the gutter; the events of that."""
     put(game, game.table.board.gutter + 0.05, 0.0, vx=-5.0, slot=slot)
-    game.take_news()
-    game.advance(ticks=5)
-    return game.take_news()
+    game.take_game_events()
+    game.step(ticks=5)
+    return game.take_game_events()
 
 
-def kinds(news: list[GameEvent]) -> list[GameEventKind]:
-    return [one.kind for one in news]
+def kinds(events: list[GameEvent]) -> list[GameEventKind]:
+    return [one.kind for one in events]
 
 
 def reflex_game(table: Table | str, seed: int, mode: Mode = Mode.ARCADE, seconds: float = 60.0) -> Game:
@@ -66,14 +66,14 @@ def reflex_game(table: Table | str, seed: int, mode: Mode = Mode.ARCADE, seconds
     while not game.is_over and game.tick < seconds * game.tick_rate:
         if game.phase is Phase.READY or (game.tick % 2000 == 1999 and mode is Mode.FREE):
             bring(game)
-        game.advance(*player.press(game.world))
+        game.step(*player.press(game.world))
     return game
 
 
 def frantic_game(
     seed: int, seconds: float = 60.0, presses: float = 6.0, table: Table | str = "classic"
 ) -> Game:
-    """A game in free play in which somebody presses so many times a second, and shoves now and then."""
+    """A game in free play with random presses at some rate per second, and a shove now and then."""
     game, draw = Game(table, seed, Mode.FREE), random.Random(seed)
     held = [False, False]
     next_change = [0, 0]
@@ -84,11 +84,11 @@ def frantic_game(
                 # Each side changes twice a press, and half of all presses are its own.
                 mean = game.tick_rate / presses
                 next_change[side] = game.tick + max(1, round(mean * draw.uniform(0.5, 1.5)))
-        if game.face.on_board < 2 and game.tick % 240 == 0:
+        if game.view.on_board < 2 and game.tick % 240 == 0:
             bring(game)
-        if game.face.on_board and draw.random() < 0.2 / 240:
+        if game.view.on_board and draw.random() < 0.2 / 240:
             game.jitter()
-        game.advance(*held)
+        game.step(*held)
     return game
 
 

@@ -1,4 +1,4 @@
-"""Does a table file say the rules of its arcade game, and is one that says nothing what it was before?"""
+"""The arcade section of table files: rules are read, written and checked, and absent rules change nothing."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TEXT = 'format = 1\nname = "Mine"\n\n[arcade]\nballs = 5\nball_save = 8.0\n'
 
 
 @pytest.mark.parametrize("name", table_names())
-def test_a_table_that_says_nothing_has_the_digest_and_the_text_that_it_had_without_such_rules(name: str):
+def test_a_table_without_an_arcade_section_keeps_its_digest_and_text(name: str):
     table = load_table(name)
     assert table.arcade == Arcade()
     before = table.model_dump(mode="json")
@@ -33,14 +33,14 @@ def test_a_table_that_says_nothing_has_the_digest_and_the_text_that_it_had_witho
     assert "arcade" not in dump_table(table)
 
 
-def test_the_rules_come_back_from_the_file_and_only_what_differs_is_written():
+def test_rules_round_trip_through_the_file_and_only_non_defaults_are_written():
     table = parse_table(TEXT)
     assert (table.arcade.balls, table.arcade.ball_save, table.arcade.warnings) == (5, 8.0, Arcade().warnings)
     assert dump_table(table) == TEXT
     assert table_digest(table) != table_digest(parse_table('format = 1\nname = "Mine"\n'))
 
 
-def test_a_section_with_the_defaults_is_no_section():
+def test_a_section_of_defaults_equals_no_section():
     spelt_out = parse_table(f'format = 1\nname = "Mine"\n[arcade]\nballs = {Arcade().balls}\n')
     assert table_digest(spelt_out) == table_digest(parse_table('format = 1\nname = "Mine"\n'))
 
@@ -48,7 +48,7 @@ def test_a_section_with_the_defaults_is_no_section():
 def test_every_board_of_a_recipe_has_the_recipes_rules():
     recipe = load_table("random").model_copy(update={"arcade": Arcade(balls=7)})
     assert generate_table(3, recipe).arcade.balls == 7
-    assert Game(recipe, 3).face.balls == 7
+    assert Game(recipe, 3).view.balls == 7
 
 
 @pytest.mark.parametrize(
@@ -57,13 +57,13 @@ def test_every_board_of_a_recipe_has_the_recipes_rules():
         ("bals = 3", "arcade.bals", "`balls`"),
         ("balls = 0", "arcade.balls", "must be 1 to 99 balls, got 0"),
         ("ball_save = -1", "arcade.ball_save", "must be 0 to 60 s, got -1"),
-        ("warnings = 1.5", "arcade.warnings", "whole number"),
+        ("warnings = 1.5", "arcade.warnings", "must be an integer"),
         ("points = 3", "arcade.points", "belongs in a part"),
         ("gravity = 3", "arcade.gravity", "belongs in [board]"),
         ("un_stick = 0", "arcade.un_stick", "0.5 to 60 s"),
     ],
 )
-def test_a_mistake_in_the_rules_comes_with_its_path_and_a_hint(line: str, path: str, hint: str):
+def test_an_invalid_rule_is_reported_with_its_path_and_a_hint(line: str, path: str, hint: str):
     with pytest.raises(TableError) as caught:
         parse_table(f"format = 1\n[arcade]\n{line}\n")
     (problem,) = caught.value.problems
@@ -71,6 +71,6 @@ def test_a_mistake_in_the_rules_comes_with_its_path_and_a_hint(line: str, path: 
     assert hint in problem.message
 
 
-def test_a_rule_in_the_wrong_section_is_sent_to_its_own():
+def test_a_rule_in_the_wrong_section_is_reported_with_the_right_one():
     with pytest.raises(TableError, match=r"`combo_limit` belongs in \[arcade\]"):
         parse_table("format = 1\n[board]\ncombo_limit = 3\n")

@@ -1,4 +1,4 @@
-"""Do replays lead to the very same game, and are all others refused in words?"""
+"""Replays lead to the same game; everything else is refused in words."""
 
 from __future__ import annotations
 
@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 from boards import CLASSIC, PADDLES
 from silverball.errors import StateError
 from silverball.game.game import Game
-from silverball.game.replay import lines as replay_lines
-from silverball.game.replay import recorder as replay_record
+from silverball.game.replay import recording
 from silverball.game.replay.digest import GROUPS
 from silverball.game.replay.format import Replay
 from silverball.game.replay.player import InputRefusedError, ReplayPlayer
@@ -47,20 +46,20 @@ inputs = st.lists(st.tuples(st.integers(0, 999), st.sampled_from("LR+!")), max_s
 
 
 @given(inputs)
-def test_inputs_come_back_from_their_line(given_inputs):
+def test_inputs_round_trip_through_their_line(given_inputs):
     ordered = sorted(given_inputs, key=lambda one: one[0])
     last, line = 0, ""
     for tick, kind in ordered:
-        line += replay_lines.written(kind, tick - last)
+        line += recording.format_input(kind, tick - last)
         last = tick
-    assert [tuple(one) for one in replay_lines.read(line)] == ordered
-    assert not line or replay_lines.TAIL.fullmatch(f"= {line}")
+    assert [tuple(one) for one in recording.parse_inputs(line)] == ordered
+    assert not line or recording.TAIL.fullmatch(f"= {line}")
 
 
 @pytest.mark.parametrize(
     "game", [GAME, reflex_game(generate_table(4), 4, Mode.FREE, 12.3)], ids=["arcade", "free"]
 )
-def test_a_replay_comes_back_from_its_text_and_verifies(game: Game):
+def test_a_replay_round_trips_through_its_text_and_verifies(game: Game):
     replay = game.replay
     again = Replay.from_text(replay.to_text())
     assert again == replay
@@ -88,7 +87,7 @@ def test_a_minute_of_play_takes_no_more_than_two_kilobytes():
 def test_games_of_any_length_can_be_played_again(ticks: int):
     game = Game("classic", 3)
     game.create_ball()
-    game.advance(ticks=ticks)
+    game.step(ticks=ticks)
     game.jitter()
     assert verify(Replay.from_text(game.replay.to_text())).ok
     game.end()
@@ -102,7 +101,7 @@ def test_games_of_any_tick_rate_can_be_played_again(rate: int):
     game = Game("classic", 3, tick_rate=rate)
     game.create_ball()
     for left, right, ticks in ((True, False, 3 * rate), (False, True, rate - 1), (False, False, 2 * rate)):
-        game.advance(left, right, ticks)
+        game.step(left, right, ticks)
     replay = Replay.from_text(game.replay.to_text())
     assert (replay.tick_rate, replay.ticks) == (rate, 6 * rate - 1)
     assert verify(replay).ok
@@ -121,7 +120,7 @@ def test_the_fault_of_a_world_is_played_again_as_far_as_it_went():
     assert (verdict.field, verdict.expected, verdict.got) == ("ended", "outside", "running")
 
 
-def test_one_changed_press_is_found_in_its_second():
+def test_a_changed_input_is_found_in_its_second():
     number, line = next((n, line) for n, line in enumerate(REPLAY.lines) if re.search(r" .*[b-y]$", line))
     changed = line[:-1] + chr(ord(line[-1]) + 1)
     lines = (*REPLAY.lines[:number], changed, *REPLAY.lines[number + 1 :])
@@ -148,7 +147,7 @@ def test_a_changed_digest_is_named_with_its_group(number: int):
     assert (verdict.expected, verdict.got) == (other + line[at + 1], line[at : at + 2])
 
 
-def test_a_score_that_was_not_reached_is_named():
+def test_a_wrong_score_is_reported():
     text = resealed(TEXT.replace(f"score = {GAME.score}\n", f"score = {GAME.score + 1}\n"))
     verdict = verify(Replay.from_text(text))
     assert (verdict.field, verdict.expected, verdict.got) == ("score", str(GAME.score + 1), str(GAME.score))
@@ -158,7 +157,7 @@ def test_a_score_that_was_not_reached_is_named():
 def test_a_longer_replay_than_its_game_says_when_the_game_ended():
     game = Game(bare(balls=1, ball_save=0.0))
     game.create_ball()
-    game.advance(ticks=1000)
+    game.step(ticks=1000)
     assert game.is_over
     longer = replace(game.replay, ticks=game.tick + 10)
     verdict = verify(longer)
@@ -178,7 +177,7 @@ def test_an_input_that_the_rules_refuse_is_named_with_its_tick(extra: str, reaso
     assert compare(REPLAY, replace(REPLAY, lines=lines)).field
 
 
-def test_two_replays_of_different_boards_differ_in_the_head():
+def test_two_replays_of_different_boards_differ_in_the_header():
     other = replace(REPLAY, seed=REPLAY.seed + 1)
     assert compare(REPLAY, other) == Verdict(
         False, 0, 0, 0, "seed", "2", "3", "tick 0, seed: expected 2, got 3"
@@ -195,11 +194,11 @@ def test_a_shorter_replay_of_the_same_game_differs_where_it_ends():
 
 
 def test_a_game_ends_when_its_recording_is_full(monkeypatch):
-    monkeypatch.setattr(replay_record, "SECONDS_LIMIT", 3)
+    monkeypatch.setattr(recording, "SECONDS_LIMIT", 3)
     game = Game(bare(*POCKET))
     game.create_ball()
     put(game, *IN_POCKET)
-    game.advance(ticks=5000)
+    game.step(ticks=5000)
     assert (game.tick, game.ended) == (3 * 240, "stopped")
 
 
@@ -210,14 +209,10 @@ def test_a_replay_of_a_table_with_a_mesh_needs_no_other_file(tmp_path):
     post.export(tmp_path / "post.stl")
     game = Game(bare(Cylinder(mesh=str(tmp_path / "post.stl"))))
     game.create_ball()
-    game.advance(ticks=300)
+    game.step(ticks=300)
     text = game.replay.to_text()
     (tmp_path / "post.stl").unlink()
     assert verify(Replay.from_text(text)).ok
-
-
-# --- watching
-# -----------------------------------------------------------------------------------------------------
 
 
 def states(replay: Replay, ticks: list[int]) -> dict[int, str]:
@@ -230,7 +225,7 @@ def states(replay: Replay, ticks: list[int]) -> dict[int, str]:
     return seen
 
 
-def test_a_player_gets_to_the_end_that_the_replay_says():
+def test_playing_reaches_the_recorded_end():
     player = ReplayPlayer(REPLAY)
     assert (player.tick, player.ticks, player.at_end) == (0, REPLAY.ticks, False)
     player.advance(REPLAY.ticks + 1000)
@@ -266,7 +261,7 @@ def test_seeking_anywhere_shows_the_same_moment_as_playing_there():
         assert player.tick == tick
         assert player.game is game
         assert game.digest() == expected[tick], tick
-        assert game.take_events() == []
+        assert game.take_world_events() == []
     player.seek(-5)
     assert player.tick == 0
     player.seek(10**9)
@@ -280,8 +275,8 @@ def test_a_button_that_is_held_stays_held_after_seeking():
     game = Game(bare(*PADDLES, *POCKET))
     game.create_ball()
     put(game, *IN_POCKET)
-    game.advance(True, False, 6 * 240)
-    game.advance(False, False, 240)
+    game.step(True, False, 6 * 240)
+    game.step(False, False, 240)
     player = ReplayPlayer(game.replay)
     expected = states(player.replay, [1100, 1500])
     player.seek(1500)
@@ -293,7 +288,7 @@ def test_a_button_that_is_held_stays_held_after_seeking():
     assert player.game.digest() == expected[1500]
 
 
-def test_preparing_plays_ahead_unseen():
+def test_preparing_plays_ahead_in_the_background():
     player = ReplayPlayer(REPLAY)
     shares = []
     while not shares or shares[-1] < 1.0:
@@ -305,26 +300,22 @@ def test_preparing_plays_ahead_unseen():
     assert player.game.digest() == states(REPLAY, [9000])[9000]
 
 
-def test_watching_shows_the_news_and_events_of_the_game():
+def test_watching_gives_the_events_of_the_game():
     game = Game(bare(bumper(), *POCKET), 5)
     game.create_ball()
-    game.advance(True, False, 700)
+    game.step(True, False, 700)
     player = ReplayPlayer(game.replay)
     player.advance(700)
-    news = game.take_news()
-    assert GameEventKind.BALL_READY in [one.kind for one in news]
-    assert player.game.take_news() == news
-    assert player.game.take_events() == game.take_events()
+    events = game.take_game_events()
+    assert GameEventKind.BALL_READY in [one.kind for one in events]
+    assert player.game.take_game_events() == events
+    assert player.game.take_world_events() == game.take_world_events()
 
 
 def test_watching_a_replay_of_another_game_stops_with_a_sentence():
     player = ReplayPlayer(replace(REPLAY, lines=(f"{REPLAY.lines[0][:12]} !a", *REPLAY.lines[1:])))
     with pytest.raises(InputRefusedError, match="tick 0: a shove was recorded, but there is no ball"):
         player.advance(240)
-
-
-# --- what is refused
-# -----------------------------------------------------------------------------------------------------
 
 
 def changed(line: int, to: str) -> str:
@@ -335,18 +326,18 @@ def changed(line: int, to: str) -> str:
 PLAY, END = line_of("--- play"), line_of("--- end")
 REFUSED = {
     "empty": ("", "the file is empty"),
-    "foreign": ('{"format": 1}\n', r"line 1: this is no replay: it begins with '\{"),
-    "newer format": (TEXT.replace("replay 1", "replay 2", 1), "line 1: .*format 2.*newer Silverball"),
+    "foreign": ('{"format": 1}\n', r"line 1: this is not a replay: it begins with '\{"),
+    "newer format": (TEXT.replace("replay 1", "replay 3", 1), "line 1: .*format 3.*newer Silverball"),
     "newer physics": (changed(2, "physics = 999"), "line 3: .*physics 999.*newer Silverball"),
     "older physics": (changed(2, "physics = 0"), r"line 3: .*physics 0.*play it with Silverball \d"),
     "newer rules": (changed(3, "rules = 99"), "line 4: .*rules 99.*newer Silverball"),
     "physics no number": (changed(2, "physics = nan"), f"line 3: expected {PHYSICS_VERSION}, got 'nan'"),
     "rules no number": (changed(3, f"rules = {'9' * 400}"), f"line 4: expected {RULES_VERSION}, got '9999"),
-    "leading zero": (changed(5, "seed = 02"), "line 6: expected a whole number from 0 to 92.*got '02'"),
+    "leading zero": (changed(5, "seed = 02"), "line 6: expected an integer from 0 to 92.*got '02'"),
     "unknown mode": (changed(4, "mode = chess"), "line 5: expected one of free, arcade, got 'chess'"),
-    "seed too large": (changed(5, f"seed = {2**63}"), "line 6: expected a whole number from 0 to 92"),
-    "seed no number": (changed(5, "seed = -1"), "line 6: expected a whole number"),
-    "absurd tick rate": (changed(6, "tick_rate = 999999"), "line 7: expected a whole number from 10 to 1000"),
+    "seed too large": (changed(5, f"seed = {2**63}"), "line 6: expected an integer from 0 to 92"),
+    "seed no number": (changed(5, "seed = -1"), "line 6: expected an integer"),
+    "absurd tick rate": (changed(6, "tick_rate = 999999"), "line 7: expected an integer from 10 to 1000"),
     "table digest": (changed(7, "table = abc"), "line 8: expected 64 hexadecimal digits, got 'abc'"),
     "no such key": (changed(5, "sead = 1"), "line 6: expected 'seed = …', got 'sead = 1'"),
     "extra head": (changed(7, f"{LINES[7]}\nmore = 1"), "line 9: expected '--- table'"),
@@ -358,7 +349,7 @@ REFUSED = {
     "cut off in the table": ("\n".join(LINES[:12]), "there is no line '--- play'"),
     "cut off at the end": ("\n".join(LINES[:-2]) + "\n", "the last lines are missing"),
     "bad checksum": (TEXT[:-10] + "zzz\n", r"expected 'checksum = ' and 32 hexadecimal digits"),
-    "more behind": (TEXT + "more\n", "more text behind the checksum"),
+    "more behind": (TEXT + "more\n", "more text after the checksum"),
     "another table": (changed(10, "name = 'Other'"), "line 10: this is not the table that was played"),
     "table nonsense": (changed(9, "name = ["), "line 10: the table is not valid TOML"),
     "table unusable": (changed(9, "nome = 'x'"), "line 10: the table cannot be used: nome: unknown key"),
@@ -369,18 +360,18 @@ REFUSED = {
         changed(9, "[[slant_wall]]\nstart=[0,0]\nend=[1,1]\n" * 300),
         "at most 256 parts, got 304",
     ),
-    "billion ticks": (changed(END + 1, "ticks = 1000000000"), "expected a whole number from 0 to 20736240"),
+    "billion ticks": (changed(END + 1, "ticks = 1000000000"), "expected an integer from 0 to 20736240"),
     "other ticks": (changed(END + 1, "ticks = 240"), rf"line {PLAY + 2}: 240 ticks need 1 lines, .* got"),
     "unknown end": (changed(END + 3, "ended = won"), "expected one of running, over, stopped"),
-    "score": (changed(END + 2, "score = 1e5"), "expected a whole number from 0"),
+    "score": (changed(END + 2, "score = 1e5"), "expected an integer from 0"),
     "a line gone": (changed(PLAY + 4, LINES[PLAY + 4] + "\n" + LINES[PLAY + 4]), "ticks need"),
     "bad line": (changed(PLAY + 4, "abc"), rf"line {PLAY + 5}: expected 12 characters of digests"),
-    "bad inputs": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " 0a"), "expected inputs such as"),
-    "capital mark": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " +A"), "expected inputs such as"),
+    "bad inputs": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " 0a"), "expected inputs like"),
+    "capital mark": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " +A"), "expected inputs like"),
     "late inputs": (changed(PLAY + 4, LINES[PLAY + 4][:12] + " 9999a"), "up to tick 239 of the second"),
     "surrogates": (changed(9, "name = '\ud800'"), "line 10"),
-    "huge number": (changed(5, "seed = " + "9" * 5000), "line 6: expected a whole number"),
-    "digits of elsewhere": (changed(5, "seed = ٣"), "line 6: expected a whole number"),
+    "huge number": (changed(5, "seed = " + "9" * 5000), "line 6: expected an integer"),
+    "digits of elsewhere": (changed(5, "seed = ٣"), "line 6: expected an integer"),
 }
 
 
@@ -411,16 +402,16 @@ def test_a_file_that_is_cut_off_anywhere_is_refused(start: int):
             Replay.from_text(TEXT[:end])
 
 
-def test_a_text_without_end_is_refused_unread():
+def test_an_endless_text_is_refused_without_reading_it():
     with pytest.raises(StateError, match="at most 5,058,576 characters, this has 100,000,000"):
         Replay.from_text("x" * 10**8)
 
 
-def test_line_ends_of_windows_are_no_damage():
+def test_windows_line_ends_are_accepted():
     assert Replay.from_text(TEXT.replace("\n", "\r\n")) == REPLAY
 
 
-def test_files_that_are_no_replays_are_refused(tmp_path: Path):
+def test_files_that_are_not_replays_are_refused(tmp_path: Path):
     good = tmp_path / "good.replay"
     good.write_text(TEXT, encoding="utf-8")
     assert Replay.load(good) == REPLAY
@@ -431,7 +422,7 @@ def test_files_that_are_no_replays_are_refused(tmp_path: Path):
     for name, message in {
         "latin.replay": "not UTF-8 text .byte 34",
         "huge.replay": "100,000,000 bytes long",
-        "pipe.replay": "no ordinary file",
+        "pipe.replay": "not a regular file",
         "missing.replay": "no such file",
         ".": "a folder",
         "a\0b": "cannot be read",

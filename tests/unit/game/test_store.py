@@ -1,4 +1,4 @@
-"""Is everything that was kept there again, in the right order, and nothing else?"""
+"""The store returns everything that was written, in the right order, and nothing else."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ def add(store: Store, score: int, initials: str = "AAA", **other: object) -> int
 def store(tmp_path: Path):
     with Store(tmp_path) as one:
         yield one
-        assert one.trouble == ""
-        assert one.keeps
+        assert one.warning == ""
+        assert one.is_persistent
 
 
-def test_a_score_is_there_with_all_it_consists_of_when_the_file_is_opened_again(tmp_path):
+def test_a_score_is_complete_after_the_file_is_opened_again(tmp_path):
     when = datetime(2026, 2, 3, 4, 5, 6, tzinfo=UTC)
     with Store(tmp_path) as store:
         number = store.add_score("B.9", 4200, "arcade", "mine", "ab" * 32, 2**63 - 1, "the replay\n", when)
@@ -61,7 +61,7 @@ def test_a_score_without_a_time_gets_the_present_one(store):
     assert before <= when <= datetime.now(UTC).timestamp()
 
 
-def test_scores_are_ranked_and_of_equal_ones_the_earlier_is_the_better(store):
+def test_scores_are_ranked_and_of_equal_ones_the_earlier_comes_first(store):
     first, second, third, fourth = (add(store, score) for score in (20, 30, 20, 10))
     assert [score.id for score in store.scores()] == [second, first, third, fourth]
     assert [score.id for score in store.scores(limit=2)] == [second, first]
@@ -94,9 +94,9 @@ def test_all_boards_of_a_recipe_share_a_list_that_shows_their_seeds(store):
     assert [score.seed for score in store.scores("arcade", BOARD["table_digest"])] == [3, 2, 1]
 
 
-def test_a_high_score_is_one_that_comes_into_the_list_that_is_shown(store):
+def test_a_high_score_is_one_that_enters_the_shown_list(store):
     def place(score: int) -> int | None:
-        return store.is_high(score, "arcade", BOARD["table_digest"])
+        return store.high_score_rank(score, "arcade", BOARD["table_digest"])
 
     assert place(1) == 1
     assert place(0) is None
@@ -106,12 +106,12 @@ def test_a_high_score_is_one_that_comes_into_the_list_that_is_shown(store):
     assert place(10 + PLACES - 1) == 2  # the equal one came first
     assert place(11) == PLACES
     assert place(10) is None
-    assert store.is_high(1, "free", BOARD["table_digest"]) == 1
+    assert store.high_score_rank(1, "free", BOARD["table_digest"]) == 1
 
 
-def test_the_place_that_is_promised_is_the_place_that_is_got(store):
+def test_the_predicted_rank_is_the_actual_rank(store):
     for score in (50, 20, 50, 70, 20, 60, 10):
-        promised = store.is_high(score, "arcade", BOARD["table_digest"])
+        promised = store.high_score_rank(score, "arcade", BOARD["table_digest"])
         number = add(store, score)
         listed = [one.id for one in store.scores("arcade", BOARD["table_digest"])]
         assert listed.index(number) + 1 == promised
@@ -125,7 +125,7 @@ def test_a_score_saved_under_the_last_initials_is_renamed(store):
     assert store.score(other).initials == "OLD"
 
 
-def test_marks_stay_and_can_be_taken_back(store):
+def test_marks_persist_and_can_be_undone(store):
     number, other = add(store, 10), add(store, 20)
     for mark in ((False, "its replay reaches 9"), (True, ""), (None, "")):
         store.mark({number: mark})
@@ -133,24 +133,24 @@ def test_marks_stay_and_can_be_taken_back(store):
         assert store.score(other).verified is None
 
 
-def test_a_mark_for_a_score_that_was_removed_meanwhile_does_no_harm(store):
+def test_a_mark_for_a_removed_score_is_ignored(store):
     number, removed = add(store, 10), add(store, 20)
     store.remove(removed)
     store.mark({removed: (True, ""), number: (True, "")})
     assert [(score.id, score.verified) for score in store.scores()] == [(number, True)]
 
 
-def test_a_score_that_was_tried_in_vain_stands_below_all_others_and_is_in_nobodys_way(store):
+def test_a_rejected_score_ranks_below_all_others_and_blocks_none(store):
     points = [90, 80, 70, 60]
     ids = {score: add(store, score) for score in points}
     store.mark({ids[90]: (False, "why"), ids[70]: (True, ""), ids[80]: (False, "why")})
     assert [score.score for score in store.scores()] == [70, 60, 90, 80]
     for score in (95, 85, 65, 5):
         expected = sum(other >= score for other in (70, 60)) + 1
-        assert store.is_high(score, "arcade", BOARD["table_digest"]) == expected
+        assert store.high_score_rank(score, "arcade", BOARD["table_digest"]) == expected
 
 
-def test_a_removed_score_is_gone_and_its_number_is_never_given_again(store):
+def test_a_removed_score_is_gone_and_its_number_is_not_reused(store):
     kept, removed = add(store, 10), add(store, 20)
     store.remove(removed)
     assert [score.id for score in store.scores()] == [kept]
@@ -172,7 +172,7 @@ def test_the_replay_of_every_score_is_kept_however_many_there_are(store):
         assert store.replay(number) == f"replay of {score}\n"
 
 
-def test_the_table_stays_with_its_list_until_a_score_brings_it_anew(store):
+def test_the_table_stays_with_its_list_until_a_score_replaces_it(store):
     add(store, 10)
     (one,) = store.lists()
     assert store.table_text(one.id) == ""
@@ -181,7 +181,7 @@ def test_the_table_stays_with_its_list_until_a_score_brings_it_anew(store):
         assert store.table_text(one.id) == kept
 
 
-def test_a_list_goes_by_the_last_name_of_its_table(store):
+def test_a_list_has_the_last_name_of_its_table(store):
     add(store, 10, table_name="before")
     add(store, 5, table_name="after")
     assert [one.table_name for one in store.lists()] == ["after"]
@@ -190,8 +190,8 @@ def test_a_list_goes_by_the_last_name_of_its_table(store):
 def test_the_last_game_is_kept_and_only_the_last(tmp_path):
     with Store(tmp_path) as store:
         assert store.last_game() is None
-        store.keep_last_game("first")
-        store.keep_last_game("second\n")
+        store.save_last_game("first")
+        store.save_last_game("second\n")
     with Store(tmp_path) as store:
         assert store.last_game() == "second\n"
 
@@ -203,7 +203,7 @@ def test_two_stores_see_what_the_other_has_written(tmp_path):
         assert one.scores()[0].initials == "TWO"
 
 
-def test_what_is_written_is_forced_onto_the_disk(store):
+def test_writes_are_flushed_to_the_disk(store):
     """SQLite does so at every commit with these two: see "synchronous" on https://sqlite.org/pragma.html."""
     connection = store._database._connection
     assert connection.execute("PRAGMA synchronous").fetchone() == (2,)
@@ -224,54 +224,49 @@ def test_text_that_looks_like_sql_is_text(store):
     assert [score.initials for score in store.scores(nasty, nasty, nasty)] == [nasty]
 
 
-def test_a_table_whose_path_is_no_text_has_scores_too(store):
+def test_a_table_whose_path_is_not_valid_text_has_scores(store):
     add(store, 1, table_name="caf\udce9.toml")
     assert store.scores()[0].table_name == "caf?.toml"
 
 
-# ── settings ────────────────────────────────────────────────────────────────────────────────────────────
-
-
-def test_settings_come_back_as_they_were(tmp_path):
+def test_settings_round_trip(tmp_path):
     settings = Settings(
         theme="dusk", volume=3, muted=True, initials="ZZ.", keys={"left": ("a", "left shift")}
     )
     with Store(tmp_path) as store:
         assert Settings.of(store.settings()) == Settings()
-        store.keep_settings(settings.model_dump())
+        store.save_settings(settings.model_dump())
     with Store(tmp_path) as store:
         assert Settings.of(store.settings()) == settings
 
 
-def test_settings_that_are_not_named_stay_as_they_are(store):
-    store.keep_settings({"volume": 3, "of_a_newer_program": {"a": [1, None]}})
-    store.keep_settings({"volume": 4})
+def test_other_settings_stay_as_they_are(store):
+    store.save_settings({"volume": 3, "of_a_newer_program": {"a": [1, None]}})
+    store.save_settings({"volume": 4})
     assert store.settings() == {"volume": 4, "of_a_newer_program": {"a": [1, None]}}
 
 
-def test_settings_are_kept_all_or_none(store):
-    store.keep_settings({"volume": 3, "muted": True})
+def test_settings_are_saved_all_or_none(store):
+    store.save_settings({"volume": 3, "muted": True})
     with pytest.raises(TypeError):
-        store.keep_settings({"volume": 4, "muted": object()})
+        store.save_settings({"volume": 4, "muted": object()})
     with pytest.raises(sqlite3.Error):
-        store.keep_settings({"volume": 4, object(): 1})  # type: ignore[dict-item]
+        store.save_settings({"volume": 4, object(): 1})  # type: ignore[dict-item]
     assert store.settings() == {"volume": 3, "muted": True}
 
 
 @pytest.mark.parametrize(
     "value", ["{", "", "nine", "[" * 100_000, "\x00", b"\xff\xfe", '"loud"', "99", "null"]
 )
-def test_a_damaged_setting_is_replaced_by_its_default_and_the_others_stay(tmp_path, value):
+def test_a_damaged_setting_falls_back_to_its_default_and_the_others_stay(tmp_path, value):
     with Store(tmp_path) as store:
-        store.keep_settings(Settings(volume=3, muted=True).model_dump())
+        store.save_settings(Settings(volume=3, muted=True).model_dump())
     with closing(sqlite3.connect(tmp_path / FILE)) as connection, connection:
         connection.execute("UPDATE setting SET value = ? WHERE name = 'volume'", (value,))
     with Store(tmp_path) as store:
         assert Settings.of(store.settings()) == Settings(muted=True)
-        assert store.trouble == ""
+        assert store.warning == ""
 
-
-# ── versions of the file ────────────────────────────────────────────────────────────────────────────────
 
 NEXT = SCHEMA._replace(
     migrations=(*SCHEMA.migrations, ("ALTER TABLE score ADD COLUMN balls INTEGER NOT NULL DEFAULT 3",)),
@@ -279,15 +274,13 @@ NEXT = SCHEMA._replace(
 )
 
 
-def test_a_file_of_an_older_version_is_brought_to_the_present_one_with_all_that_is_in_it(
-    tmp_path, monkeypatch
-):
+def test_a_file_of_an_older_version_is_migrated_with_its_records(tmp_path, monkeypatch):
     with Store(tmp_path) as store:
         number = add(store, 42)
     monkeypatch.setattr(stores, "SCHEMA", NEXT)
     for _ in range(2):
         with Store(tmp_path) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             assert store.score(number).score == 42
             assert store._database.read("SELECT balls FROM score") == [(3,)]
 
@@ -307,19 +300,19 @@ def test_scores_of_a_file_of_version_1_are_all_there_and_without_a_table(tmp_pat
             )
     for _ in range(2):
         with Store(tmp_path) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             assert [(one.score, one.has_replay) for one in store.scores()] == [(20, True), (10, False)]
             assert store.table_text(3) == ""
             with pytest.raises(SilverballError, match="its replay was not kept"):
                 store.replay(store.scores()[1].id)
 
 
-def test_a_file_stays_at_its_version_when_bringing_it_to_the_present_one_fails(tmp_path):
+def test_a_file_keeps_its_version_if_its_migration_fails(tmp_path):
     with Store(tmp_path) as store:
         add(store, 42)
     broken = NEXT._replace(migrations=(*NEXT.migrations, ("SELECT * FROM nowhere",)))
     with pytest.raises(sqlite3.OperationalError, match="nowhere"):
         Database(tmp_path / FILE, broken)
     with Store(tmp_path) as store:
-        assert store.trouble == ""
+        assert store.warning == ""
         assert [score.score for score in store.scores()] == [42]

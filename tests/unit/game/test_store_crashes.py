@@ -1,4 +1,4 @@
-"""Is all that was shown as kept still there after `kill -9`, and with two programs at once?"""
+"""Everything that was shown as saved survives `kill -9`, and two programs at once."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Players:
     def what_was_shown_until_killed(
         self, folder: Path, seed: int, things: int, after: float
     ) -> list[tuple[Any, ...]]:
-        """Let a player play, kill him so many seconds after so many things, and return what was shown."""
+        """Start a player, kill it some seconds after some events, and return what it had shown."""
         assert self.process.stdin is not None
         print(seed, folder, file=self.process.stdin, flush=True)
         what, player = self.heard()
@@ -85,7 +85,7 @@ class Expected:
             assert connection.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
         last = shown[-1] if shown else ("",)
         with Store(folder) as store:
-            assert (store.trouble, store.keeps) == ("", True)
+            assert (store.warning, store.is_persistent) == ("", True)
             there = {score.id: score for score in store.scores(limit=-1)}
             unseen = set(there) - set(self.scores)
             assert len(unseen) <= (last[0] == "last_game")
@@ -115,7 +115,7 @@ class Expected:
 
 
 def kill_and_look(players: Players, folder: Path, kills: int, seed: int) -> None:
-    """Kill so many players, on one file and on new ones, and see after each that all is there."""
+    """Kill players, on one file and on new ones, and check after each that everything is there."""
     draw = random.Random(seed)
     old = Expected()
     ends = set()
@@ -129,7 +129,7 @@ def kill_and_look(players: Players, folder: Path, kills: int, seed: int) -> None
         if place.exists():
             expected.check(place, shown)
         ends.add(shown[-1][0] if shown else "")
-    assert len(old.scores) > kills / 2  # else nobody had time to play
+    assert len(old.scores) > kills / 2  # otherwise no player had time to play
     assert len(ends) > 3  # and not always at the same place
 
 

@@ -1,4 +1,4 @@
-"""The solver and its slow twin see the same contacts, in the same order, at the same places."""
+"""The solver and its slow twin find the same contacts, in the same order, at the same places."""
 
 from __future__ import annotations
 

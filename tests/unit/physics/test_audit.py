@@ -1,4 +1,4 @@
-"""The audit: is it right, and can it fail?"""
+"""The audit measures depths correctly, and can fail."""
 
 from __future__ import annotations
 

@@ -207,7 +207,7 @@ def test_a_place_or_velocity_that_cannot_be_is_refused_and_nothing_changes(posit
 def test_a_shove_has_its_size_and_any_direction() -> None:
     """Directions: sums of n unit vectors stay below 4·√n; χ² of 16 sectors: 15 ± 5.5."""
     count = 4000
-    batch = WorldBatch(table_of(jitter=1.5), count=count, seed=3)
+    batch = WorldBatch(table_of(jitter=1.5), count=count, seed=3, tick_rate=60)
     batch.create_balls()
     batch.create_balls()
     before = batch.state["ball"].copy()

@@ -1,4 +1,4 @@
-"""A file of compiled code that is not what was written is never loaded: the code is compiled anew."""
+"""A file of compiled code that is not what was written is never loaded: the code is compiled again."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ if os.name != "posix":
 @pytest.fixture
 def said(caplog, monkeypatch):
     """The warnings of a process that begins now."""
-    monkeypatch.setattr(codecache.Damage, "words", "")
+    monkeypatch.setattr(codecache.Damage, "message", "")
     caplog.set_level(logging.WARNING, "silverball")
     return lambda: [record.getMessage() for record in caplog.records if record.name == "silverball"]
 
@@ -118,14 +118,14 @@ def test_code_of_another_function_in_its_place_is_found_out(tmp_path, said):
     for path in list(tmp_path.rglob("*.nb?")):
         path.write_bytes(other[path.suffix])
         if path.suffix == codecache.INDEX:
-            codecache.place_of_code(path, other[codecache.INDEX].decode()).write_bytes(other[codecache.CODE])
+            codecache.code_path(path, other[codecache.INDEX].decode()).write_bytes(other[codecache.CODE])
     assert compiled(tripled_and, tmp_path)(5, 0) == 15
     assert len(said()) == 1
 
 
 @pytest.mark.parametrize("place", ["", "unit.physics", "compiled"])
 def test_a_file_where_a_folder_is_expected_makes_room(tmp_path, place):
-    """The place of a function's folder; the folder of all; and the one above it, which may be somebody's."""
+    """A function's folder, the folder of all code, and the one above, which others may use."""
     folder = tmp_path / "compiled" / "0123456789abcdef"
     module = compiled(squared, folder)._cache.cache_path
     blocked = {"": folder, "unit.physics": Path(module), "compiled": folder.parent}[place]
@@ -155,7 +155,7 @@ def test_after_damage_a_start_waits_for_the_compilation_and_the_next_one_does_no
     assert kernel.is_compiled("squared")
     for path in cache.rglob("*tripled_and*.nbc"):
         path.write_bytes(b"")
-    assert kernel.is_compiled("squared"), "looked through at the start alone"
+    assert kernel.is_compiled("squared"), "only checked at the start"
     monkeypatch.setattr(kernel, "_swept", set())
     assert not kernel.is_compiled("squared")
     assert len(said()) == 1

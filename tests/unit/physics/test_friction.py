@@ -1,4 +1,4 @@
-"""What friction does where a ball meets something: Coulomb's law, worked out here from vectors.
+"""Friction at a contact: Coulomb's law, computed here from vectors.
 
 A contact pushes with the impulse P = (1 + e)·w along its normal n (by the mass). The ball's surface there
 slides with s = v + ω × (−r·n) − u over a surface that moves with u. Friction J against it is what stops the
@@ -38,9 +38,9 @@ def through_contact(velocity, spin, normal, friction, e, surface=(0.0, 0.0, 0.0)
     after, turned = pushed(velocity, spin, arm, impulse)
     left = plus(surface_slip(after, turned, arm), surface, -1.0)
     along = cross((0.0, 1.0, 0.0), normal)
-    grips = math.hypot(left[1], sum(a * b for a, b in zip(left, along, strict=True))) < 1e-9
+    roll_age = math.hypot(left[1], sum(a * b for a, b in zip(left, along, strict=True))) < 1e-9
     after = plus(after, normal, push)
-    return tuple(factor * v for v in after), turned, grips
+    return tuple(factor * v for v in after), turned, roll_age
 
 
 def at(world: World, time: float):
@@ -88,21 +88,21 @@ def test_a_spinning_ball_leaves_a_part_as_coulomb_s_law_says(part: str) -> None:
         surface = getattr(table, path)[0] if index else LEFT if path == "paddle.left" else None
         e0, falloff = (0.8, 0.0) if surface is None else (surface.restitution, surface.restitution_falloff)
         before = (velocity[0] - GRAVITY * time, 0.0, velocity[1])
-        expected, turned, grips = through_contact(
+        expected, turned, roll_age = through_contact(
             before, spin, event.normal, friction, e0 / (1 + falloff * event.speed),
             factor=getattr(surface, "speed_factor", 1.0),
         )  # fmt: skip
         after, spin_after = at(world, time)
         assert after == pytest.approx(expected, abs=CLOSE)
         assert spin_after == pytest.approx(turned, abs=CLOSE / RADIUS)
-        seen[grips] += 1
+        seen[roll_age] += 1
     assert min(seen.values()) >= 8, seen
 
 
-@pytest.mark.parametrize(("friction", "grips"), [(1.0, True), (0.05, False)])
+@pytest.mark.parametrize(("friction", "roll_age"), [(1.0, True), (0.05, False)])
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_ball_that_slides_along_a_border_keeps_five_sevenths_of_its_speed_or_loses_what_friction_can_take(
-    friction: float, grips: bool, side: float
+def test_a_border_slows_a_sliding_ball_to_five_sevenths_or_by_all_of_its_friction(
+    friction: float, roll_age: bool, side: float
 ) -> None:
     """Without spin: J = v/(7/2) stops the slide, and then r·ω_y is the speed along the border."""
     e, vx, vz = 0.8, 6.0, 6.0
@@ -110,7 +110,7 @@ def test_a_ball_that_slides_along_a_border_keeps_five_sevenths_of_its_speed_or_l
     event = first_contact(world)
     time = moment(world, event)
     along = vx - GRAVITY * time
-    lost = along * 2 / 7 if grips else friction * (1 + e) * vz
+    lost = along * 2 / 7 if roll_age else friction * (1 + e) * vz
     (ax, _, az), (wx, wy, wz) = at(world, time)
     assert (ax, az) == pytest.approx((along - lost, -side * e * vz), abs=CLOSE)
     # The right border holds the ball's right side back while it flies up, so its upper side turns to the
@@ -118,7 +118,7 @@ def test_a_ball_that_slides_along_a_border_keeps_five_sevenths_of_its_speed_or_l
     assert wy == pytest.approx(-side * 2.5 * lost / RADIUS, abs=CLOSE)
     assert (wx, wz) == (0.0, 0.0)
     slide = along - lost - side * -RADIUS * wy
-    assert (abs(slide) < CLOSE) == grips
+    assert (abs(slide) < CLOSE) == roll_age
     assert slide >= -CLOSE
 
 
@@ -165,11 +165,11 @@ def test_a_moving_paddle_drags_the_ball_along(paddle, friction: float, where: fl
     surface = cross((0.0, side * omega, 0.0), arm)  # about +y a left paddle turns from z to x: it lifts
     e = paddle.restitution / (1 + paddle.restitution_falloff * event.speed)
     before = (-GRAVITY * time, 0.0, 0.0)
-    expected, turned, grips = through_contact(before, (0.0, 0.0, 0.0), n, friction, e, surface)
+    expected, turned, roll_age = through_contact(before, (0.0, 0.0, 0.0), n, friction, e, surface)
     after, spin = at(world, time)
     assert after == pytest.approx(expected, abs=CLOSE)
     assert spin == pytest.approx(turned, abs=CLOSE)
-    assert grips == (friction > 0.5)
+    assert roll_age == (friction > 0.5)
     # In words: the surface that goes by takes the ball along, and turns it like a wheel.
     along = cross((0.0, 1.0, 0.0), n)
     relative = sum(a * (u - v) for a, u, v in zip(along, surface, before, strict=True))
@@ -193,17 +193,17 @@ def meeting(friction: float, beside: float, va: float, spins, e: float = 0.95):
 NO_SPINS = ((0.0, 0.0, 0.0),) * 2
 
 
-@pytest.mark.parametrize(("friction", "grips"), [(0.02, False), (1.5, True)])
+@pytest.mark.parametrize(("friction", "roll_age"), [(0.02, False), (1.5, True)])
 @pytest.mark.parametrize("beside", [0.3, -0.3, 0.1, 0.45])
-def test_balls_that_glance_off_each_other_take_each_other_along(friction, grips, beside) -> None:
+def test_balls_that_glance_off_each_other_take_each_other_along(friction, roll_age, beside) -> None:
     """Without spin: each has half of the slide, so J = v_t/7 stops it, and both turn the same way."""
     n, before, after, spins = meeting(friction, beside, 8.0, NO_SPINS)
     along = cross((0.0, 1.0, 0.0), n)
     approach = -sum(x * (p - q) for x, p, q in zip(n, *before, strict=True))
     slide = sum(x * (p - q) for x, p, q in zip(along, *before, strict=True))
     most = friction * (1 + 0.95) / 2 * approach
-    assert (abs(slide) / 7 <= most) == grips
-    impulse = -slide / 7 if grips else -math.copysign(most, slide)
+    assert (abs(slide) / 7 <= most) == roll_age
+    impulse = -slide / 7 if roll_age else -math.copysign(most, slide)
     push = (1 + 0.95) / 2 * approach
     for ball, sign in ((0, 1.0), (1, -1.0)):
         expected = plus(plus(before[ball], n, sign * push), along, sign * impulse)

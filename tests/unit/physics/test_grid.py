@@ -1,4 +1,4 @@
-"""A cell of the grid lists every part that a ball anywhere in it can touch on a way of `skin`."""
+"""A cell of the grid lists every part that a ball anywhere in it can touch within a travel of `skin`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numba import njit
 from boards import full_table
 from silverball.benchmarks.marks import crowded_table
 from silverball.physics.audit import part_gap
-from silverball.physics.grid import cell_of
+from silverball.physics.broad_phase import cell_of
 from silverball.physics.records import Part
 from silverball.table import generate_table
 from silverball.world import WorldBatch

@@ -1,4 +1,4 @@
-"""Where compiled code is kept: never in a place where a change of a callee could leave it stale."""
+"""Compiled code is cached where a change of a callee cannot leave it stale."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from silverball.physics import kernel
 
 PACKAGE = Path(silverball.__file__).parent
 
-DECORATED = re.compile(r"^\s*@(kernel|internal|inlined|pasted)\b", re.MULTILINE)
+DECORATED = re.compile(r"^\s*@(kernel|internal|inlined|ir_inlined)\b", re.MULTILINE)
 
 
 def test_every_package_that_holds_kernels_takes_part_in_the_name_of_the_cache():
@@ -24,7 +24,7 @@ def test_every_package_that_holds_kernels_takes_part_in_the_name_of_the_cache():
         path.relative_to(PACKAGE).parts[0]
         for path in PACKAGE.rglob("*.py")
         if re.search(
-            r"^\s*@(kernel|internal|inlined|pasted)\b", path.read_text(encoding="utf-8"), re.MULTILINE
+            r"^\s*@(kernel|internal|inlined|ir_inlined)\b", path.read_text(encoding="utf-8"), re.MULTILINE
         )
     }
     assert holders == set(kernel.KERNEL_PACKAGES)

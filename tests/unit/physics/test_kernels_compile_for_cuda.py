@@ -1,4 +1,4 @@
-"""Do the kernels stay plain scalar functions, so that they compile for a graphics card as they are?
+"""The kernels are plain scalar functions and compile for a graphics card as they are.
 
 The first test reads their text. The others compile them, with all they call, to PTX, the assembly of CUDA;
 that needs no card, only `pip install 'numba-cuda[cu12]'`.
@@ -34,7 +34,7 @@ def kernels_in(source: str) -> Iterator[ast.FunctionDef]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef):
             names = [ast.unparse(decorator) for decorator in node.decorator_list]
-            if any(re.match(r"(kernel|internal|inlined|pasted)\b", name) for name in names):
+            if any(re.match(r"(kernel|internal|inlined|ir_inlined)\b", name) for name in names):
                 yield node
 
 

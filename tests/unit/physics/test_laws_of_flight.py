@@ -1,5 +1,4 @@
-"""A ball in flight, and what one contact does to it: each law is worked out here, from the numbers of the
-table."""
+"""The laws of a flight and of one contact, each computed here from the numbers of the table."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""The random numbers: the published generator, and fair enough."""
+"""The random numbers are those of the published generator, and uniform."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from silverball.physics.random import threefry, uniform
+from silverball.physics.portable_math import threefry, uniform
 
 ROTATIONS = (13, 15, 26, 6, 17, 29, 16, 24)
 

@@ -1,4 +1,4 @@
-"""A ball on a playfield that rubs: slipping, rolling, and the change from the one to the other.
+"""A ball on a playfield with friction: slipping, rolling, and the change from one to the other.
 
 Laws of a solid sphere on a slope, by its mass: gravity g down the slope, the playfield pressed with
 p = g/tan(slope), friction f at the lowest point, at most μ·p. The lowest point moves with u = v − q, where
@@ -21,14 +21,14 @@ import pytest
 from boards import Paddle, first_contact, launched, moment, place, speed_of, table_of
 from oracle import Body, Twin
 from silverball.physics.records import Motion
-from silverball.physics.tolerances import CREEP
+from silverball.physics.tolerances import MIN_SLIP_SPEED
 from silverball.table import Cylinder, Table, TriangularPrism
 from silverball.world import World
 from spinning import Spin, energy, spin_balls, spinning, touch_speed
 
 RADIUS = 0.25
 ROUNDING = 1e-11
-"""A flight begins anew in every tick while a ball slips: a few hundred times some ulp(22)."""
+"""A new flight starts in every tick while a ball slips: a few hundred times some ulp(22)."""
 
 
 def plain(friction: float = 0.2, **board: float) -> Table:
@@ -104,7 +104,7 @@ def test_a_ball_with_enough_friction_rolls_down_with_five_sevenths_of_gravity(sl
 
 @pytest.mark.parametrize("slope", [1.0, 6.5, 30.0])
 @pytest.mark.parametrize("share", [0.999, 0.5, 0.05])
-def test_a_ball_with_too_little_friction_slips_down_for_ever(slope, share) -> None:
+def test_a_ball_with_too_little_friction_slips_down_forever(slope, share) -> None:
     """f = μ·p up the slope: v = −(g − μ·p)·t, and the spin grows by 5/(2r)·μ·p·t."""
     table = plain(share * 2 / 7 * math.tan(math.radians(slope)), slope=slope)
     grip = grip_of(table)
@@ -268,7 +268,7 @@ def test_what_is_left_across_the_slip_at_its_end_is_no_more_than_gravity_makes_i
 
 def test_a_ball_whose_slip_is_below_creep_rolls() -> None:
     for share, expected in ((0.5, Motion.ROLLING), (2.0, Motion.SLIPPING)):
-        world = spinning(plain(), ((0.0, 0.0, 0.0, share * CREEP), (0.0, 0.0, 0.0)))
+        world = spinning(plain(), ((0.0, 0.0, 0.0, share * MIN_SLIP_SPEED), (0.0, 0.0, 0.0)))
         assert motion_of(world) == expected
 
 

@@ -1,4 +1,4 @@
-"""What comes first of two contacts at the very same moment?
+"""The order of two contacts at the very same moment.
 
 Exact mirror images about z = 0 meet at the same time to the bit, so that the order alone decides.
 """

@@ -1,4 +1,4 @@
-"""Our own sine and cosine against 40 digits."""
+"""The portable sine and cosine against 40 digits."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from silverball.physics.trigonometry import sine_cosine
+from silverball.physics.portable_math import sine_cosine
 
 
 def arguments() -> list[float]:

@@ -1,4 +1,4 @@
-"""The planner: it looks ahead, knows nothing but what a copy of the world tells, and works within bounds."""
+"""The planner: it looks ahead, knows only what a copy of the world shows, and works within bounds."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ import pytest
 from boards import full_table, launched, table_of
 from silverball.metrics.ball_time import time_balls
 from silverball.players import make_player
-from silverball.players.planner import Notes, Planner, beat_of, plan_batch
+from silverball.players.planner import Planner, PlannerState, plan_batch, ticks_per_decision
 from silverball.players.rollout import play
-from silverball.players.simple import PlayerKind
 from silverball.world import World, WorldBatch
 from silverball.world.saved_world import digest
 
@@ -54,52 +53,52 @@ def test_planning_does_not_change_the_world_by_a_bit() -> None:
         buttons = planner.press(world)
         assert (world.digest(), world.hits, world.events) == (before, hits, events)
         world.step(*buttons)
-    assert int(planner.notes.memories["steps"][0]) > FEW
+    assert int(planner.state.memories["moves"][0]) > FEW
 
 
 def test_planning_does_not_change_a_batch_by_a_bit() -> None:
-    batch = WorldBatch("random", count=3, seed=4)
+    batch = WorldBatch("random", count=3, seed=4, tick_rate=60)
     batch.create_balls()
-    notes = Notes(3, batch.tallies.shape[1], FEW)
+    state = PlannerState.of(3, batch.tallies.shape[1], FEW)
     before, tallies = batch.digests(), batch.tallies.copy()
-    plan_batch(batch, notes)
+    plan_batch(batch, state)
     assert batch.digests() == before
     assert (batch.tallies == tallies).all()
-    assert (notes.memories["tried"] == FEW).all()
+    assert (state.memories["tried"] == FEW).all()
 
 
 @pytest.mark.parametrize("branches", [4, 9, 30])
-def test_the_cost_of_a_decision_is_bounded_by_its_branches_and_their_steps(branches: int) -> None:
+def test_the_cost_of_a_decision_is_bounded_by_its_branches_and_their_moves(branches: int) -> None:
     world, planner = World("random", seed=8), Planner(branches)
     world.create_ball()
     longest = 0
     for _ in range(240):
         buttons = planner.press(world)
-        memory = planner.notes.memories[0]
+        memory = planner.state.memories[0]
         assert memory["tried"] == (branches if world.balls else 0)
-        longest = max(longest, int(memory["steps"]))
+        longest = max(longest, int(memory["moves"]))
         world.step(*buttons)
-    # A branch takes at most a step for every beat of its ten seconds, and so do the two scouts.
+    # A branch takes at most a step for every step of its ten seconds, and so do the two scouts.
     assert branches < longest <= 600 * (branches + 2)
 
 
-def test_a_decision_stops_at_its_limit_of_steps() -> None:
+def test_a_decision_stops_at_its_limit_of_moves() -> None:
     world, planner = World("random", seed=8), Planner(10**6)
     world.create_ball()
     planner.press(world)
-    memory = planner.notes.memories[0]
+    memory = planner.state.memories[0]
     assert memory["tried"] < 10**5
-    assert memory["step_limit"] <= memory["steps"] < memory["step_limit"] + 600
+    assert memory["move_limit"] <= memory["moves"] < memory["move_limit"] + 600
 
 
 def test_it_decides_sixty_times_a_second_and_holds_its_buttons_in_between() -> None:
-    assert [beat_of(rate) for rate in (10, 60, 120, 240, 1000)] == [1, 1, 2, 4, 17]
+    assert [ticks_per_decision(rate) for rate in (10, 60, 120, 240, 1000)] == [1, 1, 2, 4, 17]
     pressed = game(1, 1200, Planner(FEW))
     changes = {tick % 4 for tick in range(1, 1200) if pressed[tick] != pressed[tick - 1]}
     assert changes == {0}
 
 
-def test_it_meets_another_moment_of_the_world_without_the_plan_of_this_one() -> None:
+def test_a_restored_world_is_played_without_the_old_plan() -> None:
     world, planner = World("random", seed=6), Planner(FEW)
     state = world.save()
     game(6, 900, planner, world)
@@ -108,7 +107,7 @@ def test_it_meets_another_moment_of_the_world_without_the_plan_of_this_one() -> 
     assert again == game(6, 900, Planner(FEW))
 
 
-def test_it_knows_no_random_number_that_the_world_will_draw() -> None:
+def test_it_does_not_know_the_random_numbers_that_the_world_will_draw() -> None:
     one, other = World("random", seed=9), World("random", seed=9)
     for world in (one, other):
         world.create_ball()
@@ -126,7 +125,7 @@ def test_it_knows_no_random_number_that_the_world_will_draw() -> None:
 def test_without_a_ball_it_presses_nothing() -> None:
     world, planner = World("classic"), Planner(FEW)
     assert {planner.press(world) for _ in range(3)} == {(False, False)}
-    assert planner.notes.memories["tried"][0] == 0
+    assert planner.state.memories["tried"][0] == 0
 
 
 FALLING = ((-4.0, 0.45, -9.0, -2.0), (-4.0, 1.6, -9.0, 2.0), (-2.0, 0.8, -6.0, 2.0), (-1.0, 0.45, -12.0, 0.0))
@@ -165,7 +164,7 @@ def test_two_balls_at_once_are_both_played() -> None:
     assert world.drained == 0
 
 
-def test_a_board_without_paddles_is_no_trouble() -> None:
+def test_it_accepts_a_board_without_paddles() -> None:
     world, planner = launched(table_of(), (0.0, 0.0, 0.0, 0.0)), Planner(FEW)
     for _ in range(480):
         world.step(*planner.press(world))
@@ -174,7 +173,7 @@ def test_a_board_without_paddles_is_no_trouble() -> None:
 
 def test_it_plays_alone_what_it_plays_in_a_batch() -> None:
     batch = WorldBatch(full_table(), count=2, seed=6, tick_rate=120)
-    play(batch, PlayerKind.PLANNER, 3.0, balls=2)
+    play(batch, "planner", 3.0, balls=2)
     for index in range(2):
         world, player = World(full_table(), seed=6 + index, tick_rate=120), make_player("planner")
         for _ in range(360):
@@ -186,9 +185,9 @@ def test_it_plays_alone_what_it_plays_in_a_batch() -> None:
 
 def test_balls_live_longer_than_under_the_reflex_player() -> None:
     ends = {}
-    for kind in (PlayerKind.REFLEX, PlayerKind.PLANNER):
+    for kind in ("reflex", "planner"):
         batch = WorldBatch("random", count=8, seed=20, tick_rate=60)
         ends[kind] = time_balls(batch, kind, 30.0, branches=FEW)
-    reflex, planner = ends[PlayerKind.REFLEX], ends[PlayerKind.PLANNER]
+    reflex, planner = ends["reflex"], ends["planner"]
     assert planner.drained + planner.stalled < reflex.drained + reflex.stalled
     assert planner.mean[0] > reflex.mean[0]

@@ -1,4 +1,4 @@
-"""The trained player: it sees what the environments show, plays well, and presses the same everywhere."""
+"""The trained player: its features are those of the environments, it plays well and the same everywhere."""
 
 from __future__ import annotations
 
@@ -8,10 +8,18 @@ import pytest
 from boards import LEFT, PADDLES, full_table, launched, table_of
 from silverball.errors import SilverballError
 from silverball.metrics.ball_time import time_balls
-from silverball.players import PlayerKind, make_player
-from silverball.players.features import COLUMNS, MIRRORED, SEEN, Raw, look, see
+from silverball.players import make_player
+from silverball.players.features import COLUMNS, ENCODED, MIRRORED, Raw, encode, raw_features
 from silverball.players.rollout import play
-from silverball.players.trained import ROWS, SCALE, Policy, Trained, hold_of, press_batch, stored_policy
+from silverball.players.trained import (
+    ROWS,
+    SCALE,
+    Policy,
+    Trained,
+    press_batch,
+    stored_policy,
+    ticks_per_decision,
+)
 from silverball.table import Cylinder, generate_table
 from silverball.world import World, WorldBatch
 
@@ -20,7 +28,7 @@ UNSEEN = 20_000  # seeds of boards that were not trained on
 
 def tiny(first: float = 1.0) -> Policy:
     """A policy of one layer that presses by the first of what is seen."""
-    weights = np.zeros((SEEN, 4))
+    weights = np.zeros((ENCODED, 4))
     weights[0] = 0.0, first, 0.0, -first
     return Policy.rounded([(weights, np.zeros(4))], "by hand")
 
@@ -30,7 +38,7 @@ def random_rows(count: int) -> np.ndarray:
 
 
 @pytest.mark.parametrize("table", ["random", "classic"])
-def test_it_sees_what_the_environments_show(table):
+def test_its_features_are_those_of_the_environments(table):
     envs = pytest.importorskip("silverball.envs")
     vector = envs.PinballVectorEnv(16, table=table, boards=4)
     vector.reset(seed=1)
@@ -38,7 +46,7 @@ def test_it_sees_what_the_environments_show(table):
     for _ in range(300):
         rows, *_ = vector.step(random.integers(0, 4, 16))
         batch = vector.batch
-        raw = look(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
+        raw = raw_features(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
         there = rows[:, 0] == 1.0  # else the episode is over: a lost ball is shown as zeros by both
         assert there.any()
         # The kernel multiplies by 1/size where this divides by it, then rounds to 32 bits.
@@ -51,8 +59,8 @@ def test_the_mirror_answers_in_the_mirror():
     image[:, (Raw.Z, Raw.VZ)] *= -1.0
     image[:, Raw.LEFT_ANGLE : Raw.LEFT_HELD + 1] = raw[:, Raw.RIGHT_ANGLE :]
     image[:, Raw.RIGHT_ANGLE :] = raw[:, Raw.LEFT_ANGLE : Raw.LEFT_HELD + 1]
-    seen, is_mirrored = see(raw)
-    again, is_image_mirrored = see(image)
+    seen, is_mirrored = encode(raw)
+    again, is_image_mirrored = encode(image)
     assert (seen == again).all()
     assert (is_mirrored != is_image_mirrored).all()
     chosen = stored_policy().actions(raw)
@@ -61,18 +69,20 @@ def test_the_mirror_answers_in_the_mirror():
 
 
 def test_no_sum_of_the_stored_policy_can_be_rounded():
-    greatest = np.abs(see(2.0 * random_rows(2000))[0]).max(axis=0) * SCALE  # of numbers up to twice as large
+    greatest = (
+        np.abs(encode(2.0 * random_rows(2000))[0]).max(axis=0) * SCALE
+    )  # of numbers up to twice as large
     for weights, biases in stored_policy().layers:
         sums = greatest @ np.abs(weights.astype(float)) + np.abs(biases) * SCALE
         assert sums.max() < 2**53
         greatest = sums / SCALE + 1.0
 
 
-def test_sums_are_those_of_whole_numbers():
+def test_sums_are_those_of_integers():
     raw = random_rows(64)
     policy = stored_policy()
     for row in range(0, 64, 8):
-        values = [int(value) for value in np.rint(see(raw)[0][row] * SCALE)]
+        values = [int(value) for value in np.rint(encode(raw)[0][row] * SCALE)]
         for number, (weights, biases) in enumerate(policy.layers):
             if number > 0:
                 values = [max(0, value) for value in values]
@@ -92,10 +102,10 @@ def test_it_makes_many_times_the_points_of_a_random_player_on_boards_never_train
     boards = [generate_table(UNSEEN + number) for number in range(60)]
     points = {
         kind: time_balls(WorldBatch(boards, len(boards), 0, 60), kind, 40.0).score
-        for kind in (PlayerKind.RANDOM, PlayerKind.TRAINED)
+        for kind in ("random", "trained")
     }
-    _, _, high = points[PlayerKind.RANDOM]
-    _, low, _ = points[PlayerKind.TRAINED]
+    _, _, high = points["random"]
+    _, low, _ = points["trained"]
     assert low > 3.0 * high
 
 
@@ -103,11 +113,11 @@ def test_it_makes_many_times_the_points_of_a_random_player_on_boards_never_train
 def test_alone_and_in_a_batch_it_presses_the_same(tick_rate):
     board = generate_table(UNSEEN)
     batch = WorldBatch(board, 3, 5, tick_rate)
-    play(batch, PlayerKind.TRAINED, 6.0)
+    play(batch, "trained", 6.0)
     for index in range(3):
         world, player = World(board, 5 + index, tick_rate), make_player("trained")
         for _ in range(6 * tick_rate):
-            if not world.balls and world.tick % hold_of(tick_rate) == 0:
+            if not world.balls and world.tick % ticks_per_decision(tick_rate) == 0:
                 world.create_ball()
             world.step(*player.press(world))
         assert world.records[0].tobytes() == batch.state[index].tobytes()
@@ -119,13 +129,13 @@ def test_between_two_decisions_it_holds():
     world.create_ball()
     for _ in range(40):
         first = player.press(world)
-        for _ in range(hold_of(world.tick_rate)):
+        for _ in range(ticks_per_decision(world.tick_rate)):
             assert player.press(world) == first
             world.step(*first)
 
 
 @pytest.mark.parametrize("ticks", [8, 45])
-def test_it_keeps_nothing_and_goes_on_from_any_snapshot(ticks):
+def test_it_has_no_state_and_continues_from_any_snapshot(ticks):
     world, player = launched(full_table(), (-3.0, -1.5, -6.0, 1.0)), make_player("trained")
     for _ in range(ticks):
         world.step(*player.press(world))
@@ -142,10 +152,10 @@ def test_it_keeps_nothing_and_goes_on_from_any_snapshot(ticks):
 
 
 def test_it_decides_fifteen_times_a_second_at_any_tick_rate():
-    assert [hold_of(rate) for rate in (10, 15, 60, 240, 1000)] == [1, 1, 4, 16, 67]
+    assert [ticks_per_decision(rate) for rate in (10, 15, 60, 240, 1000)] == [1, 1, 4, 16, 67]
 
 
-def test_obstacles_change_nothing_of_what_it_presses():
+def test_obstacles_do_not_change_its_presses():
     crowd = [
         Cylinder(center=(x, z), radius=0.3) for x in (-2.0, 0.0, 2.0, 4.0, 6.0) for z in (-3.0, 0.0, 3.0)
     ]
@@ -159,22 +169,22 @@ def test_obstacles_change_nothing_of_what_it_presses():
 
 
 @pytest.mark.parametrize("paddles", [(), (LEFT,)], ids=["none", "left"])
-def test_a_paddle_that_is_missing_is_seen_as_zeros(paddles):
-    batch = WorldBatch(table_of(*paddles), 2, 1)
-    batch.run(np.ones((1, 2, 3), bool), 5)
+def test_the_features_of_a_missing_paddle_are_zero(paddles):
+    batch = WorldBatch(table_of(*paddles), 2, 1, tick_rate=60)
+    batch.step_unchecked(np.ones((1, 2, 3), bool), 5)
     with np.errstate(all="raise"):
-        raw = look(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
+        raw = raw_features(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
     assert (raw[:, Raw.RIGHT_ANGLE :] == 0.0).all()
     assert (raw[:, Raw.LEFT_ANGLE : Raw.RIGHT_ANGLE] != 0.0).any() == bool(paddles)
-    assert play(batch, PlayerKind.TRAINED, 5.0).created > 0
+    assert play(batch, "trained", 5.0).created > 0
 
 
-def test_it_looks_at_the_lowest_ball_and_rests_with_none():
-    batch = WorldBatch("classic", 2)
+def test_its_features_are_those_of_the_lowest_ball_and_zero_without_one():
+    batch = WorldBatch("classic", 2, tick_rate=60)
     batch.create_balls(np.array([True, False]))
-    batch.run(np.zeros((1, 2, 3), bool), 240)
+    batch.step_unchecked(np.zeros((1, 2, 3), bool), 240)
     batch.create_balls(np.array([True, False]))
-    raw = look(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
+    raw = raw_features(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
     lowest = batch.state["ball"]["x"][0].min() / batch.boards.board["half_length"][0]
     assert raw[0, Raw.X] == lowest
     assert (raw[1, : Raw.VZ + 1] == 0.0).all()
@@ -198,10 +208,10 @@ def test_the_stored_policy_says_how_it_was_made():
 @pytest.mark.parametrize(
     "content", [b"", b"not a zip", b"PK\x03\x04 broken"], ids=["empty", "text", "broken zip"]
 )
-def test_what_is_no_policy_is_refused_in_one_sentence(tmp_path, content):
+def test_a_file_that_is_not_a_policy_is_refused_in_one_sentence(tmp_path, content):
     path = tmp_path / "p.npz"
     path.write_bytes(content)
-    with pytest.raises(SilverballError, match=r"p\.npz is no policy") as caught:
+    with pytest.raises(SilverballError, match=r"p\.npz is not a policy") as caught:
         Policy.load(path)
     assert "\n" not in str(caught.value)
 
@@ -209,12 +219,14 @@ def test_what_is_no_policy_is_refused_in_one_sentence(tmp_path, content):
 def test_arrays_that_do_not_fit_are_refused(tmp_path):
     path = tmp_path / "p.npz"
     np.savez(path, weights0=np.zeros((3, 4), np.int32), biases0=np.zeros(4, np.int32), command="x")
-    with pytest.raises(SilverballError, match=f"expected {SEEN} at first"):
+    with pytest.raises(SilverballError, match=f"expected {ENCODED} at first"):
         Policy.load(path)
-    np.savez(path, weights0=np.zeros((SEEN, 4), np.int32), biases0=np.full(4, 10**6, np.int32), command="x")
+    np.savez(
+        path, weights0=np.zeros((ENCODED, 4), np.int32), biases0=np.full(4, 10**6, np.int32), command="x"
+    )
     with pytest.raises(SilverballError, match="beyond"):
         Policy.load(path)
-    np.savez(path, weights0=np.full((SEEN, 4), np.nan), biases0=np.zeros(4, np.int32), command="x")
+    np.savez(path, weights0=np.full((ENCODED, 4), np.nan), biases0=np.zeros(4, np.int32), command="x")
     with pytest.raises(SilverballError, match="32-bit integers"):
         Policy.load(path)
     np.savez(path, command="x")
@@ -222,7 +234,7 @@ def test_arrays_that_do_not_fit_are_refused(tmp_path):
         Policy.load(path)
 
 
-def test_many_rows_are_answered_as_one_by_one():
+def test_many_rows_give_the_same_actions_as_one_by_one():
     raw = np.random.default_rng(0).uniform(-1.0, 1.0, (2 * ROWS + 7, len(Raw)))
     bits = stored_policy().actions(raw)
     assert bits.tolist() == [int(stored_policy().actions(row[None])[0]) for row in raw]

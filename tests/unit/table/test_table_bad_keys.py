@@ -1,7 +1,6 @@
-"""Is a table with any bad value refused in sentences, whatever else it says beside it?
+"""A table with any bad value is refused in sentences, whatever its other values are.
 
-The parts that are left when a bad value is taken away are checked all the same; a rule between two keys must
-not fail over the one that is missing then.
+The valid parts are checked too; a rule between two keys must not fail because one of them is missing.
 """
 
 from __future__ import annotations
@@ -16,8 +15,7 @@ import tomli_w
 
 from silverball.errors import TableError
 from silverball.table import Table, parse_table
-from silverball.table.explain import PART_KINDS
-from silverball.table.parts import Arcade, Board, RandomRecipe
+from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
 
 GOOD = {
     "name": "Everything",

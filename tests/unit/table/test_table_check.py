@@ -1,4 +1,4 @@
-"""Does `check_table` find what makes a table unplayable, and nothing else?"""
+"""`check_table` finds what makes a table unplayable, and nothing else."""
 
 import math
 import time
@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from boards import RANDOM
 from silverball.errors import TableError
+from silverball.physics.tolerances import HOP
 from silverball.table import (
     Board,
     Cylinder,
@@ -24,8 +25,7 @@ from silverball.table import (
     generate_table,
     parse_table,
 )
-from silverball.table.check import HOP
-from silverball.table.geometry import Shapes, core_distances, distances, outline, paddle_cores
+from silverball.table.geometry import Shapes, core_distances, distances, paddle_cores
 from silverball.table.reach import space
 from silverball.table.traps import pockets
 
@@ -92,7 +92,7 @@ def test_walls_may_meet_at_their_ends_but_not_cross():
 )
 def test_what_reaches_over_the_edge_is_reported(part):
     messages = problems_at(with_parts(**part), next(iter(part)))
-    assert sum("over the edge of the board" in message for message in messages) == 1
+    assert sum("beyond the edge of the board" in message for message in messages) == 1
 
 
 def test_flat_parts_are_reported_and_do_not_disturb_the_other_checks():
@@ -158,7 +158,7 @@ def test_a_guide_that_the_turning_paddle_would_touch_is_refused():
     near = EMPTY.slant_wall[0].model_copy(update={"end": (-7.0, -2.62)})
     table = EMPTY.model_copy(update={"slant_wall": (near, *EMPTY.slant_wall[1:])})
     (message,) = problems_at(table, "paddle[0]")
-    assert "clear of slant_wall[0] in its turn" in message
+    assert "clear of slant_wall[0] in its swing" in message
 
 
 def test_an_obstacle_that_is_only_touched_half_way_up_is_found():
@@ -215,7 +215,7 @@ def test_a_board_that_is_full_has_no_room():
     big = Cylinder(center=(0.0, 0.0), radius=6.9)
     table = Table(board=Board(length=10.0, gutter=-4.9), cylinder=[big])
     (message,) = problems_at(table, "board")
-    assert "no room for a ball" in message
+    assert "no free place for a ball" in message
 
 
 @pytest.mark.parametrize("slope", [0.0, 1.5, -1.5])
@@ -294,7 +294,7 @@ def test_a_pocket_that_no_ball_can_reach_is_none():
 
 def naive_distance(point, part):
     """From a point to a part's surface, by brute force along its edges."""
-    core, radius = outline(part)
+    core, radius = part.outline()
     best = math.inf
     for a, b in zip(core, (*core[1:], core[0]), strict=True):
         share = np.linspace(0.0, 1.0, 2001)[:, None]
@@ -322,7 +322,7 @@ def random_clutter(seed):
 
 
 def exact_pockets(table):
-    standing = [outline(part) for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
+    standing = [part.outline() for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in table.paddle]
     shapes = Shapes.of(standing + resting)
     where = space(table.board, table.paddle, standing)
@@ -365,7 +365,7 @@ def _is_lowest(center, centers, step):
 
 def _beside_a_slit(table, center):
     parts = [*table.slant_wall, *table.triangular_prism, *table.cylinder]
-    near = [outline(part) for part in parts if naive_distance(center, part) < 0.5]
+    near = [part.outline() for part in parts if naive_distance(center, part) < 0.5]
     gaps = [
         float(core_distances(np.array(a), np.array(b))) - r - s
         for index, (a, r) in enumerate(near)

@@ -1,4 +1,4 @@
-"""Do tables survive the way to a file and back, and are bad files refused in one clear sentence?"""
+"""Tables are equal after saving and loading, and bad files are refused in one clear sentence."""
 
 import math
 import os
@@ -198,7 +198,7 @@ def test_eight_different_mistakes_are_all_reported_with_their_paths(tmp_path):
         ("[board]\nBall-Radius = 1", "board.Ball-Radius", "`ball_radius`"),
         ("[board]\nflipper = 1", "board.flipper", "[[paddle]]"),
         ("gravity = 9", "gravity", "belongs in [board]"),
-        ("stroke = 9", "stroke", "belongs in a part, such as [[paddle]]"),
+        ("stroke = 9", "stroke", "belongs in a part, for example [[paddle]]"),
         ("[[cylinder]]\ndiameter = 1\ncenter=[0,0]\nradius=1", "cylinder[0].diameter", "`radius`"),
         ("[random]\ncount = 4", "random.count", "known here are"),
         ("format = 2", "format", "must be 1, got 2"),
@@ -259,7 +259,7 @@ def test_unreadable_files_are_refused_in_one_sentence(tmp_path):
         "broken": "not valid TOML: .*line 2",
         "deep": "nested too deeply|not valid TOML",
         "folder": "is a folder",
-        "pipe": "no ordinary file",
+        "pipe": "not a regular file",
         "missing": "no such file",
     }.items():
         with pytest.raises(TableError, match=reason) as caught:

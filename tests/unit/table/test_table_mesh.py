@@ -1,4 +1,4 @@
-"""Is the footprint of a mesh the triangle or the circle that the mesh was made from?"""
+"""The footprint of a mesh is the triangle or the circle that the mesh was made from."""
 
 import itertools
 import math

@@ -1,4 +1,4 @@
-"""Are mesh files read as trimesh reads them, and else refused in a sentence and in little memory?"""
+"""Mesh files are read as trimesh reads them, or refused in a sentence and with little memory."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ import pytest
 
 from silverball.errors import TableError
 from silverball.table import mesh, parse_table
-from silverball.table.file import MESHES_LIMIT
 from silverball.table.mesh import MESH_LIMIT, circle_footprint, triangle_footprint
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
+from silverball.table.table import MESHES_LIMIT
 
 trimesh = pytest.importorskip("trimesh")
 

@@ -1,4 +1,4 @@
-"""Do damaged table files end in words? A few of those of `mutate_tables.py`, which makes any number."""
+"""Damaged table files give clear errors: a few of those that `mutate_tables.py` makes in any number."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Has the table `original` the numbers of the brief, every one of them, and no part that the brief has not?
+"""The table `original` has every number of the brief, and no part that the brief does not have.
 
-The numbers stand here as the brief gives them, not as the table or the defaults do.
+The numbers here are copied from the brief, not from the table or the defaults.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Do the parts say rightly where they are, whichever way they were given?"""
+"""Parts return their outlines, however they were specified."""
 
 import math
 

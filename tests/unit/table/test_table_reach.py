@@ -1,4 +1,4 @@
-"""Are balls created only where they touch nothing and can leave again?"""
+"""Balls are created only where they touch nothing and can reach the gutter."""
 
 import time
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from silverball.table import Board, Cylinder, SlantWall, Table, ball_places, generate_table, load_table
-from silverball.table.geometry import border_gaps, distances, outline
+from silverball.table.geometry import border_gaps, distances
 
 CLASSIC = load_table("classic")
 
@@ -16,7 +16,7 @@ def is_free(table, points):
     radius = table.board.ball_radius
     free = border_gaps(points, table.board).min(axis=-1) >= radius - 1e-12
     for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder):
-        core, thickness = outline(part)
+        core, thickness = part.outline()
         free &= distances(points, np.array(core)) >= thickness + radius - 1e-12
     return free
 

@@ -28,7 +28,7 @@ def actions(ticks: int, count: int) -> np.ndarray:
 
 
 def played(table, threads: int | None, count: int = COUNT, seed: int = 40) -> WorldBatch:
-    batch = WorldBatch(table, count=count, seed=seed, threads=threads)
+    batch = WorldBatch(table, count=count, seed=seed, tick_rate=60, threads=threads)
     held = actions(TICKS, count)
     for part in np.split(held, 10):
         batch.create_balls()
@@ -59,7 +59,7 @@ def test_the_size_of_a_batch_changes_no_bit() -> None:
 
 
 def _first(count: int):
-    batch = WorldBatch(TABLE, count=COUNT, seed=40)
+    batch = WorldBatch(TABLE, count=COUNT, seed=40, tick_rate=60)
     held = actions(TICKS, count)
     padded = np.zeros((TICKS, COUNT, 3), np.bool_)
     padded[:, :count] = held
@@ -70,7 +70,7 @@ def _first(count: int):
 
 
 def test_every_world_of_a_recipe_has_the_board_of_its_own_seed() -> None:
-    batch = WorldBatch("random", count=3, seed=7)
+    batch = WorldBatch("random", count=3, seed=7, tick_rate=60)
     for index in range(3):
         assert batch.tables[index] == generate_table(7 + index) == World("random", seed=7 + index).table
     held = np.zeros((3, 3), np.bool_)

@@ -1,4 +1,4 @@
-"""Do copies of a world go their own way, and what may be passed to a world?"""
+"""Copies of a world are independent, and a world refuses arguments that it cannot use."""
 
 from __future__ import annotations
 

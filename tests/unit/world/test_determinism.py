@@ -1,5 +1,8 @@
-"""Whichever way the same games are run, do they give the same bits? A ladder of ways, from the nearest to the
-farthest; on every rung there are several boards, two balls, random paddles and jitter (see `scenes.py`)."""
+"""The same games give the same bits, however they are run.
+
+A ladder of ways to run them, from the most similar to the most different. On every rung there are several
+boards, two balls, random paddles and jitter (see `scenes.py`).
+"""
 
 from __future__ import annotations
 

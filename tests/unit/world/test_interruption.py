@@ -95,7 +95,7 @@ def test_pieces_of_a_step_are_the_step_bit_for_bit(monkeypatch, piece):
     for ticks in (600, 4_000, piece, 2 * piece):
         whole.step(left=True, jitter=ticks < 600, ticks=ticks)
         with monkeypatch.context() as patch:
-            patch.setattr(worlds, "PIECE_TICKS", piece)
+            patch.setattr(worlds, "CHUNK_TICKS", piece)
             parted.step(left=True, jitter=ticks < 600, ticks=ticks)
         assert fields(whole) == fields(parted)
         if ticks == 4_000:
@@ -115,7 +115,7 @@ def test_pieces_of_a_step_of_a_batch_are_the_step_bit_for_bit(monkeypatch, rows,
     for batch in (whole, parted):
         batch.create_balls()
     whole.step(actions, ticks)
-    monkeypatch.setattr(batches, "PIECE_WORK", piece)
+    monkeypatch.setattr(batches, "CHUNK", piece)
     parted.step(actions, ticks)
     assert whole.state.tobytes() == parted.state.tobytes()
     assert whole.logs.tobytes() == parted.logs.tobytes()
@@ -146,7 +146,7 @@ def test_every_slice_is_done_once_when_an_interruption_comes_at_any_point(monkey
 
         failing, slices = Pool(), [(first, first + 1) for first in range(9)]
         with ThreadPoolExecutor(2) as pool, monkeypatch.context() as patch:
-            patch.setattr(threads, "pool_of_threads", lambda _, failing=failing: failing)
+            patch.setattr(threads, "thread_pool", lambda _, failing=failing: failing)
             try:
                 threads.run_on_threads(lambda *slice_, done=done: done.append(slice_), slices, 3)
             except StopError:

@@ -1,4 +1,4 @@
-"""Saved states: they go on bit for bit, and bytes that are no such state change nothing."""
+"""Saved states continue bit for bit, and bytes that are not a state change nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Do snapshots of a batch hold what was saved, go where they are told, and refuse what does not fit?"""
+"""Snapshots of a batch hold what was saved, go into the chosen worlds, and refuse what does not fit."""
 
 from __future__ import annotations
 
@@ -60,10 +60,10 @@ INDICES = {
 @pytest.mark.parametrize("how", INDICES)
 def test_an_index_chooses_the_same_worlds_for_saving_and_restoring(batch, how: str):
     index, rows = INDICES[how]
-    before, start = batch.digests(), WorldBatch(TABLES, COUNT, 5).digests()
+    before, start = batch.digests(), WorldBatch(TABLES, COUNT, 5, 60).digests()
     snapshot = batch.save(index)
     assert (len(snapshot), snapshot.digests()) == (len(rows), [before[row] for row in rows])
-    other = WorldBatch(TABLES, COUNT, 5)
+    other = WorldBatch(TABLES, COUNT, 5, 60)
     other.restore(snapshot, index)
     assert other.digests() == [before[row] if row in rows else start[row] for row in range(COUNT)]
 
@@ -131,7 +131,7 @@ def test_a_restored_world_stands_on_the_board_it_was_saved_on(batch):
 
 
 def test_boards_are_found_by_their_tables_in_another_batch(batch):
-    other = WorldBatch([TABLES[3], TABLES[1], TABLES[2]], 3, 5)
+    other = WorldBatch([TABLES[3], TABLES[1], TABLES[2]], 3, 5, 60)
     other.restore(batch.save([0, 3]), [1, 2])
     assert other.board_of.tolist() == [0, 2, 0]
     assert [other.tables[board] for board in other.board_of] == [TABLES[3], TABLES[2], TABLES[3]]
@@ -179,7 +179,7 @@ def test_a_snapshot_survives_being_carried_elsewhere(batch, carried, index):
     assert (other.digests(), len(other), other.tick_rate) == (snapshot.digests(), len(snapshot), 60)
     tables = [[saved.tables[number] for number in saved.table_of] for saved in (snapshot, other)]
     assert tables[0] == tables[1]
-    fresh = WorldBatch(TABLES, COUNT, 5)
+    fresh = WorldBatch(TABLES, COUNT, 5, 60)
     fresh.restore(other, slice(len(other)))
     assert fresh.digests()[: len(other)] == snapshot.digests()
     with pytest.raises(ValueError, match="read-only"):
@@ -243,8 +243,11 @@ def test_records_that_do_not_fit_the_index_are_refused_and_nothing_changes(batch
     ("saved", "match"),
     [
         (lambda: batch_in_play(tick_rate=120).save(), "120 ticks a second, these worlds run at 60"),
-        (lambda: WorldBatch([TABLES[0]] * 3 + [table_of()], 4).save(), "1 of the 4 records belong"),
-        (lambda: WorldBatch("random", 1, 3).save(), "1 of the 1 records belong"),
+        (
+            lambda: WorldBatch([TABLES[0]] * 3 + [table_of()], 4, tick_rate=60).save(),
+            "1 of the 4 records belong",
+        ),
+        (lambda: WorldBatch("random", 1, 3, 60).save(), "1 of the 1 records belong"),
         (lambda: World(TABLES[0], tick_rate=60).save(), "a Snapshot, got bytes"),
         (lambda: None, "a Snapshot, got NoneType"),
     ],
@@ -257,7 +260,7 @@ def test_a_snapshot_from_elsewhere_is_refused_and_nothing_changes(batch, saved, 
 
 
 def test_a_table_that_only_other_records_of_the_batch_used_is_no_hindrance(batch):
-    other = WorldBatch(TABLES[1], 1, 5)
+    other = WorldBatch(TABLES[1], 1, 5, 60)
     other.restore(batch.save(1))
     assert other.digests() == [batch.digests()[1]]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from silverball.app.demo_players import PERFORMERS
+from silverball.app.demo_players import performers
 from silverball.app.menus.choice import ChoicePage, Item, Value
 from silverball.app.menus.commands import (
     Change,
@@ -132,7 +132,7 @@ def watch_page(desk: Desk) -> ChoicePage:
             listed.append(Item("LAST GAME", "AS YOU PLAYED IT", last))
         if any(row.key for _, _, rows in desk.boards() for row in rows):
             listed.append(Item("HIGH SCORES", "HOW THEY WERE MADE", lambda: desk.open(champions_page(desk))))
-        for player, label, hint, *_ in PERFORMERS:
+        for player, label, hint, *_ in performers():
             place = f"{hint} ON {desk.table().title.upper()}"
             listed.append(Item(label, place, lambda player=player: machine(player)))  # type: ignore[misc]
         return [*listed, _back_item(desk)]

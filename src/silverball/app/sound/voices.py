@@ -53,7 +53,7 @@ _NEWS = {
     GameEventKind.BALL_SAVED: "ball_saved",
     GameEventKind.WARNING: "warning",
     GameEventKind.TILT: "tilt",
-    GameEventKind.UN_STUCK: "un_stuck",
+    GameEventKind.UNSTUCK: "un_stuck",
     GameEventKind.DOUBLE_ON: "double_on",
     GameEventKind.OVER: "game_over",
 }

@@ -70,7 +70,7 @@ def run(
         MissingExtra: Gymnasium is not installed.
     """
     if importlib.util.find_spec("gymnasium") is None:
-        raise MissingExtra("bench --envs", "rl")
+        raise MissingExtra("bench envs", "rl")
     rates: list[Rate] = []
     present, missing = {"numba": True, "numpy": True}, {}
     for one in candidates() if chosen is None else chosen:

@@ -1,7 +1,7 @@
-"""How does Silverball compare with general engines on the same table?
+"""Comparison with general physics engines (pymunk, Box2D) on the same tables: speed and accuracy.
 
-`engine.py` says what is asked of an engine; `pymunk_table.py`, `box2d_v3_table.py`, `box2d_v2_table.py` and
-`silverball_table.py` build the table in one engine each; `tables.py` makes the tables that all can play;
-`play.py` measures speed, `watch.py` escapes and penetration, `accuracy.py` errors against `reference.py`,
-`energy.py` the drift; `contest.py` runs it all, `report.py` and `plot.py` show it.
+`playfield.py` is the interface of an engine; `pymunk_table.py`, `box2d_v3_table.py`, `box2d_v2_table.py` and
+`silverball_table.py` implement it, `engines.py` lists them; `tables.py` makes tables that every engine can
+play. `play.py` measures speed, `penetration.py` escapes and overlaps, `accuracy.py` position errors against
+`reference.py` and the drift of energy. `comparison.py` runs everything, `report.py` prints and plots it.
 """

@@ -1,10 +1,10 @@
-"""How does an experienced user build the table in Box2D 2.3 (the package box2d)?
+"""The table in Box2D 2.3 (package box2d), as an experienced user builds it.
 
-Balls are bullets, slant walls edges with a radius, paddles kinematic bodies; the skin of one centimetre that
-polygons have by default is taken off, since a ball is thick enough for the swept test. What cannot be set is
-the speed of 1 m/s below which nothing bounces; so a table unit is two metres, which halves it and the
-engine's slop. Larger scales come near its limit of 2 m a step. Its manual recommends 1/60 s with 8 iterations
-for the velocities and 3 for the positions.
+Balls are bullets, slant walls edges with a radius, paddles kinematic bodies. The skin of one centimetre that
+polygons have by default is removed, since a ball is thick enough for the swept test. The speed of 1 m/s below
+which nothing bounces cannot be set; a table unit is therefore two metres, which halves it and the engine's
+slop. Larger scales approach its limit of 2 m per step. Its manual recommends 1/60 s with 8 velocity and 3
+position iterations.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any
 
 import Box2D
 
-from silverball.benchmarks.peers.engine import (
+from silverball.benchmarks.peers.playfield import (
     BodyPlayfield,
     Stepping,
     border_boxes,
@@ -77,7 +77,7 @@ class Box2DV2Playfield(BodyPlayfield):
                 position=metres(swapped(paddle.pivot)), angle=side * math.radians(paddle.rest_angle)
             )
             self._add(body, polygon(paddle_triangle(paddle)), paddle.restitution)
-            self.add_drive(
+            self.add_motor(
                 paddle,
                 partial(getattr, body, "angle"),
                 partial(setattr, body, "angularVelocity"),
@@ -87,7 +87,7 @@ class Box2DV2Playfield(BodyPlayfield):
         body.CreateFixture(shape=shape, density=1.0, friction=0.0, restitution=restitution)
 
     def finish_frame(self) -> None:
-        """Take drained balls away and hold the speed cap."""
+        """Remove drained balls and apply the speed cap."""
         for body in self.bodies[:]:
             if body.position[1] < self.gutter:
                 self.bodies.remove(body)
@@ -98,8 +98,8 @@ class Box2DV2Playfield(BodyPlayfield):
             if square > self.cap_squared:
                 body.linearVelocity = velocity * math.sqrt(self.cap_squared / square)
 
-    def put_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
-        """A new ball: a bullet that does not turn, for there is no friction that could turn it."""
+    def add_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
+        """Add a ball: a bullet without rotation, because nothing has friction."""
         body = self.world.CreateDynamicBody(
             position=metres((z, x)),
             linearVelocity=metres((vz, vx)),
@@ -111,8 +111,8 @@ class Box2DV2Playfield(BodyPlayfield):
         self._add(body, circle, self.table.board.ball_restitution)
         self.bodies.append(body)
 
-    def take_ball(self, index: int) -> None:
-        """Take a ball off the board."""
+    def remove_ball(self, index: int) -> None:
+        """Remove a ball, by its index in `balls`."""
         self.world.DestroyBody(self.bodies.pop(index))
 
     def balls(self) -> list[tuple[float, float, float, float]]:
@@ -125,5 +125,5 @@ class Box2DV2Playfield(BodyPlayfield):
 
     @property
     def ball_count(self) -> int:
-        """How many balls are on the board."""
+        """Number of balls on the board."""
         return len(self.bodies)

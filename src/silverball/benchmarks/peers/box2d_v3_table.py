@@ -1,9 +1,9 @@
-"""How does an experienced user build the table in Box2D v3 (pyb2d3)?
+"""The table in Box2D v3 (package pyb2d3), as an experienced user builds it.
 
 Balls are bullets, so they are swept against everything; slant walls are capsules, paddles kinematic bodies.
-The threshold below which nothing bounces is set to zero and the speed cap is the world's own. Contacts are as
-stiff as the step allows, which takes effect from 1/240 s on. Nothing falls asleep. Its manual recommends
-steps of 1/60 s with four substeps.
+The restitution threshold is zero, and the speed cap is that of the Box2D world. Contacts are as stiff as the
+step allows, which has an effect from 1/240 s on. Nothing falls asleep. Its manual recommends steps of 1/60 s
+with four substeps.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Any
 
 import pyb2d3
 
-from silverball.benchmarks.peers.engine import (
+from silverball.benchmarks.peers.playfield import (
     BodyPlayfield,
     Stepping,
     border_boxes,
@@ -25,20 +25,20 @@ from silverball.table import Table
 
 SUBSTEPS = 4
 RECOMMENDED = Stepping(1, SUBSTEPS)
-HERTZ = 240.0  # stiffness of a contact; the engine limits it to a quarter of the rate of the substeps
+HERTZ = 240.0  # stiffness of a contact; the engine limits it to a quarter of the substep rate
 DAMPING = 10.0  # the default
 PUSH_SPEED = 3.0  # [u/s] at which an overlap is pushed apart; the default
 
 
 def rotation(angle: float) -> Any:
-    """The rotation by an angle [rad]; the engine's own sine is right to 2e-3 only."""
+    """The rotation by an angle [rad]; the engine's own sine is accurate to 2e-3 only."""
     made = pyb2d3.Rot()
     made.s, made.c = math.sin(angle), math.cos(angle)
     return made
 
 
 def angle_of(body: Any) -> float:
-    """The angle [rad] of a body, by the library's arc tangent for the same reason."""
+    """The angle [rad] of a body, by the arc tangent of Python for the same reason."""
     turned = body.rotation
     return math.atan2(turned.s, turned.c)
 
@@ -82,7 +82,7 @@ class Box2DV3Playfield(BodyPlayfield):
                 rotation=rotation(side * math.radians(paddle.rest_angle)),
             )
             self._add(body, pyb2d3.polygon(points=paddle_triangle(paddle)), paddle.restitution)
-            self.add_drive(
+            self.add_motor(
                 paddle,
                 partial(angle_of, body),
                 partial(setattr, body, "angular_velocity"),
@@ -93,22 +93,22 @@ class Box2DV3Playfield(BodyPlayfield):
         body.create_shape(pyb2d3.shape_def(density=1.0, material=material), shape)
 
     def finish_frame(self) -> None:
-        """Take drained balls away; the world itself holds the speed cap."""
+        """Remove drained balls; the Box2D world applies the speed cap."""
         for body in self.bodies[:]:
             if body.position.y < self.gutter:
                 self.bodies.remove(body)
                 body.destroy()
 
-    def put_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
-        """A new ball: a bullet that does not turn, for there is no friction that could turn it."""
+    def add_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
+        """Add a ball: a bullet without rotation, because nothing has friction."""
         body = self.world.create_dynamic_body(
             position=(z, x), linear_velocity=(vz, vx), is_bullet=True, fixed_rotation=True, enable_sleep=False
         )
         self._add(body, pyb2d3.circle(radius=self.table.board.ball_radius), self.table.board.ball_restitution)
         self.bodies.append(body)
 
-    def take_ball(self, index: int) -> None:
-        """Take a ball off the board."""
+    def remove_ball(self, index: int) -> None:
+        """Remove a ball, by its index in `balls`."""
         self.bodies.pop(index).destroy()
 
     def balls(self) -> list[tuple[float, float, float, float]]:
@@ -121,5 +121,5 @@ class Box2DV3Playfield(BodyPlayfield):
 
     @property
     def ball_count(self) -> int:
-        """How many balls are on the board."""
+        """Number of balls on the board."""
         return len(self.bodies)

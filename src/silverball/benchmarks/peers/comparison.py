@@ -1,8 +1,9 @@
-"""What comes of it when every engine plays the same tables in one run?
+"""The comparison: every engine plays the same tables in one run.
 
-Speed is measured in rounds: in each, every engine plays the same board (of a recipe: another in each round)
-for a moment, one after the other, so that the noise of the machine hits all alike; ratios are taken within a
-round. Escapes, penetration, errors and drift do not depend on the clock and are measured after.
+Speed is measured in rounds. In each round, all engines play the same board for a moment, one after the other,
+so that the noise of the machine affects all alike; ratios are taken within a round. A recipe gives another
+board in each round. Escapes, penetration, errors and drift do not depend on the clock and are measured
+afterwards.
 """
 
 from __future__ import annotations
@@ -12,11 +13,11 @@ import statistics
 from collections.abc import Callable
 from typing import NamedTuple
 
-from silverball.benchmarks.peers import accuracy, energy, play, tables
-from silverball.benchmarks.peers.engine import FRAME_RATE
+from silverball.benchmarks.peers import accuracy, play, tables
 from silverball.benchmarks.peers.engines import BATCH, OWN, SILVERBALL, Engine, Entry, versions
-from silverball.benchmarks.peers.penetration import Watched, Watcher, watch
-from silverball.benchmarks.peers.silverball_table import FRAMES_A_CALL, batch_speed
+from silverball.benchmarks.peers.penetration import Penetration, PenetrationMonitor, play_monitored
+from silverball.benchmarks.peers.playfield import FRAME_RATE
+from silverball.benchmarks.peers.silverball_table import FRAMES_PER_CALL, batch_speed
 from silverball.benchmarks.speed import machine
 from silverball.table import Table
 
@@ -24,17 +25,17 @@ PRESSES = 6000  # frames of random buttons in a round, repeated if more are play
 
 
 class Plan(NamedTuple):
-    """How much to measure.
+    """How much is measured.
 
     Attributes:
-        worlds: In Silverball's batch.
-        rounds: Of the measurement of speed, each on a board of its own.
+        worlds: Worlds in Silverball's batch.
+        rounds: Rounds of the speed measurement, each on its own board.
         seconds: Wall time of each engine in each round [s].
-        calls: Of the batch in each round, of `FRAMES_A_CALL` frames.
-        boards: On which play is watched.
-        frames: Watched on each of them, by each engine.
-        scenes: Of the accuracy.
-        energy_seconds: Simulated for the drift [s].
+        calls: Calls of the batch in each round, of `FRAMES_PER_CALL` frames.
+        boards: Boards on which penetration is measured.
+        frames: Frames on each of these boards, for each engine.
+        scenes: Scenes of the accuracy.
+        energy_seconds: Simulated time for the drift of energy [s].
     """
 
     worlds: int = 4096
@@ -44,22 +45,29 @@ class Plan(NamedTuple):
     boards: int = 10
     frames: int = 10_000
     scenes: int = accuracy.SCENES
-    energy_seconds: int = energy.SECONDS
+    energy_seconds: int = accuracy.DRIFT_SECONDS
+
+    def shortened(self) -> Plan:
+        """The plan of rough figures in ten seconds."""
+        return self._replace(
+            worlds=min(self.worlds, 512), rounds=min(self.rounds, 3), seconds=0.1, calls=1, boards=2,
+            frames=1000, scenes=3, energy_seconds=30,
+        )  # fmt: skip
 
 
 class Row(NamedTuple):
-    """What one engine did with one stepping.
+    """Results of one engine with one stepping.
 
     Attributes:
-        engine: Its name.
-        stepping: Its step, as people write it.
+        engine: Name of the engine.
+        stepping: Length of its step, as text.
         frames_per_second: Median of the rounds, on one core.
-        slowest: Of the slowest round.
-        fastest: Of the fastest round.
-        batch_ratio: How many times as fast Silverball's batch was, median of the rounds' ratios.
+        slowest: Frames per second in the slowest round.
+        fastest: Frames per second in the fastest round.
+        batch_ratio: How many times as fast Silverball's batch was; median of the rounds' ratios.
         world_ratio: The same for one Silverball world stepped from Python at 1/60 s, as the peers are.
-        watched: Frames in which escapes and penetration were looked for.
-        escapes: Balls that got where they cannot be.
+        watched: Frames in which escapes and penetration were measured.
+        escapes: Balls that reached an impossible position.
         deepest: Deepest penetration [u].
         errors: Median error [u] after each of `accuracy.BOUNCES`.
         energy: Relative error of the energy on a closed elastic table.
@@ -80,7 +88,7 @@ class Row(NamedTuple):
 
 
 class Result(NamedTuple):
-    """All rows, and what they were measured on."""
+    """All rows, and the machine and versions they were measured on."""
 
     rows: list[Row]
     plan: Plan
@@ -91,7 +99,7 @@ class Result(NamedTuple):
 
 
 def units(plan: Plan, engines: list[Engine]) -> int:
-    """How often `run` will report progress."""
+    """How often `run` reports progress."""
     entries = len(OWN) + sum(len(engine.entries()) for engine in engines)
     return plan.rounds * (entries + 1) + 1 + entries * (plan.boards + 2)
 
@@ -100,10 +108,10 @@ def run(recipe: Table, plan: Plan, engines: list[Engine], advance: Callable[[str
     """Measure everything.
 
     Args:
-        recipe: A table, or a recipe, of which every round gets a board of its own.
-        plan: How much to measure.
-        engines: The peers that take part.
-        advance: Called with what is being done now, before each of `units` pieces of work.
+        recipe: A table, or a recipe, of which every round gets its own board.
+        plan: How much is measured.
+        engines: The peers to compare with.
+        advance: Called with the name of the next of `units` pieces of work.
     """
     entries = [*OWN, *(entry for engine in engines for entry in engine.entries())]
     speeds, batch, balls = measure_speeds(recipe, plan, entries, advance)
@@ -112,17 +120,19 @@ def run(recipe: Table, plan: Plan, engines: list[Engine], advance: Callable[[str
     opened = tables.board(recipe, 0)
     rows = []
     for entry, own in zip(entries, speeds, strict=True):
-        watched = watch_entry(recipe, plan, entry, advance)
+        penetration = measure_penetration(recipe, plan, entry, advance)
         advance(f"{entry.name}, {entry.stepping.label}: errors")
         errors = accuracy.median_errors(scenes, entry.build)
         advance(f"{entry.name}, {entry.stepping.label}: energy")
-        drift = energy.drift(entry.build(tables.elastic(opened)), energy.start(opened), plan.energy_seconds)
-        rows.append(row(entry.name, entry.stepping.label, own, batch, speeds[0], watched, errors, drift))
-    # A world of a batch is, bit for bit, the single world: what does not depend on the clock is the same.
+        drift = accuracy.drift(
+            entry.build(tables.elastic(opened)), accuracy.drift_start(opened), plan.energy_seconds
+        )
+        rows.append(row(entry.name, entry.stepping.label, own, batch, speeds[0], penetration, errors, drift))
+    # A world of a batch equals the single world bit for bit, so all results but the speed are the same.
     first = rows[0]
-    seen = Watched(first.watched, first.escapes, first.deepest)
+    penetration = Penetration(first.watched, first.escapes, first.deepest)
     stepping = f"{first.stepping}, {plan.worlds} worlds"
-    rows.insert(0, row(BATCH, stepping, batch, batch, speeds[0], seen, first.errors, first.energy))
+    rows.insert(0, row(BATCH, stepping, batch, batch, speeds[0], penetration, first.errors, first.energy))
     radius = recipe.board.ball_radius
     return Result(rows, plan, balls, radius, machine(), versions(engines))
 
@@ -133,11 +143,11 @@ def row(
     own: list[float],
     batch: list[float],
     world: list[float],
-    watched: Watched,
+    penetration: Penetration,
     errors: list[float],
     drift: float,
 ) -> Row:
-    """A row from the speeds of all rounds and what else was measured."""
+    """The row of an engine, from its speeds in all rounds and its other results."""
     return Row(
         name,
         stepping,
@@ -146,7 +156,7 @@ def row(
         max(own),
         statistics.median(b / o for b, o in zip(batch, own, strict=True)),
         statistics.median(w / o for w, o in zip(world, own, strict=True)),
-        *watched,
+        *penetration,
         errors,
         drift,
     )
@@ -155,7 +165,7 @@ def row(
 def measure_speeds(
     recipe: Table, plan: Plan, entries: list[Entry], advance: Callable[[str], None]
 ) -> tuple[list[list[float]], list[float], float]:
-    """Frames per second of every entry and of the batch in each round, and the batch's balls a board."""
+    """Frames per second of every entry and of the batch in each round, and the batch's balls per board."""
     speeds: list[list[float]] = [[] for _ in entries]
     batch, balls = [], []
     for number in range(plan.rounds):
@@ -172,36 +182,40 @@ def measure_speeds(
     return speeds, batch, statistics.mean(balls)
 
 
-def watch_entry(recipe: Table, plan: Plan, entry: Entry, advance: Callable[[str], None]) -> Watched:
+def measure_penetration(
+    recipe: Table, plan: Plan, entry: Entry, advance: Callable[[str], None]
+) -> Penetration:
     """Escapes and penetration of one entry, on some boards."""
     escapes, depth = 0, 0.0
     for number in range(plan.boards):
-        advance(f"{entry.name}, {entry.stepping.label}: watching")
+        advance(f"{entry.name}, {entry.stepping.label}: penetration")
         table = tables.board(recipe, number)
-        watcher = Watcher(table)
+        monitor = PenetrationMonitor(table)
         press = play.random_presses(plan.frames, number)
         game = play.Game(entry.build(table), press, play.free_places(table, number))
-        escapes += watch(game, plan.frames, watcher)
-        depth = max(depth, watcher.depth)
-    return Watched(plan.boards * plan.frames, escapes, depth)
+        escapes += play_monitored(game, plan.frames, monitor)
+        depth = max(depth, monitor.depth)
+    return Penetration(plan.boards * plan.frames, escapes, depth)
 
 
 def orders_ahead(result: Result) -> list[float]:
-    """By how many powers of ten the best peer's error exceeds Silverball's, for each of the bounces."""
+    """Powers of ten by which the best peer's error exceeds Silverball's, for each of `BOUNCES`."""
     own = result.rows[0].errors
-    peers = [row.errors for row in result.rows if row.engine not in (BATCH, SILVERBALL)]
+    peer_errors = [row.errors for row in result.rows if row.engine not in (BATCH, SILVERBALL)]
     return [
-        math.log10(min(errors[index] for errors in peers) / own[index]) if own[index] > 0.0 else math.inf
+        math.log10(min(errors[index] for errors in peer_errors) / own[index])
+        if own[index] > 0.0
+        else math.inf
         for index in range(len(own))
     ]
 
 
-def described(plan: Plan) -> str:
-    """What was measured, in words."""
+def description(plan: Plan) -> str:
+    """What was measured, in sentences."""
     return (
         f"A frame is 1/{FRAME_RATE} s of one table with two balls and random paddles, on one core; speeds "
         f"are medians of {plan.rounds} rounds, ratios are taken within a round. "
-        f"The batch moves {plan.worlds} worlds by {FRAMES_A_CALL} frames a call; every other row is one "
+        f"The batch moves {plan.worlds} worlds by {FRAMES_PER_CALL} frames per call; every other row is one "
         f"world stepped from Python. Errors are medians of {plan.scenes} scenes, against 50 digits. "
         f"Energy: {plan.energy_seconds} s of elastic bouncing on a closed board."
     )

@@ -1,4 +1,4 @@
-"""Which engines take part, with which stepping, and what is missing here?"""
+"""The engines of the comparison, their steppings, and whether they are installed."""
 
 from __future__ import annotations
 
@@ -6,25 +6,25 @@ import platform
 from importlib import import_module, metadata, util
 from typing import NamedTuple
 
-from silverball.benchmarks.peers.engine import Playfield, Stepping
+from silverball.benchmarks.peers.playfield import Playfield, Stepping
 from silverball.errors import SilverballError
 from silverball.table import Table
 
 EXTRA = "bench"
-EVERY = 4  # steps a frame at 1/240 s
-FINE = 17  # steps a frame at 1/1020 s
+MEDIUM = 4  # steps per frame, of 1/240 s
+FINE = 17  # steps per frame, of 1/1020 s
 
 
 class Engine(NamedTuple):
-    """A peer.
+    """An engine to compare with.
 
     Attributes:
-        name: What people call it.
-        package: Its name for pip.
-        imported: Its name in Python.
-        module: The module here that builds the table in it.
-        playfield: The class there.
-        substeps: Of each step, where the engine can be told.
+        name: Name in the report.
+        package: Name of its package for pip.
+        imported: Name of its Python module.
+        module: Our module that builds a table in it.
+        playfield: Name of the class in that module.
+        substeps: Substeps per step, where the engine takes them as an argument.
     """
 
     name: str
@@ -36,18 +36,18 @@ class Engine(NamedTuple):
 
     @property
     def is_installed(self) -> bool:
-        """Whether it can be imported."""
+        """Whether its Python module can be imported."""
         return util.find_spec(self.imported) is not None
 
     @property
-    def missing(self) -> str:
-        """What to say and to do where it is not installed."""
+    def install_hint(self) -> str:
+        """What is not installed, and how to install it."""
         return f"{self.package} is not installed: pip install 'silverball[{EXTRA}]'"
 
     def entries(self) -> list[Entry]:
-        """This engine with the stepping that it recommends, at 1/240 s and at 1/1020 s."""
+        """This engine with its recommended stepping, at 1/240 s and at 1/1020 s."""
         recommended: Stepping = import_module(self.module).RECOMMENDED
-        finer = [Stepping(steps, self.substeps) for steps in (EVERY, FINE)]
+        finer = [Stepping(steps, self.substeps) for steps in (MEDIUM, FINE)]
         return [Entry(self.name, stepping, self.module, self.playfield) for stepping in (recommended, *finer)]
 
 
@@ -60,7 +60,7 @@ class Entry(NamedTuple):
     playfield: str
 
     def build(self, table: Table) -> Playfield:
-        """The table in this engine."""
+        """Build a table in this engine."""
         made: Playfield = getattr(import_module(self.module), self.playfield)(table, self.stepping)
         return made
 
@@ -75,25 +75,25 @@ SILVERBALL = "Silverball, one world"
 BATCH = "Silverball, a batch"
 OWN = tuple(
     Entry(SILVERBALL, Stepping(steps), f"{_HERE}.silverball_table", "SilverballPlayfield")
-    for steps in (1, EVERY)
+    for steps in (1, MEDIUM)
 )
 
 
-def present_peers() -> list[Engine]:
+def installed_peers() -> list[Engine]:
     """The peers that are installed.
 
     Raises:
-        SilverballError: None is, or what the reference needs is missing.
+        SilverballError: No peer is installed, or mpmath is missing, which the reference needs.
     """
     found = [engine for engine in PEERS if engine.is_installed]
     if not found:
-        raise SilverballError(*(engine.missing for engine in PEERS))
+        raise SilverballError(*(engine.install_hint for engine in PEERS))
     if util.find_spec("mpmath") is None:
         raise SilverballError(f"mpmath is not installed: pip install 'silverball[{EXTRA}]'")
     return found
 
 
 def versions(engines: list[Engine]) -> dict[str, str]:
-    """Versions of all that takes part."""
+    """Versions of Python and of all packages in the comparison."""
     packages = ["silverball", "numba", "numpy", *(engine.package for engine in engines)]
     return {"Python": platform.python_version(), **{name: metadata.version(name) for name in packages}}

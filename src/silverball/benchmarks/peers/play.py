@@ -1,7 +1,7 @@
-"""How does an engine play at random, and how fast?
+"""Random play in an engine, and its speed.
 
-The paddles are pressed by the same random numbers in every engine; a ball that has drained is replaced in the
-next frame at one of a list of free places, the same list for all.
+Every engine gets the same random buttons. A drained ball is replaced in the next frame at the next of a list
+of free places, which is the same for all engines.
 """
 
 from __future__ import annotations
@@ -14,24 +14,24 @@ from itertools import cycle
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.benchmarks.peers.engine import Playfield
+from silverball.benchmarks.peers.playfield import Playfield
 from silverball.table import Table
 from silverball.world import WorldBatch
 
-HOLD = 6  # frames for which a button stays as it is
+HOLD = 6  # frames between two changes of a button
 BALLS = 2
 PLACES = 256
-CLOCK_FRAMES = 200  # frames between two looks at the clock
+FRAMES_PER_CLOCK = 200  # frames between two readings of the clock
 
 
 def random_presses(frames: int, seed: int) -> NDArray[np.bool_]:
-    """Buttons (left, right), held or not for some frames at a time: bool [frame, 2]."""
+    """Random buttons, each held or released for `HOLD` frames at a time: bool [frame, 2], left and right."""
     held = np.random.default_rng(seed).random((-(-frames // HOLD), 2)) < 0.5
     return np.repeat(held, HOLD, axis=0)[:frames]
 
 
 def free_places(table: Table, seed: int, count: int = PLACES) -> list[tuple[float, float]]:
-    """Places (x, z) [u] where a ball overlaps nothing and the paddles do not reach."""
+    """Positions (x, z) [u] at which a ball overlaps nothing and is out of reach of the paddles."""
     batch = WorldBatch(table, count, seed, threads=1)
     batch.create_balls()
     places: list[tuple[float, float]] = batch.state["ball"][:, 0][["x", "z"]].tolist()
@@ -50,15 +50,15 @@ class Game:
         self.fill()
 
     def fill(self) -> None:
-        """New balls until there are two, clear of each other."""
+        """Add balls, clear of each other, until there are two."""
         while self.field.ball_count < BALLS:
             x, z = next(self.places)
             if all(math.hypot(x - bx, z - bz) > self.apart for bx, bz, _, _ in self.field.balls()):
-                self.field.put_ball(x, z)
+                self.field.add_ball(x, z)
                 self.created += 1
 
     def run(self, frames: int) -> None:
-        """Play on for some frames."""
+        """Play a number of frames."""
         field, press = self.field, self.press
         for _ in range(frames):
             left, right = next(press)
@@ -68,12 +68,12 @@ class Game:
 
 
 def speed(game: Game, seconds: float) -> float:
-    """Frames of 1/60 s per second of wall time, played for about so many seconds."""
-    game.run(CLOCK_FRAMES)
+    """Frames of 1/60 s per second of wall time, measured for about `seconds` [s]."""
+    game.run(FRAMES_PER_CLOCK)
     frames, started = 0, time.perf_counter()
     while True:
-        game.run(CLOCK_FRAMES)
-        frames += CLOCK_FRAMES
+        game.run(FRAMES_PER_CLOCK)
+        frames += FRAMES_PER_CLOCK
         taken = time.perf_counter() - started
         if taken >= seconds:
             return frames / taken

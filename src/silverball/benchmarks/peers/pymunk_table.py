@@ -1,11 +1,11 @@
-"""How does an experienced user build the table in pymunk (Chipmunk)?
+"""The table in pymunk (Chipmunk), as an experienced user builds it.
 
-Borders are thick boxes, slant walls segments with a radius, paddles kinematic bodies; parts that are no balls
-do not look for contacts with each other. Chipmunk multiplies two restitutions, so a ball takes the root of
-its own and the parts are divided by it. There is no swept test in Chipmunk: a shorter step is its documented
-remedy against tunnelling, and the flipper example of pymunk steps by 1/300 s. Its defaults for slop, bias and
-iterations stay: of slops from 0 to 0.1 u and of biases from 10 to 50 % every 1/60 s they kept the energy
-best, by several times at 1/300 s, and none changed errors and penetration by much.
+Borders are thick boxes, slant walls segments with a radius, paddles kinematic bodies; a filter excludes
+contacts between parts. Chipmunk multiplies two restitutions, so a ball takes the square root of its own and
+the parts are divided by it. Chipmunk has no swept test: its documented remedy against tunnelling is a shorter
+step, and the flipper example of pymunk uses 1/300 s. Slop, bias and iterations keep their defaults: of slops
+from 0 to 0.1 u and biases from 10 to 50 % per 1/60 s, the defaults conserved energy best (several times so at
+1/300 s), and no other value changed errors or penetration by much.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from functools import partial
 
 import pymunk
 
-from silverball.benchmarks.peers.engine import (
+from silverball.benchmarks.peers.playfield import (
     BodyPlayfield,
     Stepping,
     border_boxes,
@@ -24,8 +24,8 @@ from silverball.benchmarks.peers.engine import (
 )
 from silverball.table import Table
 
-RECOMMENDED = Stepping(5)  # 1/300 s: pymunk's own flipper example
-PARTS = 1  # the filter group of all that is no ball
+RECOMMENDED = Stepping(5)  # 1/300 s, as in the flipper example of pymunk
+PARTS = 1  # filter group of all parts, which do not collide with each other
 
 
 class PymunkPlayfield(BodyPlayfield):
@@ -62,7 +62,7 @@ class PymunkPlayfield(BodyPlayfield):
             body.angle = side * math.radians(paddle.rest_angle)
             self.space.add(body)
             self._add(pymunk.Poly(body, paddle_triangle(paddle)), paddle.restitution)
-            self.add_drive(
+            self.add_motor(
                 paddle,
                 partial(getattr, body, "angle"),
                 partial(setattr, body, "angular_velocity"),
@@ -75,7 +75,7 @@ class PymunkPlayfield(BodyPlayfield):
         self.space.add(shape)
 
     def finish_frame(self) -> None:
-        """Take drained balls away and hold the speed cap."""
+        """Remove drained balls and apply the speed cap."""
         drained = []
         for body, shape in self.bodies:
             if body.position.y < self.gutter:
@@ -89,8 +89,8 @@ class PymunkPlayfield(BodyPlayfield):
             self.space.remove(*pair)
             self.bodies.remove(pair)
 
-    def put_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
-        """A new ball: mass 1, and no turning, for there is no friction that could turn it."""
+    def add_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
+        """Add a ball of mass 1 without rotation, because nothing has friction."""
         body = pymunk.Body(1.0, math.inf)
         body.position, body.velocity = (z, x), (vz, vx)
         shape = pymunk.Circle(body, self.table.board.ball_radius)
@@ -98,8 +98,8 @@ class PymunkPlayfield(BodyPlayfield):
         self.space.add(body, shape)
         self.bodies.append((body, shape))
 
-    def take_ball(self, index: int) -> None:
-        """Take a ball off the board."""
+    def remove_ball(self, index: int) -> None:
+        """Remove a ball, by its index in `balls`."""
         self.space.remove(*self.bodies.pop(index))
 
     def balls(self) -> list[tuple[float, float, float, float]]:
@@ -110,5 +110,5 @@ class PymunkPlayfield(BodyPlayfield):
 
     @property
     def ball_count(self) -> int:
-        """How many balls are on the board."""
+        """Number of balls on the board."""
         return len(self.bodies)

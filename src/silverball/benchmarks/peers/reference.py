@@ -1,15 +1,14 @@
-"""Where is a bouncing ball really? Flights and bounces in 50 digits, derived apart from the solver.
+"""Reference: flights and bounces of a ball in 50 digits, derived independently of the solver.
 
-A ball of radius r that touches a part has its centre on the part's outline, grown by r: straight pieces and
-arcs. Between bounces the centre is a parabola p(t) = p₀ + v₀t + ½at², so it meets
+The centre of a ball of radius r that touches a part lies on the part's outline offset by r: straight pieces
+and arcs. Between bounces the centre follows a parabola p(t) = p₀ + v₀t + ½at², so it meets
 
 * a straight piece q + s·u with normal n where n·(p(t) − q) = R, a quadratic in t, if the foot u·(p − q) lies
   on the piece;
 * an arc around c where |p(t) − c|² = R², a polynomial of degree four in t.
 
-All roots are found, the earliest at which the ball approaches counts, and the velocity is reflected there
-with the part's restitution. Nothing is searched step by step, and no code is shared with
-`silverball.physics`.
+All roots are found. At the earliest one at which the ball approaches, the velocity is reflected with the
+part's restitution. There is no stepwise search and no code in common with `silverball.physics`.
 """
 
 from __future__ import annotations
@@ -24,15 +23,15 @@ from numpy.typing import NDArray
 from silverball.table import Table
 
 DIGITS = 50
-CLEAR = 1e-4  # [s] roots this far apart can be told in double precision, which knows a double root to 1e-8
-SPARE_DIGITS = 30  # worked with besides: every bounce off something round loses a few
+MIN_SEPARATION = 1e-4  # [s] of roots that double precision separates; it finds a double root to 1e-8
+SPARE_DIGITS = 30  # in the calculation; every bounce off something round loses a few
 
 
 class Piece(NamedTuple):
-    """One straight piece of a grown outline, from q along u with the outward normal n.
+    """Straight piece of an outline, from q along u, with the outward normal n.
 
     Attributes:
-        length: [u]; None: without end.
+        length: Length [u]; None for an infinite piece.
         gap: R, the distance of the ball's centre from the line at contact [u].
     """
 
@@ -45,7 +44,7 @@ class Piece(NamedTuple):
 
 
 class Arc(NamedTuple):
-    """One round piece of a grown outline: centre c and radius [u]."""
+    """Round piece of an offset outline: centre c and radius [u]."""
 
     c: tuple[Any, Any]
     radius: Any
@@ -53,7 +52,7 @@ class Arc(NamedTuple):
 
 
 class Bounce(NamedTuple):
-    """A bounce: when [s], how fast along the normal [u/s], and which share of the speed that was."""
+    """A bounce: its time [s], the speed along the normal [u/s], and its share of the speed."""
 
     time: Any
     approach: Any
@@ -77,13 +76,13 @@ class Path(NamedTuple):
 def follow(
     table: Table, start: tuple[float, float, float, float], bounces: int, digits: int = DIGITS
 ) -> Path:
-    """Follow a ball from (x, z, vx, vz) [u, u/s] until it has met something `bounces` times.
+    """Follow a ball from (x, z, vx, vz) [u, u/s] over a number of bounces.
 
     Args:
-        table: A finished table; its paddles stand at rest, its parts bounce with one restitution each.
-        start: Where the ball is at time 0, clear of everything, and how fast.
-        bounces: How many bounces; the path ends early if the ball never meets anything again.
-        digits: Decimal digits that are to be right.
+        table: A plain table; its paddles stay at rest.
+        start: Position and velocity at time 0, clear of everything.
+        bounces: Number of bounces; the path ends early if the ball hits nothing any more.
+        digits: Correct decimal digits.
     """
     with mpmath.workdps(digits + SPARE_DIGITS):
         outline = list(pieces(table))
@@ -95,7 +94,7 @@ def follow(
             found = [
                 (when, n, piece.restitution)
                 for piece in outline
-                for when, n in meetings(piece, x, z, vx, vz, gravity)
+                for when, n in contacts(piece, x, z, vx, vz, gravity)
             ]
             if not found:
                 break
@@ -111,10 +110,10 @@ def follow(
         return path
 
 
-def meetings(
+def contacts(
     piece: Piece | Arc, x: Any, z: Any, vx: Any, vz: Any, gravity: Any
 ) -> Iterator[tuple[Any, tuple[Any, Any]]]:
-    """Every time [s] from now at which a flight enters a piece, with the normal there."""
+    """Times [s] from now at which a flight enters a piece, with the normal there."""
     if isinstance(piece, Piece):
         (nx, nz), (qx, qz) = piece.n, piece.q
         polynomial = [nx * (x - qx) + nz * (z - qz) - piece.gap, nx * vx + nz * vz, -gravity * nx / 2]
@@ -143,11 +142,11 @@ def meetings(
 
 
 def positive_roots(polynomial: list[Any]) -> Iterator[Any]:
-    """The real roots after now of a polynomial, lowest power first.
+    """The positive real roots of a polynomial, lowest power first.
 
-    In double precision first: where its roots are well apart, Newton's rule takes each of them to all digits;
-    where two nearly coincide, a graze, all are found in all digits. A root that is now but for rounding is
-    the bounce just made.
+    They are found in double precision first. Well separated roots are refined to all digits by Newton's
+    method; if two nearly coincide (a grazing contact), all are found in all digits. A root that is zero up to
+    rounding is the bounce just made.
     """
     while polynomial and polynomial[-1] == 0:
         polynomial = polynomial[:-1]
@@ -156,7 +155,11 @@ def positive_roots(polynomial: list[Any]) -> Iterator[Any]:
     small = mpmath.mpf(10) ** (-mpmath.mp.dps // 2)
     rough = np.roots([float(coefficient) for coefficient in reversed(polynomial)])
     if is_clear(rough):
-        roots = [polished(polynomial, root.real) for root in rough if root.imag == 0 and root.real > -CLEAR]
+        roots = [
+            polished(polynomial, root.real)
+            for root in rough
+            if root.imag == 0 and root.real > -MIN_SEPARATION
+        ]
     else:
         extra = 2 * mpmath.mp.prec
         found = mpmath.polyroots(polynomial, maxsteps=500, extraprec=extra, asc=True)
@@ -166,7 +169,7 @@ def positive_roots(polynomial: list[Any]) -> Iterator[Any]:
 
 def is_clear(roots: NDArray[Any]) -> bool:
     """Whether roots in double precision are so far apart that each is near one true root."""
-    return all(abs(a - b) > CLEAR for index, a in enumerate(roots) for b in roots[:index])
+    return all(abs(a - b) > MIN_SEPARATION for index, a in enumerate(roots) for b in roots[:index])
 
 
 def polished(polynomial: list[Any], root: float) -> Any:

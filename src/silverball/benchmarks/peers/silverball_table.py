@@ -1,7 +1,7 @@
-"""How does Silverball play the same table: one world stepped from Python, and a batch by one call?
+"""The table in Silverball: one world stepped from Python, and a batch stepped by one call.
 
-A `World` is driven exactly as the peers are, one world and one call a step. The batch is what Silverball has
-and the peers do not: thousands of worlds moved by one call, here on one core.
+A `World` is driven exactly as the peers are, one world and one call per step. The peers have no batch:
+thousands of worlds stepped by one call, here on one core.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.benchmarks.peers.engine import FRAME_RATE, Playfield, Stepping
+from silverball.benchmarks.peers.playfield import FRAME_RATE, Playfield, Stepping
 from silverball.table import Table
 from silverball.world import World, WorldBatch
 
 RECOMMENDED = Stepping(1)
-FRAMES_A_CALL = 60
+FRAMES_PER_CALL = 60
 
 
 class SilverballPlayfield(Playfield):
@@ -26,22 +26,22 @@ class SilverballPlayfield(Playfield):
         super().__init__(table, stepping)
         self.world = World(table, seed=0, tick_rate=FRAME_RATE * stepping.steps)
         self.world_step = self.world.step
-        self.entered = 0  # balls put on the board, less those taken off
+        self.entered = 0  # balls added less balls removed
 
     def step(self, left: bool, right: bool) -> None:
-        """One tick."""
+        """Advance by one tick."""
         self.world_step(left, right)
 
     def finish_frame(self) -> None:
-        """Nothing is left to do: the world drains balls and holds the speed cap itself."""
+        """Do nothing: the world drains balls and applies the speed cap itself."""
 
-    def put_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
-        """A new ball."""
+    def add_ball(self, x: float, z: float, vx: float = 0.0, vz: float = 0.0) -> None:
+        """Add a ball with its centre at (x, z) [u] and a velocity [u/s]."""
         self.world.create_ball((x, z), (vx, vz))
         self.entered += 1
 
-    def take_ball(self, index: int) -> None:
-        """Take a ball off the board."""
+    def remove_ball(self, index: int) -> None:
+        """Remove a ball, by its index in `balls`."""
         record = self.world.records[0]["ball"]
         record[np.flatnonzero(record["id"])[index]] = 0
         self.entered -= 1
@@ -60,7 +60,7 @@ class SilverballPlayfield(Playfield):
 
     @property
     def ball_count(self) -> int:
-        """How many balls are on the board."""
+        """Number of balls on the board."""
         return self.entered - self.world.drained
 
 
@@ -71,25 +71,25 @@ def batch_speed(
 
     Args:
         table: A finished table.
-        worlds: How many worlds.
-        calls: Timed calls of `FRAMES_A_CALL` frames; balls that have drained are replaced before each call,
-            within the time that counts.
-        press: Buttons of the peers' play, bool [frame, 2]: world i starts at a place of its own in them.
-        seed: Of the batch.
+        worlds: Number of worlds.
+        calls: Timed calls of `FRAMES_PER_CALL` frames; drained balls are replaced before each call, which is
+            timed too.
+        press: Buttons of the peers' play, bool [frame, 2]; each world starts at a different frame of them.
+        seed: Seed of the batch.
     """
     batch = WorldBatch(table, worlds, seed, FRAME_RATE, threads=1)
     starts = np.arange(worlds) * 7919 % len(press)
     seconds, balls = 0.0, []
-    for call in range(-1, calls):  # the first warms up
-        rows = (np.arange(FRAMES_A_CALL)[:, None] + starts + call * FRAMES_A_CALL) % len(press)
-        actions = np.zeros((FRAMES_A_CALL, worlds, 3), np.bool_)
+    for call in range(-1, calls):  # the first call warms up
+        rows = (np.arange(FRAMES_PER_CALL)[:, None] + starts + call * FRAMES_PER_CALL) % len(press)
+        actions = np.zeros((FRAMES_PER_CALL, worlds, 3), np.bool_)
         actions[..., :2] = press[rows]
         started = time.perf_counter()
         for _ in range(table.board.max_balls):
             batch.create_balls()
         before = float((batch.state["ball"]["id"] != 0).sum())
-        batch.run(actions, FRAMES_A_CALL)
+        batch.step_unchecked(actions, FRAMES_PER_CALL)
         if call >= 0:
             seconds += time.perf_counter() - started
             balls.append((before + float((batch.state["ball"]["id"] != 0).sum())) / (2 * worlds))
-    return worlds * calls * FRAMES_A_CALL / seconds, float(np.mean(balls))
+    return worlds * calls * FRAMES_PER_CALL / seconds, float(np.mean(balls))

@@ -1,9 +1,9 @@
-"""Which tables can every engine play alike?
+"""Tables that every engine can play in the same way.
 
-General engines have one restitution for each shape, and pairs are combined by their own rules: pymunk
-multiplies, Box2D takes the larger. Boosts, slow-downs and restitutions that fall with the speed would need a
-call back into Python at every contact, which would slow the peers down and not Silverball. So the tables here
-leave them out, for all engines: `plain` is any table without them.
+General engines have one restitution per shape and combine two of them by their own rule: pymunk multiplies
+them, Box2D takes the larger. Boosts, slow-downs and restitutions that fall with the speed would need a
+callback into Python at every contact, which would slow down the peers but not Silverball. `plain` removes
+them from a table, for all engines.
 """
 
 from __future__ import annotations
@@ -16,55 +16,55 @@ from silverball.table import Table, generate_table
 from silverball.table.parts import SlantWall
 
 FLOOR = -8.0  # [u] x of the floor of a closed table
-CEILING_SPEED = 200.0  # [u/s] a cap that nothing reaches
-LEAST_HIT_SPEED = 0.01  # [u/s] so that next to no contact of the elastic table is a touch, which may hop
+UNREACHED_SPEED = 200.0  # [u/s] a speed cap that nothing reaches
+MIN_HIT_SPEED = 0.01  # [u/s] so low that hardly any contact of the elastic table is a touch, which may hop
 
 Model = TypeVar("Model", bound=BaseModel)
 
 
 def board(table: Table, seed: int) -> Table:
-    """The plain form of a table, or of the board that a recipe makes of a seed."""
+    """The plain form of a table, or of the board that a recipe gives for a seed."""
     return plain(table if table.random is None else generate_table(seed, table))
 
 
 def plain(table: Table) -> Table:
-    """The table without boost, slow-down and falloff; balls bounce off each other as the dullest part does.
+    """The table without boost, slow-down and falloff; balls get the smallest restitution of any part.
 
-    With that restitution of the balls, the larger of a ball's and a part's (Box2D's rule) is the part's.
+    The larger restitution of a ball and a part (the rule of Box2D) is then that of the part.
     """
-    flat = _with_all_parts(table, speed_factor=1.0, restitution_falloff=0.0)
+    flat = _with_values(table, speed_factor=1.0, restitution_falloff=0.0)
     return flat.model_copy(
-        update={"board": flat.board.model_copy(update={"ball_restitution": least_restitution(flat)})}
+        update={"board": flat.board.model_copy(update={"ball_restitution": min_restitution(flat)})}
     )
 
 
-def least_restitution(table: Table) -> float:
-    """The smallest restitution of any part of a table."""
+def min_restitution(table: Table) -> float:
+    """The smallest restitution of any part or border of a table."""
     surfaces: list[Any] = [*table.slant_wall, *table.paddle, *table.triangular_prism, *table.cylinder]
     return min([table.board.wall_restitution, *(float(part.restitution) for part in surfaces)])
 
 
 def elastic(table: Table) -> Table:
-    """The table with every restitution 1, without paddles and closed at the bottom: no energy leaves it."""
+    """The table without paddles, closed at the bottom, with every restitution 1: it conserves energy."""
     half = table.board.width / 2
     floor = SlantWall(start=(FLOOR, -half), end=(FLOOR, half))
     closed = plain(table).model_copy(update={"paddle": (), "slant_wall": (*table.slant_wall, floor)})
-    return _with_all_parts(closed, restitution=1.0).model_copy(
+    return _with_values(closed, restitution=1.0).model_copy(
         update={
             "board": closed.board.model_copy(
                 update={
                     "wall_restitution": 1.0,
                     "ball_restitution": 1.0,
-                    "hit_speed": LEAST_HIT_SPEED,
-                    "speed_cap": CEILING_SPEED,
+                    "hit_speed": MIN_HIT_SPEED,
+                    "speed_cap": UNREACHED_SPEED,
                 }
             )
         }
     )
 
 
-def _with_all_parts(table: Table, **values: float) -> Table:
-    """The table with these values in every part that has such a field."""
+def _with_values(table: Table, **values: float) -> Table:
+    """The table with these values in every part that has the fields."""
 
     def changed(part: Model) -> Model:
         known: dict[str, Any] = {

@@ -1,1 +1,1 @@
-"""The score display: 160 × 32 dots, its fonts and animations, and how the dots become light."""
+"""The score display: 160 × 32 dots, their fonts and animations, and the panel that shows them."""

@@ -1,6 +1,6 @@
-"""What moves on the score display? Small animations made of dots, each a function of its own time.
+"""Animations of the score display, each a function of the time since it began.
 
-Every one draws over what is there, `at` seconds after it began. There is no chance in them: films are equal.
+Each draws over the dots given, `at` seconds after its beginning. Nothing is random, so films are equal.
 """
 
 from __future__ import annotations
@@ -30,18 +30,20 @@ BALL = picture(
 """A ball, 9 × 9 dots."""
 HALF_BALL = BALL.shape[0] // 2
 
-GOLDEN = 0.6180339887  # multiples of it, less whole turns, are spread evenly: sparks without chance
+GOLDEN = (
+    0.6180339887  # the fractional parts of its multiples are spread evenly: sparks without random numbers
+)
 
 
 def draw_ball(dots: Dots, x: float, y: float) -> None:
-    """A ball with its middle at a place; it hides what is behind it."""
+    """Draw a ball centred at (x, y); it hides what is behind it."""
     left, top = round(x) - HALF_BALL, round(y) - HALF_BALL
     dots.stamp(BALL > 0, left, top, 0)
     dots.sprite(BALL, left, top)
 
 
 def burst(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, rays: int = 36) -> None:
-    """Rays that fly apart from a place and fade, in about 0.7 s."""
+    """Draw rays that fly apart from a point and fade; 0.7 s."""
     for ray in range(rays):
         angle = 2.0 * math.pi * ray / rays
         speed = 200.0 * (0.5 + 0.6 * ((ray * GOLDEN) % 1.0))
@@ -54,7 +56,7 @@ def burst(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, ra
 
 
 def ring(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, speed: float = 110.0) -> None:
-    """A ring that runs outwards."""
+    """Draw a ring that grows."""
     column, row = np.arange(WIDTH)[None, :] - x, np.arange(HEIGHT)[:, None] - y
     away = np.abs(np.hypot(column, row) - speed * at)
     light = np.clip(1.6 - away, 0.0, 1.0) * FULL * max(1.0 - 0.6 * at, 0.0)
@@ -62,7 +64,7 @@ def ring(dots: Dots, at: float, x: float = WIDTH / 2, y: float = HEIGHT / 2, spe
 
 
 def fireworks(dots: Dots, at: float, top: int = 0, bottom: int = HEIGHT) -> None:
-    """Rockets that rise and burst into falling sparks, one after the other."""
+    """Draw rockets that rise and burst into falling sparks, one after the other."""
     for rocket in range(8):
         since = at - 0.3 * rocket
         if not 0.0 <= since < 1.3:
@@ -84,7 +86,7 @@ def fireworks(dots: Dots, at: float, top: int = 0, bottom: int = HEIGHT) -> None
 
 
 def two_balls(dots: Dots, at: float) -> None:
-    """Two balls roll in, meet in the middle, and points are doubled; 0.9 s."""
+    """Draw two balls that roll in and meet in the middle: points are doubled; 0.9 s."""
     meet = 0.35
     if at < meet:
         away = 4.5 + 90.0 * (1.0 - at / meet)
@@ -98,7 +100,7 @@ def two_balls(dots: Dots, at: float) -> None:
 
 
 def saved_ball(dots: Dots, at: float) -> None:
-    """A ball falls between the paddles, and comes back up; 0.85 s."""
+    """Draw a ball that falls between the paddles and comes back up; 0.85 s."""
     low = 0.32
     for side in (-1, 1):
         for row in range(3):
@@ -119,7 +121,7 @@ def saved_ball(dots: Dots, at: float) -> None:
 
 
 def falling_ball(dots: Dots, at: float) -> None:
-    """A ball falls out of the display; 0.45 s."""
+    """Draw a ball that falls out of the display; 0.45 s."""
     y = 60.0 * at + 90.0 * at * at
     for row in range(max(round(y) - 14, 0), min(max(round(y), 0), HEIGHT)):
         dots.line(76, row, 84, row, max(10 * (row - round(y) + 14), 0))
@@ -127,9 +129,9 @@ def falling_ball(dots: Dots, at: float) -> None:
 
 
 def tilt(dots: Dots, at: float) -> None:
-    """TILT over the whole display, shaking, dark on bright and bright on dark in turn.
+    """Draw a shaking TILT over the whole display, alternately inverted.
 
-    It turns 2.5 times a second: more than three flashes of a large area are a danger to some people.
+    It alternates 2.5 times a second: more than three flashes of a large area can cause seizures.
     """
     shake = round(2.5 * math.sin(40.0 * at) * max(1.0 - at, 0.25))
     width = 2 * BOLD.width("TILT")
@@ -145,7 +147,7 @@ def tilt(dots: Dots, at: float) -> None:
 
 @lru_cache(maxsize=1)
 def _stripes() -> Levels:
-    """Warning stripes on both sides."""
+    """Return warning stripes on both sides."""
     dots = Dots()
     for stripe in range(0, 34, 6):
         for start, slope in ((stripe, 8), (WIDTH - 2 - stripe, -8)):
@@ -155,13 +157,13 @@ def _stripes() -> Levels:
 
 
 def shaken(dots: Dots, at: float, text: str, y: int) -> None:
-    """A word in large letters that trembles."""
+    """Draw a trembling word in large letters."""
     shift = round(2.0 * math.sin(55.0 * at) * max(1.0 - at, 0.0))
     dots.text(text, WIDTH // 2 + shift, y, BOLD, "center")
 
 
 def grown(dots: Dots, at: float, text: str, y: int) -> None:
-    """A word in large letters that opens from its middle and flashes."""
+    """Draw a word in large letters that opens from its middle and flashes."""
     half = round(min(at / 0.15, 1.0) * WIDTH / 2)
     light = FULL if at % 0.2 < 0.12 or at > 0.6 else 120
     window = (WIDTH // 2 - half, WIDTH // 2 + half)

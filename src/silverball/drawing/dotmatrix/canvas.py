@@ -1,6 +1,6 @@
-"""What stands on the score display? 160 × 32 dots, each more or less bright, and what can be drawn with them.
+"""The dots of the score display, 160 × 32 levels of brightness, and how to draw with them.
 
-Places are (x to the right, y downwards) from the upper left dot. What reaches beyond the display is cut off.
+Positions are (x to the right, y downwards) from the upper left dot. Drawing is clipped at the edges.
 Brightness is 0 (dark) to 255.
 """
 
@@ -28,18 +28,18 @@ class Dots:
         pixels: Brightness, 0 to 255, shape [row, column].
 
     Args:
-        pixels: The picture to start with, taken over as it is; dark if none is given.
+        pixels: The initial picture, not copied; dark by default.
     """
 
     def __init__(self, pixels: Levels | None = None) -> None:
         self.pixels: Levels = np.zeros((HEIGHT, WIDTH), np.uint8) if pixels is None else pixels
 
     def copy(self) -> Self:
-        """The same picture, on its own."""
+        """Return a copy."""
         return type(self)(self.pixels.copy())
 
     def clear(self, brightness: int = 0) -> None:
-        """Make all dots equally bright."""
+        """Set all dots to one brightness."""
         self.pixels[:] = brightness
 
     def text(
@@ -53,20 +53,20 @@ class Dots:
         scale: int = 1,
         window: tuple[int, int] = (0, WIDTH),
     ) -> int:
-        """Write one line; what lies between its strokes stays as it is.
+        """Write one line; the dots between its strokes stay as they are.
 
         Args:
-            text: What to write. A character that the font lacks becomes a box.
-            x: Where it starts, has its middle or ends (the first dot to the right of it), by `align`.
+            text: The line. A character that no font has becomes a box.
+            x: Its left end, its middle, or the first dot to the right of it, by `align`.
             y: The top of its capitals.
-            font: How it is written.
-            align: What `x` means.
-            brightness: Of its dots; 0 writes dark letters on bright ground.
-            scale: How many dots wide and high each dot of the font becomes.
-            window: Columns, first and one after the last, outside which nothing is written.
+            font: Its font.
+            align: The meaning of `x`.
+            brightness: Of its dots; 0 writes dark letters on a bright background.
+            scale: Width and height of each dot of the font [dot].
+            window: The columns to write in: the first, and the one after the last.
 
         Returns:
-            How wide the text is [dot].
+            The width of the text [dot].
         """
         width = scale * font.width(text)
         left = x - {"left": 0, "center": width // 2, "right": width}[align]
@@ -89,19 +89,19 @@ class Dots:
         align: Align = "center",
         brightness: int = FULL,
     ) -> Font:
-        """Write a whole number, its thousands apart, in the first of some fonts in which it fits.
+        """Write an integer with thousands separators, in the first font in which it fits.
 
         Args:
             value: The number.
             x: As for `text`.
-            y: The top of the space for it, as high as the first font; smaller ones stand in its middle.
+            y: The top of the space for it, which is as high as the first font; smaller fonts are centred.
             width: Space for it [dot].
-            fonts: The fonts to try; the last one is taken even if it is too wide.
+            fonts: The fonts to try; the last one is used even if the number does not fit.
             align: What `x` means.
             brightness: Of its dots.
 
         Returns:
-            The font that was taken.
+            The font used.
         """
         text = f"{value:,}"
         font = next((font for font in fonts if font.width(text) <= width), fonts[-1])
@@ -116,22 +116,22 @@ class Dots:
         brightness: int = FULL,
         window: tuple[int, int] = (0, WIDTH),
     ) -> None:
-        """Make the dots of a mask, shape [row, column], equally bright, the upper left one at (x, y)."""
+        """Set the dots of a mask, shape [row, column], whose upper left dot is at (x, y)."""
         here, there = _overlap(mask.shape, x, y, window)
         self.pixels[here][mask[there]] = brightness
 
     def sprite(self, levels: Levels, x: int, y: int) -> None:
-        """Lay a small picture over this one, the brighter dot wins; its upper left dot comes to (x, y)."""
+        """Blend a small picture at (x, y) into this one; the brighter dot wins."""
         here, there = _overlap(levels.shape, x, y, (0, WIDTH))
         self.pixels[here] = np.maximum(self.pixels[here], levels[there])
 
     def dot(self, x: int, y: int, brightness: int = FULL) -> None:
-        """One dot."""
+        """Set one dot."""
         if 0 <= x < WIDTH and 0 <= y < HEIGHT:
             self.pixels[y, x] = brightness
 
     def line(self, x0: int, y0: int, x1: int, y1: int, brightness: int = FULL) -> None:
-        """A line one dot thin, both ends included."""
+        """Draw a line of one dot's width, both ends included."""
         count = max(abs(x1 - x0), abs(y1 - y0)) + 1
         x = np.rint(np.linspace(x0, x1, count)).astype(np.int64)
         y = np.rint(np.linspace(y0, y1, count)).astype(np.int64)
@@ -139,11 +139,11 @@ class Dots:
         self.pixels[y[there], x[there]] = brightness
 
     def box(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
-        """A filled rectangle."""
+        """Fill a rectangle."""
         self.pixels[_slices(x, y, width, height)] = brightness
 
     def frame(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
-        """The border of a rectangle, one dot thin."""
+        """Draw the border of a rectangle, one dot wide."""
         if width > 0 and height > 0:
             self.box(x, y, width, 1, brightness)
             self.box(x, y + height - 1, width, 1, brightness)
@@ -151,25 +151,25 @@ class Dots:
             self.box(x + width - 1, y, 1, height, brightness)
 
     def invert(self, x: int = 0, y: int = 0, width: int = WIDTH, height: int = HEIGHT) -> None:
-        """Make dark dots bright and bright ones dark in a rectangle."""
+        """Invert the brightness in a rectangle."""
         place = _slices(x, y, width, height)
         self.pixels[place] = FULL - self.pixels[place]
 
     def dim(self, share: float, x: int = 0, y: int = 0, width: int = WIDTH, height: int = HEIGHT) -> None:
-        """Leave only a share, 0 to 1, of the brightness in a rectangle."""
+        """Multiply the brightness in a rectangle by a share, 0 to 1."""
         place = _slices(x, y, width, height)
         self.pixels[place] = (self.pixels[place] * np.float32(min(max(share, 0.0), 1.0))).astype(np.uint8)
 
 
 def blend(before: Dots, after: Dots, share: float) -> Dots:
-    """From one picture to another: all dots change slowly. A share of 0 is `before`, 1 is `after`."""
+    """Return a cross-fade: share 0 gives `before`, 1 gives `after`."""
     part = np.float32(_share(share))
     mixed = before.pixels + (after.pixels.astype(np.float32) - before.pixels) * part
     return Dots(np.rint(mixed).astype(np.uint8))
 
 
 def wipe(before: Dots, after: Dots, share: float, direction: Direction = "right") -> Dots:
-    """From one picture to another: a bright edge runs in a direction and leaves the new one behind."""
+    """Return a wipe: a bright edge moves in a direction and reveals `after` behind it."""
     axis, forwards = _axis(direction)
     length = before.pixels.shape[axis]
     edge = round(_share(share) * (length + 1))
@@ -182,7 +182,7 @@ def wipe(before: Dots, after: Dots, share: float, direction: Direction = "right"
 
 
 def scroll(before: Dots, after: Dots, share: float, direction: Direction = "up") -> Dots:
-    """From one picture to another: both move in a direction, the new one behind the old one."""
+    """Return a scroll: both pictures move in a direction, `after` behind `before`."""
     axis, forwards = _axis(direction)
     length = before.pixels.shape[axis]
     moved = round(_share(share) * length)
@@ -193,7 +193,7 @@ def scroll(before: Dots, after: Dots, share: float, direction: Direction = "up")
 
 
 def picture(rows: str, levels: str = ".+#") -> Levels:
-    """A small picture from rows of characters, the darkest first in `levels`; for `Dots.sprite`."""
+    """Return a small picture for `Dots.sprite`, from rows of characters of `levels`, the darkest first."""
     step = FULL // (len(levels) - 1)
     return np.array([[step * levels.index(dot) for dot in row] for row in rows.split()], np.uint8)
 
@@ -203,7 +203,7 @@ def _share(share: float) -> float:
 
 
 def _axis(direction: Direction) -> tuple[int, bool]:
-    """Along which axis of the array, and whether towards larger indices."""
+    """Return the axis of the array, and whether the direction is that of larger indices."""
     return {"left": (1, False), "right": (1, True), "up": (0, False), "down": (0, True)}[direction]
 
 
@@ -217,7 +217,7 @@ def _slices(x: int, y: int, width: int, height: int) -> tuple[slice, slice]:
 def _overlap(
     shape: tuple[int, ...], x: int, y: int, window: tuple[int, int]
 ) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
-    """The part of the display that a picture at (x, y) covers, and the part of the picture that covers it."""
+    """Return the slices of the display that a picture at (x, y) covers, and those of the picture."""
     first, last = max(window[0], 0), min(window[1], WIDTH)
     left, right = min(max(x, first), last), max(min(x + shape[1], last), first)
     top, bottom = min(max(y, 0), HEIGHT), max(min(y + shape[0], HEIGHT), 0)

@@ -1,7 +1,7 @@
-"""How do the dots of the score display become light? A panel of glowing round dots behind dark glass.
+"""The panel of the score display: glowing round dots behind dark glass.
 
-The shape of the dots is worked out once for a size. A picture of dots then becomes pixels by one look into a
-table of colours: how bright is the dot, how much do others shine on it, how far is the pixel from its middle?
+The shape of the dots is computed once for a size. Each pixel is then looked up in a table of colours by the
+brightness of its dot, the glow of the dots around, and its distance from the dot's centre.
 """
 
 from __future__ import annotations
@@ -11,21 +11,21 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, Levels
-from silverball.drawing.palette import Color
+from silverball.drawing.themes import Color
 
 AMBER: Color = (255, 140, 24)
 GLASS: Color = (12, 8, 6)
 BEZEL: Color = (34, 32, 38)
 
-RADIUS = 0.43  # of a dot, in spacings; half a spacing would touch the neighbour
-UNLIT = 0.075  # how much of its light a dot shows that is off: a plasma display is never quite dark
-BLOOM = 0.26  # how much light the whole neighbourhood throws between the dots
-HOT = 0.42  # how far the middle of the brightest dot goes from its colour to white
-GAMMA = 0.8  # dim dots are lifted, for they are small and have dark around them
+RADIUS = 0.43  # of a dot, in spacings; at 0.5 neighbours would touch
+UNLIT = 0.075  # light of a dot that is off: a plasma display is never quite dark
+BLOOM = 0.26  # light between the dots if the whole neighbourhood is lit
+HOT = 0.42  # how far the centre of the brightest dot goes from its colour to white
+GAMMA = 0.8  # raises dim dots, which look darker beside unlit ones
 
 LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
-LEAST_SPACING = 4.0  # [pixel] below it dots are drawn larger and shrunk
-WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels where that leaves so much of the size
+MIN_SPACING = 4.0  # [pixel]; dots with less are drawn larger and shrunk
+WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels if that leaves this share of the size
 BEZEL_SHARE = 0.03  # of the height, on each side, at least
 
 
@@ -33,10 +33,10 @@ class DotPanel:
     """The panel on which dots are shown.
 
     Args:
-        area: Where it lies in the picture [pixel]; dots and bezel fit into it.
+        area: Its area in the picture [pixel], bezel included.
         color: Of the brightest dots.
         background: Of the glass between the dots.
-        frame: Of the bezel around it; None for none.
+        frame: Of the bezel around it; None for no bezel.
     """
 
     def __init__(
@@ -49,32 +49,34 @@ class DotPanel:
         self.area = pygame.Rect(area)
         width, height = max(self.area.width, 1), max(self.area.height, 1)
         rim = round(BEZEL_SHARE * height) if frame is not None else 0
-        room_wide, room_high = max(width - 2 * rim, 1), max(height - 2 * rim, 1)
-        spacing = min(room_wide / WIDTH, room_high / HEIGHT)
-        if int(spacing) >= max(LEAST_SPACING, WHOLE_SPACING * spacing):
+        inner_width, inner_height = max(width - 2 * rim, 1), max(height - 2 * rim, 1)
+        spacing = min(inner_width / WIDTH, inner_height / HEIGHT)
+        if int(spacing) >= max(MIN_SPACING, WHOLE_SPACING * spacing):
             spacing = float(int(spacing))
         shrink = 1
-        while spacing * shrink < LEAST_SPACING:
+        while spacing * shrink < MIN_SPACING:
             shrink += 1
         size = max(round(WIDTH * spacing), 1), max(round(HEIGHT * spacing), 1)
         self._face = _face((width, height), size, rim, background, frame)
         self._place = ((width - size[0]) // 2, (height - size[1]) // 2)
         self._shape = _Shape(size[0] * shrink, size[1] * shrink)
-        self._table = _colors(color, background, small=spacing < LEAST_SPACING)
+        self._table = _colors(color, background, small=spacing < MIN_SPACING)
         self._size = size
         self._shown: Levels | None = None
 
     def draw(self, target: pygame.Surface, dots: Dots) -> None:
-        """Draw a picture of dots, with the bezel around it; little work if it is the same as the last one."""
+        """Draw dots with the bezel around them; unchanged dots are only copied."""
         if self._face.get_masks() != target.get_masks() or self._face.get_bitsize() != target.get_bitsize():
-            self._face = self._face.convert(target)  # once: the same format is copied fastest
+            self._face = self._face.convert(
+                target
+            )  # once, because surfaces of the same format are copied fastest
         if self._shown is None or not np.array_equal(self._shown, dots.pixels):
             self._shown = dots.pixels.copy()
             self._light(dots.pixels)
         target.blit(self._face, self.area)
 
     def _light(self, levels: Levels) -> None:
-        """Paint the glass."""
+        """Redraw the dots."""
         index = (levels >> (8 - LEVEL_BITS)).astype(np.uint16)
         index <<= GLOW_BITS
         index |= _glow(levels) >> (8 - GLOW_BITS)
@@ -85,7 +87,7 @@ class DotPanel:
 
 
 class _Shape:
-    """Which dot each pixel belongs to, and how much of it is seen there."""
+    """For each pixel, the dot that it belongs to and how much light of it is seen there."""
 
     def __init__(self, width: int, height: int) -> None:
         x, y = (np.arange(width) + 0.5) * WIDTH / width, (np.arange(height) + 0.5) * HEIGHT / height
@@ -97,12 +99,12 @@ class _Shape:
         self._mask = np.rint(edge * dome * ((1 << MASK_BITS) - 1)).astype(np.uint16)
         self._index = np.empty((height, width), np.uint16)
         self._image = np.empty((height, width), np.uint32)
-        # The picture lies in the memory of the array.
+        # The picture shares the memory of the array.
         self._picture = pygame.image.frombuffer(self._image.data, (width, height), "BGRA")
         self._picture.set_alpha(None)
 
     def light(self, index: NDArray[np.uint16], table: NDArray[np.uint32]) -> pygame.Surface:
-        """The pixels, for brightness and glow by dot; the surface is used again at the next call."""
+        """Return the pixels for the brightness and glow of the dots; the next call reuses the surface."""
         wide = np.take(index << MASK_BITS, self._columns, axis=1)
         np.take(wide, self._rows, axis=0, out=self._index, mode="clip")
         np.bitwise_or(self._index, self._mask, out=self._index)
@@ -111,7 +113,7 @@ class _Shape:
 
 
 def _glow(levels: Levels) -> NDArray[np.uint16]:
-    """How much light reaches a dot from those around it, 0 to 255."""
+    """Return the light that reaches each dot from those around it, 0 to 255."""
     wide = np.zeros((HEIGHT + 4, WIDTH + 4), np.uint16)
     wide[2:-2, 2:-2] = levels
     # Shares of 1, 4, 6, 4, 1 sixteenths across, then down; divided in between: sixteen bits hold it.
@@ -127,12 +129,12 @@ def _glow(levels: Levels) -> NDArray[np.uint16]:
 
 
 def _colors(color: Color, background: Color, small: bool) -> NDArray[np.uint32]:
-    """The colour of a pixel by brightness, glow and mask (in these bits, high to low), as 0xAARRGGBB."""
+    """Return the colours by brightness, glow and mask (bits of the index, high to low), as 0xAARRGGBB."""
     level = np.linspace(0.0, 1.0, 1 << LEVEL_BITS)[:, None, None, None] ** GAMMA
     glow = np.linspace(0.0, 1.0, 1 << GLOW_BITS)[None, :, None, None]
     mask = np.linspace(0.0, 1.0, 1 << MASK_BITS)[None, None, :, None]
     if small:
-        mask = mask**0.5  # shrunk dots lose light to the dark around them
+        mask = mask**0.5  # shrunk dots lose light to the dark pixels around them
     tint, glass = np.array(color) / 255.0, np.array(background) / 255.0
     lit = (UNLIT + (1.0 - UNLIT) * level) * tint
     lit = lit + (1.0 - lit) * HOT * (level * mask) ** 3 * (0.35 + 0.65 * tint)
@@ -147,7 +149,7 @@ def _colors(color: Color, background: Color, small: bool) -> NDArray[np.uint32]:
 def _face(
     size: tuple[int, int], lit: tuple[int, int], rim: int, background: Color, frame: Color | None
 ) -> pygame.Surface:
-    """The panel without a single dot: the glass, and the bezel around it."""
+    """Return the panel without dots: the glass, and the bezel around it."""
     face = pygame.Surface(size, 0, 32)
     face.fill(background)
     if frame is None or rim < 1:

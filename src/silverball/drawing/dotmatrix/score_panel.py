@@ -1,4 +1,4 @@
-"""What is shown above the board? Dots: those that somebody gives, or else the score and the board's name."""
+"""The panel above the board, which shows given dots, or the score and the board's name."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from silverball.drawing.themes import Color, Theme
 if TYPE_CHECKING:
     from silverball.table import Table
 
-FAINT = 130  # brightness of what is less important
+FAINT = 130  # brightness of less important text
 
 
 class ScorePanel:
     """The panel above the board.
 
     Args:
-        area: Where it is [pixel].
+        area: Its area in the picture [pixel].
         theme: Its colours.
         table: A finished table.
-        board_seed: What the board was made from; a table that is always the same has none to show.
+        board_seed: The seed of a random board; None for other tables.
     """
 
     def __init__(self, area: pygame.Rect, theme: Theme, table: Table, board_seed: int | None = None) -> None:
@@ -35,12 +35,14 @@ class ScorePanel:
         edge = max(round(0.045 * area.height), 1)
         self._frame = _frame(area, theme, edge)
         self._panel = DotPanel(area.inflate(-4 * edge, -4 * edge), theme.dots, theme.panel, None)
-        self._plain: tuple[int, Dots] | None = None  # a score, and the dots that show it
+        self._plain: tuple[int, Dots] | None = None  # a score, and its dots
 
     def draw(self, target: pygame.Surface, moment: Moment, dots: Dots | None = None) -> None:
-        """Draw the panel: a picture of dots, or the moment's score."""
+        """Draw the panel with the given dots, or with the moment's score."""
         if self._frame.get_masks() != target.get_masks() or self._frame.get_bitsize() != target.get_bitsize():
-            self._frame = self._frame.convert(target)  # once: the same format is copied fastest
+            self._frame = self._frame.convert(
+                target
+            )  # once, because surfaces of the same format are copied fastest
         target.blit(self._frame, self.area)
         self._panel.draw(target, self._score(moment.score) if dots is None else dots)
 
@@ -51,7 +53,7 @@ class ScorePanel:
 
 
 def score_dots(score: int, name: str) -> Dots:
-    """A score, and below it a board's name; before the first point the name alone."""
+    """Return dots with a score above a board's name; before the first point with the name alone."""
     dots, text = Dots(), name.upper()
     if score:
         dots.number(score, WIDTH // 2, 1, WIDTH, (HUGE, BOLD, NORMAL))
@@ -62,7 +64,7 @@ def score_dots(score: int, name: str) -> Dots:
 
 
 def _frame(area: pygame.Rect, theme: Theme, edge: int) -> pygame.Surface:
-    """The dark panel in its two lines of light, smoothed by drawing it larger."""
+    """Return the dark panel with its two bright outlines, drawn larger and shrunk to smooth them."""
     large = pygame.Surface((3 * area.width, 3 * area.height), 0, 24)
     large.fill(theme.room)
     whole = large.get_rect()

@@ -1,40 +1,39 @@
-"""How does a scene become pixels? Row by row: first one ray a pixel, then more where neighbours differ.
+"""Baking kernels: one ray per pixel first, then more rays where neighbouring pixels differ.
 
-A canvas is a handful of arrays of the picture's size, filled by these kernels. They write only the pixels
-that the mask asks for, in the rows they are given, so that threads share a picture and a patch costs what it
-covers.
+They fill the arrays of a `Canvas`, but only in the given rows and where its mask is set, so threads share a
+picture and a patch costs no more than its pixels.
 """
 
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.drawing.kernels.cells import cell_at
 from silverball.drawing.kernels.march import trace
 from silverball.drawing.kernels.shade import part_glow, radiance
-from silverball.drawing.kernels.stage import Form, Scene
+from silverball.drawing.kernels.solids import cell_at
+from silverball.drawing.kernels.stage import ROOM, Form, Pixels, Scene, StageRecord
 from silverball.drawing.kernels.surfaces import surface_of
-from silverball.drawing.kernels.tones import RGB, film, plus, scaled
+from silverball.drawing.kernels.tones import RGB, add_scaled, scale, tone_map
 from silverball.physics.kernel import inlined, internal, kernel
 
-CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel is looked at more closely
+CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel gets more rays
 FINE = 4  # rays of such a pixel
-FLASH = 2.6  # how much brighter a part is that has just been hit
+FLASH = 2.6  # how much brighter a part glows that has just been hit
 
 
 class Canvas(NamedTuple):
-    """A picture in the making.
+    """A picture being baked.
 
     Attributes:
-        shown: Colours as on the screen, 0 to 1, float32 [row, column, 3].
-        light: The linear light of the middle of each pixel, float32 [row, column, 3].
+        shown: Colours of the screen, 0 to 1, float32 [row, column, 3].
+        light: Linear light at the centre of each pixel, float32 [row, column, 3].
         height: Of the surface above the playfield [u], float32 [row, column].
-        part: The number of what is seen, int16 [row, column].
-        mask: Which pixels to bake, bool [row, column].
+        part: The number of the visible part, or FLOOR, RAIL, APRON or ROOM, int16 [row, column].
+        mask: The pixels to bake, bool [row, column].
     """
 
     shown: NDArray[np.float32]
@@ -45,7 +44,7 @@ class Canvas(NamedTuple):
 
 
 def new_canvas(size: tuple[int, int]) -> Canvas:
-    """An empty canvas of a width and height [pixel], all of which is to be baked."""
+    """Return an empty canvas of a width and height [pixel], with all pixels in the mask."""
     shape = (size[1], size[0])
     return Canvas(
         np.zeros((*shape, 3), np.float32),
@@ -57,7 +56,7 @@ def new_canvas(size: tuple[int, int]) -> Canvas:
 
 
 @internal
-def _aim(s: Any, across: float, down: float) -> tuple[float, float, float]:
+def _ray_direction(s: StageRecord, across: float, down: float) -> tuple[float, float, float]:
     """The unit vector from the eye through a point of the picture."""
     u, v = (across - s.across) / s.focal, (s.down - down) / s.focal
     dx, dy, dz = s.sine + v * s.cosine, v * s.sine - s.cosine, u
@@ -66,19 +65,19 @@ def _aim(s: Any, across: float, down: float) -> tuple[float, float, float]:
 
 
 @internal
-def _look(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
-    """What is seen through a point of the picture: its light, its height, its number."""
+def _trace_pixel(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
+    """Return what is seen at a point of the picture: its light, its height, its number."""
     s = scene.stage[0]
-    dx, dy, dz = _aim(s, across, down)
-    way, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)
-    x, y, z = s.eye_x + way * dx, s.eye_y + way * dy, way * dz
-    light = radiance(scene, part, x, y, z, dx, dy, dz, way / s.focal)
+    dx, dy, dz = _ray_direction(s, across, down)
+    t, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)
+    x, y, z = s.eye_x + t * dx, s.eye_y + t * dy, t * dz
+    light = radiance(scene, part, (x, y, z), (dx, dy, dz), t / s.focal)
     return light, y, part
 
 
 @internal
-def _is_edge(canvas: Canvas, shown: Any, row: int, column: int) -> bool:
-    """Whether a pixel differs from one of its four neighbours in what it shows, or much in colour."""
+def _is_edge(canvas: Canvas, shown: Pixels, row: int, column: int) -> bool:
+    """Return whether a pixel shows another part than one of its four neighbours, or another colour."""
     rows, columns = canvas.part.shape
     for side in range(4):
         i = row + (1 if side == 0 else -1 if side == 1 else 0)
@@ -93,15 +92,15 @@ def _is_edge(canvas: Canvas, shown: Any, row: int, column: int) -> bool:
 
 
 @kernel
-def bake_rows(scene: Scene, canvas: Canvas, rough: Any, rays: int, first: int, end: int) -> None:
-    """Bake the rows first … end − 1: one kernel for both rounds, since each would compile all it calls anew.
+def bake_rows(scene: Scene, canvas: Canvas, rough: Pixels, rays: int, first: int, end: int) -> None:
+    """Bake the rows first … end − 1: one kernel for both passes, to compile everything once.
 
     Args:
-        scene: What is seen.
-        canvas: Where to; its mask says which pixels.
-        rough: In the second round, a copy of `canvas.shown` after the first.
-        rays: 1 in the first round, through the middle of every pixel; `FINE` in the second, where `rough` has
-            an edge.
+        scene: The table.
+        canvas: Receives the pixels of its mask.
+        rough: In the second pass, a copy of `canvas.shown` after the first.
+        rays: 1 in the first pass, through the centre of every pixel; `FINE` in the second, for pixels at
+            an edge of `rough`.
         first: The first row.
         end: The row after the last.
     """
@@ -113,9 +112,11 @@ def bake_rows(scene: Scene, canvas: Canvas, rough: Any, rays: int, first: int, e
             shown = (0.0, 0.0, 0.0)
             for ray in range(rays):
                 across, down = _place_in_pixel(ray, rays)
-                light, height, part = _look(scene, column + across, row + down)
-                light = scaled(light, s.exposure)
-                shown = plus(shown, (film(light[0]), film(light[1]), film(light[2])), 1.0 / rays)
+                light, height, part = _trace_pixel(scene, column + across, row + down)
+                light = scale(light, s.exposure)
+                shown = add_scaled(
+                    shown, (tone_map(light[0]), tone_map(light[1]), tone_map(light[2])), 1.0 / rays
+                )
                 if rays == 1:
                     canvas.height[row, column] = height
                     canvas.part[row, column] = part
@@ -127,7 +128,7 @@ def bake_rows(scene: Scene, canvas: Canvas, rough: Any, rays: int, first: int, e
 
 @inlined
 def _place_in_pixel(ray: int, rays: int) -> tuple[float, float]:
-    """Where a ray goes through its pixel: one in the middle, four with no two in a row or a column."""
+    """Return the position of a ray in its pixel: the centre, or four with distinct rows and columns."""
     if rays == 1:
         return 0.5, 0.5
     if ray == 0:
@@ -141,33 +142,33 @@ def _place_in_pixel(ray: int, rays: int) -> tuple[float, float]:
 
 @kernel
 def bake_flash(
-    scene: Scene, canvas: Canvas, index: int, left: int, top: int, patch: Any, first: int, end: int
+    scene: Scene, canvas: Canvas, index: int, left: int, top: int, patch: Pixels, first: int, end: int
 ) -> None:
-    """What a hit of one part adds to the picture: uint8 [row, column, 3], its corner at (left, top)."""
+    """Compute the light that a hit of one part adds: uint8 [row, column, 3], from (left, top) on."""
     s = scene.stage[0]
     for i in range(first, end):
         for j in range(patch.shape[1]):
             row, column = top + i, left + j
             part = canvas.part[row, column]
-            if part < -3:
+            if part == ROOM:
                 continue
-            dx, dy, dz = _aim(s, column + 0.5, row + 0.5)
-            way = (canvas.height[row, column] - s.eye_y) / dy
-            x, y, z = s.eye_x + way * dx, canvas.height[row, column], way * dz
+            dx, dy, dz = _ray_direction(s, column + 0.5, row + 0.5)
+            t = (canvas.height[row, column] - s.eye_y) / dy
+            x, y, z = s.eye_x + t * dx, canvas.height[row, column], t * dz
             near = False
             cell = cell_at(s, x, z)
             for place in range(scene.lit[cell], scene.lit[cell + 1]):
                 near = near or scene.lit[place] == index
             if not near:
                 continue
-            f = surface_of(scene, part, x, y, z, way / s.focal)
+            f = surface_of(scene, part, x, y, z, t / s.focal)
             if part == index:
                 glow = f.light
-                if scene.looks[index].form == Form.CYLINDER:
-                    glow = plus(glow, f.paint, 0.25)
+                if scene.solids[index].form == Form.CYLINDER:
+                    glow = add_scaled(glow, f.paint, 0.25)
             else:
                 glow = part_glow(scene, index, part, f, x, y, z)
             for channel in range(3):
                 light = canvas.light[row, column, channel]
-                more = film(light + FLASH * s.exposure * glow[channel]) - film(light)
+                more = tone_map(light + FLASH * s.exposure * glow[channel]) - tone_map(light)
                 patch[i, j, channel] = int(255.0 * min(max(more, 0.0), 1.0))

@@ -1,27 +1,26 @@
-"""What does a ray meet, how much of the lamp does a place see, and how much of the sky?
+"""Ray marching: the first surface on a ray, soft shadows, and ambient visibility.
 
-A ray advances by the distance to the nearest part until that is gone: a step can never pass anything. The
-playfield is a plane and is met in closed form, so rays need not creep up to it.
+A ray advances by the distance to the nearest part until that is zero (sphere tracing), so no step can pass a
+surface. The intersection with the playfield, a plane, is computed in closed form.
 """
 
 from __future__ import annotations
 
-from silverball.drawing.kernels.cells import cell_at
-from silverball.drawing.kernels.solids import apron_distance, part_distance, rail_distance
+from silverball.drawing.kernels.solids import apron_distance, cell_at, part_distance, rail_distance
 from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 
-STEPS = 72  # of a ray, and
-GAP = 0.0012  # [u] at which it has arrived; a fifteenth of a pixel of a picture 1152 high
+STEPS = 72  # of a ray at most
+GAP = 0.0012  # [u] at which a ray has arrived; 1/15 pixel of a picture 1152 pixels high
 SHADOW_STEPS = 22
-SHADOW_SHARPNESS = 9.0  # distance from the edge by distance from the lamp's ray at which light is full
+SHADOW_SHARPNESS = 9.0  # of the penumbra: higher values give harder shadows
 OCCLUSION_REACH = 0.42  # [u]
-BELOW = -1.2  # [u] how far the table stands above the room's floor
+BELOW = -1.2  # [u] height of the room's floor
 
 
 @internal
-def nearest(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
-    """The distance of the nearest part, at most `NEAR`, and its number."""
+def nearest_part(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
+    """Return the distance of the nearest part, at most `NEAR`, and its number."""
     s = scene.stage[0]
     best, part = rail_distance(s, x, y, z), RAIL
     apron = apron_distance(s, x, y, z)
@@ -30,7 +29,7 @@ def nearest(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
     cell = cell_at(s, x, z)
     for place in range(scene.near[cell], scene.near[cell + 1]):
         index = scene.near[place]
-        d = part_distance(scene.looks[index], scene.shapes[index], x, y, z)
+        d = part_distance(scene.solids[index], scene.shapes[index], x, y, z)
         if d < best:
             best, part = d, index
     return min(best, NEAR * s.unit), part
@@ -40,15 +39,15 @@ def nearest(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
 def trace(
     scene: Scene, x: float, y: float, z: float, dx: float, dy: float, dz: float, limit: float
 ) -> tuple[float, int]:
-    """The way to the first thing on a ray, and what it is; at `limit` or at the floor at the latest.
+    """Return the distance to the first surface on a ray, up to `limit`, and the number of its part.
 
-    ROOM is given for a ray that leaves the table or ends in the air.
+    The number is ROOM for a ray that leaves the table or meets nothing within the limit.
     """
     s = scene.stage[0]
-    way = 0.0
+    t = 0.0
     if dy < 0.0:
         if y > s.top:
-            way = (s.top - y) / dy
+            t = (s.top - y) / dy
         floor = -y / dy
         at_x, at_z = x + floor * dx, z + floor * dz
         is_inside = abs(at_x) < s.half_length + s.rail and abs(at_z) < s.half_width + s.rail
@@ -61,48 +60,48 @@ def trace(
         if dy > 0.0:
             end = min(end, (s.top - y) / dy)
     for _ in range(STEPS):
-        gap, part = nearest(scene, x + way * dx, y + way * dy, z + way * dz)
+        gap, part = nearest_part(scene, x + t * dx, y + t * dy, z + t * dz)
         if gap < GAP * s.unit:
-            return way, part
-        way += gap
-        if way >= end:
+            return t, part
+        t += gap
+        if t >= end:
             return end, there
-    return way, part
+    return t, part
 
 
 @internal
-def lamp_light(scene: Scene, x: float, y: float, z: float) -> float:
-    """How much of the lamp is seen from a place, 0 to 1, with a soft edge.
+def lamp_visibility(scene: Scene, x: float, y: float, z: float) -> float:
+    """Return how much of the lamp is visible from a point, 0 to 1, with soft shadows.
 
-    A ray towards the lamp that passes a part at distance d after the way t is dimmed to about k·d/t: the
+    A ray to the lamp that passes a part at distance d, after a path t, is dimmed to about k·d/t: the
     farther the part, the softer its shadow. Source: I. Quilez, "soft shadows in raymarched SDFs", 2010.
     """
     s = scene.stage[0]
-    light, way = 1.0, 0.03 * s.unit
+    light, t = 1.0, 0.03 * s.unit
     for _ in range(SHADOW_STEPS):
-        gap, _part = nearest(scene, x + way * s.light_x, y + way * s.light_y, z)
-        light = min(light, SHADOW_SHARPNESS * gap / way)
-        way += max(gap, 0.03 * s.unit)
-        if light < 0.005 or y + way * s.light_y > s.top:
+        gap, _part = nearest_part(scene, x + t * s.light_x, y + t * s.light_y, z)
+        light = min(light, SHADOW_SHARPNESS * gap / t)
+        t += max(gap, 0.03 * s.unit)
+        if light < 0.005 or y + t * s.light_y > s.top:
             break
     light = min(max(light, 0.0), 1.0)
     return light * light * (3.0 - 2.0 * light)
 
 
 @internal
-def openness(scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
-    """How much of the light from everywhere reaches a place, 0 to 1.
+def ambient_visibility(scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float) -> float:
+    """Return how much of the ambient light reaches a point, 0 to 1 (1 − ambient occlusion).
 
-    Along the normal the distance to the nearest part should grow as fast as the way; what is missing is
-    covered. Source: A. Evans, "Fast approximations for global illumination on dynamic scenes", 2006.
+    Along the normal the distance to the nearest part should grow as fast as the path; the difference is
+    occluded. Source: A. Evans, "Fast approximations for global illumination on dynamic scenes", 2006.
     """
     s = scene.stage[0]
     covered, weight = 0.0, 1.0
     for step in range(1, 5):
-        way = step * 0.25 * OCCLUSION_REACH * s.unit
-        above = y + way * ny
-        gap, _part = nearest(scene, x + way * nx, above, z + way * nz)
+        t = step * 0.25 * OCCLUSION_REACH * s.unit
+        above = y + t * ny
+        gap, _part = nearest_part(scene, x + t * nx, above, z + t * nz)
         gap = min(gap, above)
-        covered += weight * max(way - gap, 0.0) / (OCCLUSION_REACH * s.unit)
+        covered += weight * max(t - gap, 0.0) / (OCCLUSION_REACH * s.unit)
         weight *= 0.72
     return min(max(1.0 - 1.05 * covered, 0.0), 1.0)

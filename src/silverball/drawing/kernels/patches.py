@@ -1,4 +1,4 @@
-"""How is something laid onto a frame? The kernels that change a rectangle of pixels.
+"""Layers of a frame: kernels that blend paddles, light and spots into rectangles of its pixels.
 
 A frame is RGB, uint8 [row, column, 3]; beside it lies the height [u] of what each pixel shows, float32
 [row, column]. Rectangles are given by their first column and row and may hang over the frame's edge.
@@ -7,35 +7,37 @@ A frame is RGB, uint8 [row, column, 3]; beside it lies the height [u] of what ea
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
 
+from silverball.drawing.kernels.stage import Heights, Pixels, Records, Spots, StageRecord
 from silverball.physics.kernel import inlined, kernel
 
 
 @kernel
-def lay_paddle(frame: Any, height: Any, left: int, top: int, stays: Any, added: Any, tall: Any) -> None:
-    """Lay a paddle over a frame:  new = old · stays / 255 + added;  its heights replace those below."""
-    for i in range(max(0, -top), min(stays.shape[0], frame.shape[0] - top)):
-        for j in range(max(0, -left), min(stays.shape[1], frame.shape[1] - left)):
-            stay = stays[i, j]
-            if stay == 255:
+def lay_paddle(
+    frame: Pixels, height: Heights, left: int, top: int, remaining: Pixels, added: Pixels, tall: Heights
+) -> None:
+    """Blend a paddle over a frame:  new = old · remaining / 255 + added;  its heights replace those below."""
+    for i in range(max(0, -top), min(remaining.shape[0], frame.shape[0] - top)):
+        for j in range(max(0, -left), min(remaining.shape[1], frame.shape[1] - left)):
+            share = remaining[i, j]
+            if share == 255:
                 continue
             for channel in range(3):
-                value = frame[top + i, left + j, channel] * stay // 255 + added[i, j, channel]
+                value = frame[top + i, left + j, channel] * share // 255 + added[i, j, channel]
                 frame[top + i, left + j, channel] = min(value, 255)
             if tall[i, j] >= 0.0:
                 height[top + i, left + j] = tall[i, j]
 
 
 @kernel
-def add_light(rows: Any, left: int, top: int, patch: Any, strength: int) -> None:
-    """Add so many 256ths of a picture of light.
+def add_light(rows: Pixels, left: int, top: int, patch: Pixels, strength: int) -> None:
+    """Add a picture of light, scaled by strength / 256.
 
     Args:
-        rows: The frame, its colours in one row each, uint8 [row, 3 · column].
+        rows: The frame, uint8 [row, 3 · column].
         left: First column of the picture.
         top: Its first row.
-        patch: The picture of light, uint8 [row, 3 · column]; it lies within the frame.
+        patch: The picture of light, uint8 [row, 3 · column]; it must lie within the frame.
         strength: 0 to 256.
     """
     for i in range(patch.shape[0]):
@@ -45,15 +47,17 @@ def add_light(rows: Any, left: int, top: int, patch: Any, strength: int) -> None
 
 
 @kernel
-def add_spots(frame: Any, height: Any, stage: Any, spots: Any, count: int) -> tuple[int, int, int, int]:
-    """Add round spots of light, of trails and sparks, and give the rectangle that holds them all.
+def add_spots(
+    frame: Pixels, height: Heights, stage: Records, spots: Spots, count: int
+) -> tuple[int, int, int, int]:
+    """Add the round spots of a trail or of sparks; return the box that contains them.
 
     Args:
         frame: RGB.
-        height: What is there.
+        height: Of what each pixel shows [u].
         stage: The camera, a STAGE record.
         spots: Place x, y, z, radius [u], red, green, blue [0 to 255], float64 [spot, 7].
-        count: How many of them.
+        count: The number of spots.
     """
     left, top, right, bottom = frame.shape[1], frame.shape[0], 0, 0
     for index in range(count):
@@ -64,7 +68,9 @@ def add_spots(frame: Any, height: Any, stage: Any, spots: Any, count: int) -> tu
 
 
 @inlined
-def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[int, int, int, int]:
+def _add_spot(
+    frame: Pixels, height: Heights, s: StageRecord, spots: Spots, index: int
+) -> tuple[int, int, int, int]:
     x, y, z, radius = spots[index, 0], spots[index, 1], spots[index, 2], spots[index, 3]
     depth = (x - s.eye_x) * s.sine - (y - s.eye_y) * s.cosine
     across = s.across + s.focal * z / depth
@@ -76,7 +82,7 @@ def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[
         for column in range(left, right):
             u, v = (column + 0.5 - across) / size, (row + 0.5 - down) / size
             fade = 1.0 - u * u - v * v
-            # A thing that is higher than the spot stands in front of it: the camera looks down.
+            # The camera looks down, so whatever is higher than the spot hides it.
             if fade > 0.0 and height[row, column] <= y + 0.3:
                 fade *= fade
                 for channel in range(3):
@@ -86,8 +92,8 @@ def _add_spot(frame: Any, height: Any, s: Any, spots: Any, index: int) -> tuple[
 
 
 @inlined
-def way_to(s: Any, column: int, row: int) -> tuple[float, float, float, float]:
-    """The unit vector from the eye through the middle of a pixel, and how long it was before."""
+def pixel_ray(s: StageRecord, column: int, row: int) -> tuple[float, float, float, float]:
+    """Return the unit vector from the eye through the centre of a pixel, and its length before scaling."""
     u, v = (column + 0.5 - s.across) / s.focal, (s.down - row - 0.5) / s.focal
     dx, dy, dz = s.sine + v * s.cosine, v * s.sine - s.cosine, u
     length = sqrt(dx * dx + dy * dy + dz * dz)

@@ -1,4 +1,4 @@
-"""What is a scene made of? The records, numbers and colours that the drawing's kernels pass around.
+"""Records, numbers and colours of a scene, shared by all kernels of the drawing.
 
 Lengths [u], x up the table, y out of the board from the playfield on, z to the player's right. Colours are
 linear light, not the screen's values.
@@ -7,18 +7,35 @@ linear light, not the screen's values.
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-FLOOR, RAIL, APRON, ROOM = -1, -2, -3, -4
-"""Numbers of what is seen besides the table's parts."""
+Vector: TypeAlias = tuple[float, float, float]
+"""x, y, z [u], or a direction."""
 
-CELL = 0.5  # [u] side of a cell at least
-MOST_CELLS = 128  # along the longer side
-NEAR = 1.0  # [u] a cell lists all parts within this distance of any of its points, for marching
-HALO = 2.4  # [u] no part lights up anything farther away than this, for shading
+Box: TypeAlias = tuple[int, int, int, int]
+"""Left, top, right and bottom [pixel] of a rectangle; right and bottom are excluded."""
+
+# Arguments of kernels, whose types Numba checks; to mypy they are Any.
+StageRecord: TypeAlias = Any  # a STAGE record
+SolidRecord: TypeAlias = Any  # a SOLID record
+ShapeRecord: TypeAlias = Any  # a COLLIDER record
+Records: TypeAlias = Any  # an array of records, shape [part], or [1] for a stage
+Inks: TypeAlias = Any  # linear colours, float64 [Ink, 3]
+Pixels: TypeAlias = Any  # RGB, uint8 or float32 [row, column, 3]
+Heights: TypeAlias = Any  # [u] above the playfield, float32 [row, column]
+Spots: TypeAlias = Any  # place, radius [u] and colour, float64 [spot, 7]
+Cells: TypeAlias = Any  # a grid of parts, int32, see `list_cells`
+
+FLOOR, RAIL, APRON, ROOM = -1, -2, -3, -4
+"""Numbers of what a ray can meet apart from the table's parts, which are numbered from 0."""
+
+CELL = 0.5  # [u] least side of a cell
+MAX_CELLS = 128  # along the longer side
+NEAR = 1.0  # [u] parts within this distance are listed in a cell, for marching
+HALO = 2.4  # [u] parts light up nothing farther away than this, for shading
 LIGHT = (
     0.75,
     0.66143782776614768,
@@ -26,7 +43,7 @@ LIGHT = (
 
 
 class Form(IntEnum):
-    """What a part is built as."""
+    """How a part is built."""
 
     ABSENT = 0
     WALL = 1  # a bar with a round top
@@ -37,7 +54,7 @@ class Form(IntEnum):
 
 
 class Ink(IntEnum):
-    """The rows of a scene's colours."""
+    """Rows of a scene's colours."""
 
     ROOM = 0
     FLOOR_LOW = 1
@@ -62,7 +79,7 @@ class Ink(IntEnum):
 
 
 class Art(IntEnum):
-    """What is painted onto the playfield."""
+    """The painting on the playfield."""
 
     COSMOS = 0  # rays, clouds of stars, planets
     WOOD = 1  # veneer with a compass rose
@@ -70,19 +87,19 @@ class Art(IntEnum):
 
 
 class Frame(IntEnum):
-    """What rails and slant walls are made of."""
+    """The material of rails and slant walls."""
 
     METAL = 0
     WOOD = 1
 
 
-LOOK = np.dtype(
+SOLID = np.dtype(
     [
         ("form", "i8"),
         ("height", "f8"), ("bevel", "f8"),  # [u] of the top, and of its rounded edge
         ("red", "f8"), ("green", "f8"), ("blue", "f8"),
         ("sine", "f8"), ("cosine", "f8"), ("side", "f8"),  # of a paddle: its angle; +1 left, −1 right
-        ("glow", "f8"),  # how strongly it lights up what is around it
+        ("glow", "f8"),  # strength of the light on its surroundings
     ],
     align=True,
 )  # fmt: skip
@@ -99,27 +116,27 @@ STAGE = np.dtype(
         # The camera, see camera.py
         ("eye_x", "f8"), ("eye_y", "f8"), ("sine", "f8"), ("cosine", "f8"), ("focal", "f8"),
         ("across", "f8"), ("down", "f8"),
-        ("pixel", "f8"),  # [u] about the size of a pixel on the board
+        ("pixel", "f8"),  # [u] size of a pixel in the middle of the board
     ],
     align=True,
 )  # fmt: skip
 
 
 class Scene(NamedTuple):
-    """A table, ready to be marched.
+    """A table as arrays, for ray marching.
 
     Attributes:
         stage: One STAGE record.
-        looks: LOOK records, shape [part].
+        solids: SOLID records, shape [part].
         shapes: COLLIDER records, shape [part].
         inks: Linear colours, float64 [Ink, 3].
-        near: Which parts to march in each cell: where its list begins, then the lists, int32.
-        lit: The same for the parts that light up a cell.
+        near: The grid of the parts to march in each cell, see `list_cells`.
+        lit: The grid of the parts that light up a cell.
         label: Brightness of the lettering on the apron, float32 [row, column].
     """
 
     stage: NDArray[Any]
-    looks: NDArray[Any]
+    solids: NDArray[Any]
     shapes: NDArray[Any]
     inks: NDArray[np.float64]
     near: NDArray[np.int32]

@@ -1,39 +1,59 @@
-"""What is the surface like at a place: which way does it face, what is its paint, does it shine by itself?"""
+"""Surfaces: normal, paint, emitted light and gloss at a point of a part."""
 
 from __future__ import annotations
 
 from math import atan2, cos, exp, pi, sin, sqrt
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from silverball.drawing.kernels.art import painted
+from silverball.drawing.kernels.art import playfield_paint
 from silverball.drawing.kernels.solids import (
     CAP_SHARE,
     apron_distance,
-    footprint,
+    footprint_distance,
     part_distance,
     rail_distance,
     rail_footprint,
 )
-from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, Form, Frame, Ink, Scene
-from silverball.drawing.kernels.tones import RGB, clamped, cover, ink, mixed, noise, plus, scaled, smooth
-from silverball.physics.kernel import internal
+from silverball.drawing.kernels.stage import (
+    APRON,
+    FLOOR,
+    RAIL,
+    Form,
+    Frame,
+    Ink,
+    Scene,
+    ShapeRecord,
+    SolidRecord,
+)
+from silverball.drawing.kernels.tones import (
+    RGB,
+    add_scaled,
+    clamp01,
+    coverage,
+    ink,
+    mix,
+    scale,
+    smoothstep,
+    value_noise,
+)
+from silverball.physics.kernel import inlined, internal
 
-STEP = 0.004  # [u] between the places whose distances give a normal
+STEP = 0.004  # [u] between the points whose distances give a normal
 SPOKES = 8  # of a cap's star
 BOLT_SPACING = 2.4  # [u] between the bolts of the rails
 
 
 class Surface(NamedTuple):
-    """A place of a surface.
+    """The properties of a surface at a point.
 
     Attributes:
-        nx: The normal, a unit vector.
+        nx: The unit normal, its part up the table.
         ny: Its part out of the board.
         nz: Its part to the right.
-        paint: How much of each colour it throws back.
-        light: What shines out of it by itself.
-        gloss: How much it mirrors when seen from straight above it.
-        metal: 1 where it mirrors in its own colour and has no paint, else 0.
+        paint: Diffuse reflectance of each colour.
+        light: Emitted light.
+        gloss: Reflectance when seen from straight above it.
+        metal: 1 for metal, which mirrors in its own colour and has no paint; 0 for everything else.
     """
 
     nx: float
@@ -45,30 +65,48 @@ class Surface(NamedTuple):
     metal: float
 
 
+class Hit(NamedTuple):
+    """Where a ray meets a surface: the point [u], the unit normal, and the size of a pixel there [u]."""
+
+    x: float
+    y: float
+    z: float
+    nx: float
+    ny: float
+    nz: float
+    pixel: float
+
+
 @internal
 def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: float) -> Surface:
-    """The surface of what has been met at (x, y, z), seen with pixels of a size [u]."""
+    """Return the surface of a part at (x, y, z), where a pixel has a size [u]."""
     s = scene.stage[0]
     if part == FLOOR:
-        paint, light = painted(s, scene.inks, x, z, pixel)
+        paint, light = playfield_paint(s, scene.inks, x, z, pixel)
         return Surface(0.0, 1.0, 0.0, paint, light, 0.04, 0.0)
     nx, ny, nz = _normal(scene, part, x, y, z)
+    hit = Hit(x, y, z, nx, ny, nz, pixel)
     if part == RAIL:
-        return _rail(scene, x, y, z, nx, ny, nz, pixel)
+        return _rail(scene, hit)
     if part == APRON:
-        return _apron(scene, x, y, z, nx, ny, nz, pixel)
-    look, shape = scene.looks[part], scene.shapes[part]
-    tone = (look.red, look.green, look.blue)
-    if look.form == Form.CYLINDER:
-        return _cylinder(scene, look, shape, x, y, z, nx, ny, nz, tone, pixel)
-    inside = -footprint(look, shape, x, z)
-    if look.form == Form.PRISM:
-        return _prism(look, y, nx, ny, nz, inside, tone, pixel)
-    if look.form == Form.PADDLE:
-        return _paddle(scene, look, shape, x, y, z, nx, ny, nz, inside, tone, pixel)
-    if look.form == Form.WALL:
-        return _wall(scene, look, x, y, z, nx, ny, nz, tone)
-    return Surface(nx, ny, nz, tone, (0.0, 0.0, 0.0), 0.05, 0.0)  # a filled corner
+        return _apron(scene, hit)
+    solid, shape = scene.solids[part], scene.shapes[part]
+    if solid.form == Form.CYLINDER:
+        return _cylinder(scene, solid, shape, hit)
+    inside = -footprint_distance(solid, shape, x, z)
+    if solid.form == Form.PRISM:
+        return _prism(solid, hit, inside)
+    if solid.form == Form.PADDLE:
+        return _paddle(scene, solid, hit, inside)
+    if solid.form == Form.WALL:
+        return _wall(scene, solid, hit)
+    return Surface(nx, ny, nz, color_of(solid), (0.0, 0.0, 0.0), 0.05, 0.0)  # a filled corner
+
+
+@inlined
+def color_of(solid: SolidRecord) -> RGB:
+    """Return the own colour of a part."""
+    return solid.red, solid.green, solid.blue
 
 
 @internal
@@ -77,12 +115,12 @@ def _distance(scene: Scene, part: int, x: float, y: float, z: float) -> float:
         return rail_distance(scene.stage[0], x, y, z)
     if part == APRON:
         return apron_distance(scene.stage[0], x, y, z)
-    return part_distance(scene.looks[part], scene.shapes[part], x, y, z)
+    return part_distance(scene.solids[part], scene.shapes[part], x, y, z)
 
 
 @internal
 def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
-    """The direction in which the distance grows fastest, from four places around."""
+    """Return the gradient of the distance as a unit vector, from four points around."""
     nx, ny, nz = 0.0, 0.0, 0.0
     h = STEP * scene.stage[0].unit
     for corner in range(4):  # of a tetrahedron: (+,−,−), (−,−,+), (−,+,−), (+,+,+)
@@ -98,31 +136,32 @@ def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
 
 
 @internal
-def _rail(
-    scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float, pixel: float
-) -> Surface:
-    """The frame: metal with a bright trim, or wood with brass; bolts on top, a tube of light at its foot."""
+def _rail(scene: Scene, hit: Hit) -> Surface:
+    """The rail: metal with a bright trim, or wood with brass; bolts on top, a tube of light at its foot."""
+    x, y, z, nx, ny, nz, pixel = hit
     s = scene.stage[0]
     in_top = x - s.half_length > abs(z) - s.half_width or -x - s.half_length > abs(z) - s.half_width
     along = z if in_top else x
     width = s.rail + s.thickness
-    deep = rail_footprint(s, x, z) + 0.5 * width  # 0 on the surfaces' middle line, grows to either side
+    deep = rail_footprint(s, x, z) + 0.5 * width  # 0 on the middle line, grows to both sides
     tone = ink(scene.inks, Ink.RAIL)
     light = (0.0, 0.0, 0.0)
     steel = ink(scene.inks, Ink.STEEL)
     metal, gloss = 0.0, 0.10
     if s.frame == Frame.WOOD:
         across = x if in_top else z
-        grain = noise(1.1 * along, 14.0 * across) + 0.5 * noise(2.7 * along, 41.0 * across + 3.0 * y)
-        tone = scaled(tone, 0.62 + 0.5 * grain)
+        grain = value_noise(1.1 * along, 14.0 * across) + 0.5 * value_noise(
+            2.7 * along, 41.0 * across + 3.0 * y
+        )
+        tone = scale(tone, 0.62 + 0.5 * grain)
     else:
-        brushed = noise(3.0 * along, 60.0 * (x if in_top else z))
-        tone = scaled(tone, 0.85 + 0.3 * brushed)
+        brushed = value_noise(3.0 * along, 60.0 * (x if in_top else z))
+        tone = scale(tone, 0.85 + 0.3 * brushed)
         gloss = 0.22
     if ny > 0.5:
-        trim = cover(abs(abs(deep) - 0.02 * width) - 0.035 * width, pixel)
+        trim = coverage(abs(abs(deep) - 0.02 * width) - 0.035 * width, pixel)
         if trim > 0.5:
-            tone, metal, gloss = mixed(tone, steel, 0.8), 0.8, 0.5
+            tone, metal, gloss = mix(tone, steel, 0.8), 0.8, 0.5
         spacing = BOLT_SPACING * s.unit
         place = along / spacing + 0.5
         off = (place - place // 1.0 - 0.5) * spacing
@@ -136,18 +175,17 @@ def _rail(
             nx, nz = nx + lean * lean_x, nz + lean * lean_z
             length = sqrt(nx * nx + ny * ny + nz * nz)
             nx, ny, nz = nx / length, ny / length, nz / length
-        tone = scaled(tone, 1.0 - 0.5 * cover(abs(rho - radius) - 0.02 * width, pixel))
+        tone = scale(tone, 1.0 - 0.5 * coverage(abs(rho - radius) - 0.02 * width, pixel))
     elif abs(x) < s.half_length - 0.5 * s.thickness and abs(z) < s.half_width:
         strip = exp(-(((y - 0.09 * s.unit) / (0.045 * s.unit)) ** 2))
-        light = scaled(ink(scene.inks, Ink.STRIP), 1.6 * strip * s.halo)
+        light = scale(ink(scene.inks, Ink.STRIP), 1.6 * strip * s.halo)
     return Surface(nx, ny, nz, tone, light, gloss, metal)
 
 
 @internal
-def _apron(
-    scene: Scene, x: float, y: float, z: float, nx: float, ny: float, nz: float, pixel: float
-) -> Surface:
+def _apron(scene: Scene, hit: Hit) -> Surface:
     """The plate at the player's end, with the table's name."""
+    x, y, z, nx, ny, nz = hit.x, hit.y, hit.z, hit.nx, hit.ny, hit.nz
     s = scene.stage[0]
     tone = ink(scene.inks, Ink.APRON)
     light = (0.0, 0.0, 0.0)
@@ -155,100 +193,98 @@ def _apron(
     half = s.half_width - s.thickness
     down = (s.apron_top - x) / max(depth, 1e-9)
     if ny > 0.9:
-        tone = scaled(tone, 0.8 + 0.5 * clamped(1.0 - down))
+        tone = scale(tone, 0.8 + 0.5 * clamp01(1.0 - down))
         row = int(down * scene.label.shape[0])
         column = int((z + half) / (2.0 * half) * scene.label.shape[1])
         if 0 <= row < scene.label.shape[0] and 0 <= column < scene.label.shape[1]:
             letter = scene.label[row, column]
             name = ink(scene.inks, Ink.LABEL)
-            tone = mixed(tone, name, 0.85 * letter)
-            light = scaled(name, 0.25 * letter * s.halo)
+            tone = mix(tone, name, 0.85 * letter)
+            light = scale(name, 0.25 * letter * s.halo)
     else:
         edge = exp(-(((y - s.apron_height + 0.08 * s.unit) / (0.05 * s.unit)) ** 2))
-        light = scaled(ink(scene.inks, Ink.STRIP), (0.15 + 0.9 * edge) * s.halo)
+        light = scale(ink(scene.inks, Ink.STRIP), (0.15 + 0.9 * edge) * s.halo)
     return Surface(nx, ny, nz, tone, light, 0.06, 0.0)
 
 
 @internal
-def _cylinder(
-    scene: Scene, look: Any, c: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float,
-    tone: RGB, pixel: float,
-) -> Surface:  # fmt: skip
+def _cylinder(scene: Scene, solid: SolidRecord, c: ShapeRecord, hit: Hit) -> Surface:
     """A bumper: a lit ribbed body, a steel ring, a domed cap with a star."""
+    y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
+    tone = color_of(solid)
     s = scene.stage[0]
-    rx, rz = x - c.x, z - c.z
+    rx, rz = hit.x - c.x, hit.z - c.z
     rho, angle = sqrt(rx * rx + rz * rz), atan2(rz, rx)
     unit = s.unit
     wide = CAP_SHARE * c.radius
-    if rho > wide - 0.01 * unit and y > look.height - 0.078 * unit:
+    if rho > wide - 0.01 * unit and y > solid.height - 0.078 * unit:
         return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.85, 1.0)
-    if y < look.height:
+    if y < solid.height:
         rib = 0.5 + 0.5 * cos(20.0 * angle)
-        shine = (0.22 + 0.5 * y / look.height) * (0.45 + 0.55 * rib) * s.halo
-        return Surface(nx, ny, nz, scaled(tone, 0.8), scaled(tone, shine), 0.08, 0.0)
+        shine = (0.22 + 0.5 * y / solid.height) * (0.45 + 0.55 * rib) * s.halo
+        return Surface(nx, ny, nz, scale(tone, 0.8), scale(tone, shine), 0.08, 0.0)
     share = rho / wide
-    white = mixed(tone, ink(scene.inks, Ink.CAP), s.cap_ground)
+    white = mix(tone, ink(scene.inks, Ink.CAP), s.cap_ground)
     step = 2.0 * pi / SPOKES
     place = angle / step + 1000.5
     turned = (place - place // 1.0 - 0.5) * step
     # A spoke widens from the middle to the rim and ends round.
     off = rho * abs(sin(turned)) - 0.30 * rho * sin(0.5 * step) - 0.045 * wide
-    spoke = cover(max(off, abs(rho - 0.60 * wide) - 0.25 * wide), pixel)
-    heart = cover(rho - 0.22 * wide, pixel)
-    collar = cover(abs(rho - 0.22 * wide) - 0.035 * wide, pixel)
-    rim = cover(0.93 * wide - rho, pixel)
-    paint = mixed(scaled(tone, 0.85 - 0.25 * share), white, 0.95 * max(spoke, heart))
-    paint = mixed(paint, scaled(tone, 0.35), max(collar, rim))
+    spoke = coverage(max(off, abs(rho - 0.60 * wide) - 0.25 * wide), pixel)
+    heart = coverage(rho - 0.22 * wide, pixel)
+    collar = coverage(abs(rho - 0.22 * wide) - 0.035 * wide, pixel)
+    rim = coverage(0.93 * wide - rho, pixel)
+    paint = mix(scale(tone, 0.85 - 0.25 * share), white, 0.95 * max(spoke, heart))
+    paint = mix(paint, scale(tone, 0.35), max(collar, rim))
     shine = (0.22 + 0.34 * (1.0 - share) * (1.0 - share)) * (0.4 + 0.6 * s.halo)
-    light = plus(scaled(paint, shine), white, 0.25 * max(heart, 0.4 * spoke) * s.halo)
+    light = add_scaled(scale(paint, shine), white, 0.25 * max(heart, 0.4 * spoke) * s.halo)
     return Surface(nx, ny, nz, paint, light, 0.07, 0.0)
 
 
 @internal
-def _prism(
-    look: Any, y: float, nx: float, ny: float, nz: float, inside: float, tone: RGB, pixel: float
-) -> Surface:
+def _prism(solid: SolidRecord, hit: Hit, inside: float) -> Surface:
     """Lit acrylic: light gathers at the edges, and a second, fainter line runs inside the top."""
-    unit = look.height / 0.34
+    y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
+    tone = color_of(solid)
+    unit = solid.height / 0.34
     if ny > 0.85:
-        edge = exp(-max(inside - look.bevel, 0.0) / (0.07 * unit))
-        line = cover(abs(inside - 0.24 * unit) - 0.018 * unit, pixel)
-        inner = smooth(0.24 * unit, 0.3 * unit, inside)
-        paint = scaled(tone, 0.75 - 0.22 * inner)
-        light = scaled(mixed(tone, (1.0, 1.0, 1.0), 0.12 * edge), 0.26 + 0.62 * edge - 0.10 * inner)
-        return Surface(nx, ny, nz, paint, plus(light, tone, 0.5 * line), 0.07, 0.0)
+        edge = exp(-max(inside - solid.bevel, 0.0) / (0.07 * unit))
+        line = coverage(abs(inside - 0.24 * unit) - 0.018 * unit, pixel)
+        inner = smoothstep(0.24 * unit, 0.3 * unit, inside)
+        paint = scale(tone, 0.75 - 0.22 * inner)
+        light = scale(mix(tone, (1.0, 1.0, 1.0), 0.12 * edge), 0.26 + 0.62 * edge - 0.10 * inner)
+        return Surface(nx, ny, nz, paint, add_scaled(light, tone, 0.5 * line), 0.07, 0.0)
     if ny > 0.25:  # the bevelled edge, where the light comes out
-        white = mixed(tone, (1.0, 1.0, 1.0), 0.42)
+        white = mix(tone, (1.0, 1.0, 1.0), 0.42)
         away = 1.0 - 0.65 * max(nx, 0.0)  # less at the far edges, which are thinner than a pixel
-        return Surface(nx, ny, nz, tone, scaled(white, 1.05 * away), 0.10, 0.0)
-    up = clamped(y / look.height)
-    return Surface(nx, ny, nz, scaled(tone, 0.8), scaled(tone, 0.16 + 0.42 * up * up), 0.10, 0.0)
+        return Surface(nx, ny, nz, tone, scale(white, 1.05 * away), 0.10, 0.0)
+    up = clamp01(y / solid.height)
+    return Surface(nx, ny, nz, scale(tone, 0.8), scale(tone, 0.16 + 0.42 * up * up), 0.10, 0.0)
 
 
 @internal
-def _paddle(
-    scene: Scene, look: Any, c: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float,
-    inside: float, tone: RGB, pixel: float,
-) -> Surface:  # fmt: skip
+def _paddle(scene: Scene, solid: SolidRecord, hit: Hit, inside: float) -> Surface:
     """A bright plate with a rubber around it and a bolt over its pivot."""
-    if y > look.height + 0.004:
+    nx, ny, nz = hit.nx, hit.ny, hit.nz
+    tone = color_of(solid)
+    if hit.y > solid.height + 0.004:
         return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.8, 1.0)
     edge = ink(scene.inks, Ink.PADDLE_EDGE)
-    rim = cover(inside - 0.055 * look.height / 0.33, pixel)
-    light = scaled(mixed(tone, edge, rim), 0.16)
+    rim = coverage(inside - 0.055 * solid.height / 0.33, hit.pixel)
+    light = scale(mix(tone, edge, rim), 0.16)
     if ny < 0.5:
-        return Surface(nx, ny, nz, scaled(mixed(tone, edge, 0.45), 0.85), scaled(tone, 0.10), 0.06, 0.0)
-    return Surface(nx, ny, nz, mixed(tone, edge, rim), light, 0.08, 0.0)
+        return Surface(nx, ny, nz, scale(mix(tone, edge, 0.45), 0.85), scale(tone, 0.10), 0.06, 0.0)
+    return Surface(nx, ny, nz, mix(tone, edge, rim), light, 0.08, 0.0)
 
 
 @internal
-def _wall(
-    scene: Scene, look: Any, x: float, y: float, z: float, nx: float, ny: float, nz: float, tone: RGB
-) -> Surface:
+def _wall(scene: Scene, solid: SolidRecord, hit: Hit) -> Surface:
     """A slant wall: a steel bar, or a wooden one; a tube of light along its foot."""
+    y, nx, ny, nz = hit.y, hit.nx, hit.ny, hit.nz
+    tone = color_of(solid)
     s = scene.stage[0]
     strip = exp(-(((y - 0.09 * s.unit) / (0.045 * s.unit)) ** 2)) if ny < 0.3 else 0.0
-    light = scaled(ink(scene.inks, Ink.STRIP_2), 1.6 * strip * s.halo)
+    light = scale(ink(scene.inks, Ink.STRIP_2), 1.6 * strip * s.halo)
     if s.frame == Frame.WOOD:
         return Surface(nx, ny, nz, tone, light, 0.25, 0.5)
     return Surface(nx, ny, nz, tone, light, 0.4, 0.55)

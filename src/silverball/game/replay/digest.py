@@ -1,8 +1,8 @@
-"""What are the short digests of a game, and which field of two games differs?
+"""Digests of a game: a short one for each group of fields, for every second, and a full one for the end.
 
-The state falls into groups that fail in different ways: a changed press shows in the paddles first, another
-rule in the rules alone. Each group has a digest of two characters, 12 bits: in one second one of 4,096
-differences goes unseen, and hardly any goes unseen for long; the whole state has a full digest at the end.
+The state falls into groups that fail in different ways: a changed input shows in the paddles first, a changed
+rule in the rules alone. A short digest has two characters, 12 bits: one difference in 4,096 goes unseen in
+one second, and hardly any goes unseen for long.
 """
 
 from __future__ import annotations
@@ -24,13 +24,18 @@ _PADDLES, _TICK, _SEED, _SCORE, _REST = (
 )
 
 GROUPS = ("paddles", "random", "balls", "counts", "points", "rules")
-"""In the order in which a difference in one leads to differences in the next."""
+"""In the order in which differences spread from one to the next."""
 
 CHARACTERS = 2  # of each group's digest
 
 
 def short_digests(record: bytes, rules: str) -> str:
-    """The digests of the groups of a world's record and of the text of its rules, one after the other."""
+    """The digests of all groups, one after the other.
+
+    Args:
+        record: The bytes of the world's record.
+        rules: The state of the rules as JSON.
+    """
     parts = (
         record[_PADDLES:_TICK],
         record[_SEED:_SCORE],
@@ -43,7 +48,7 @@ def short_digests(record: bytes, rules: str) -> str:
 
 
 def full_digest(record: bytes, rules: str) -> str:
-    """A stable hex string of the whole state of a game."""
+    """The SHA-256 of the whole state of a game, in hex digits."""
     return hashlib.sha256(record + rules.encode("ascii")).hexdigest()
 
 
@@ -58,7 +63,7 @@ def differing_groups(expected: str, got: str) -> tuple[str, ...]:
 
 
 def values(record: Any, rules: str) -> Iterator[tuple[str, Any]]:
-    """Every field of a game with its path, in the order of `GROUPS`; floats as their shortest exact text."""
+    """Every field of a game with its path, in the order of `GROUPS`."""
     for name in ("paddle", "seed", "draws", "ball"):
         yield from _flat(name, record[name])
     for name in record.dtype.names:
@@ -74,7 +79,7 @@ def _short(part: bytes) -> str:
 
 
 def _flat(path: str, value: Any) -> Iterator[tuple[str, Any]]:
-    """A value with its path, or those of all that is in it."""
+    """A value with its path, or all values in it with theirs."""
     names = getattr(getattr(value, "dtype", None), "names", None)
     if isinstance(value, dict):
         for key, item in value.items():

@@ -1,64 +1,81 @@
-"""What is a replay, and how does it become text and come back?
+"""Replays: a recorded game as an object, as text and as a file.
 
-    silverball replay 1           what it is, and the version of the format
-    program = 0.1.0               who wrote it; then what must be the same for the same game,
-    ...                           one line each
+    silverball replay 1           the version of the format
+    program = 0.1.0               the version of Silverball that wrote it; then, on a line each, what must be
+    ...                           the same for the same game
     --- table
     ...                           the table as a table file
     --- play
-    ...                           one line for every second (see `replay_lines`), a last one for what is left
+    ...                           one line for every second (see `recording`), and one for the rest
     --- end
-    ticks = 12345                 how it ended
+    ticks = 12345                 how the game ended
     ...
-    checksum = 0a1b...            over all text before this line
+    checksum = 0a1b...            of all text before this line
 
-How that is read when it comes from elsewhere is the question of `replay_reader`.
+Format 2 has one more line before the table, `own_rules = NAME`, for games with rules that are not built in.
+`reader` reads text that may come from anywhere.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from silverball.errors import StateError
+from silverball.errors import OutputError, StateError
 from silverball.game.replay.reader import (
     END,
-    FIRST,
-    FORMAT,
     PLAY,
+    RULES_KEY,
     TABLE,
     TEXT_LIMIT,
     Reader,
     checksum,
     has_mesh,
 )
+from silverball.game.replay.recording import FIRST, FORMAT, FORMAT_WITH_RULES
+from silverball.game.replay.verify import Verdict, verify
 from silverball.game.rules import RULES_VERSION
 from silverball.game.view import Mode
 from silverball.physics import PHYSICS_VERSION
 from silverball.table import Table, dump_table, table_digest
-from silverball.wholefile import NOTHING, Unreadable, read_text
+from silverball.wholefile import NOTHING, Unreadable, read_text, write_whole
 
 if TYPE_CHECKING:
+    from silverball.game.rules import Rules
     from silverball.world import World
 
 
 @dataclass(frozen=True)
 class Replay:
-    """All that it takes to play a game again, and what must come out.
+    """A recorded game: everything that is needed to play it again, and the result to expect.
+
+    `Game.replay` makes one.
 
     Attributes:
-        program: The version of Silverball that played it.
-        mode: Which game.
+        program: The version of Silverball that recorded it.
+        mode: The mode.
         table: The finished table.
-        seed: Of everything random.
+        seed: The seed of everything random.
         tick_rate: Ticks per second.
-        lines: One for every full second: digests and inputs, see `replay_lines`.
-        tail: The inputs after the last full second.
-        ticks: How long the game was.
-        score: What was reached.
-        ended: "over", "stopped" (by the player), "running" (it went on), or the name of a fault.
-        digest: Of the whole state at the end.
+        lines: One line for every whole second: digests and inputs, see `recording`.
+        tail: The inputs after the last whole second.
+        ticks: The length of the game [ticks].
+        score: The points at the end.
+        ended: "over", "stopped" (by the player), "running" (the game went on), or the name of a fault.
+        digest: The digest of the whole state at the end.
+        rules: The name of the rules that scored it; empty for the built-in rules of the mode.
+
+    Example:
+        >>> import silverball as sb
+        >>> game = sb.Game("classic", seed=7)
+        >>> game.create_ball()
+        >>> game.step(ticks=480)
+        >>> replay = sb.Replay.from_text(game.replay.to_text())
+        >>> replay.seconds, replay.verify().ok
+        (2.0, True)
     """
 
     program: str
@@ -72,6 +89,7 @@ class Replay:
     score: int
     ended: str
     digest: str
+    rules: str = ""
 
     @classmethod
     def of(
@@ -84,25 +102,29 @@ class Replay:
         score: int,
         ended: str,
         digest: str,
+        rules: str = "",
     ) -> Self:
-        """The replay of a game that was played on a world."""
+        """The replay of a game; see the attributes for the arguments."""
         from silverball import __version__
 
         return cls(
             __version__, mode, without_meshes(world.table), world.seed, world.tick_rate,
-            lines, tail, world.tick, score, ended, digest,
+            lines, tail, world.tick, score, ended, digest, rules,
         )  # fmt: skip
 
     @property
     def seconds(self) -> float:
-        """How long the game was [s]."""
+        """The length of the game [s]."""
         return self.ticks / self.tick_rate
 
     def to_text(self) -> str:
-        """The replay as text."""
-        head = [f"{FIRST} {FORMAT}", f"program = {self.program}", f"physics = {PHYSICS_VERSION}"]
+        """The replay as text, for `from_text`."""
+        form = FORMAT_WITH_RULES if self.rules else FORMAT
+        head = [f"{FIRST} {form}", f"program = {self.program}", f"physics = {PHYSICS_VERSION}"]
         head += [f"rules = {RULES_VERSION}", f"mode = {self.mode}", f"seed = {self.seed}"]
         head += [f"tick_rate = {self.tick_rate}", f"table = {table_digest(self.table)}"]
+        if self.rules:
+            head.append(f"{RULES_KEY} = {self.rules}")
         play = [*self.lines]
         if self.tail or self.ticks % self.tick_rate:
             play.append(f"= {self.tail}" if self.tail else "=")
@@ -116,41 +138,66 @@ class Replay:
         """Read a replay.
 
         Args:
-            text: What `to_text` gave.
-            source: What to call it in messages, such as the file's name.
+            text: The text of `to_text`.
+            source: What to call it in messages, for example the name of its file.
 
         Raises:
-            StateError: The text is no replay, is damaged, was changed, or is of another version.
+            StateError: The text is not a replay, is damaged, was changed, or is of another version.
         """
         if len(text) > TEXT_LIMIT:
             raise StateError(
                 f"{source}: a replay has at most {TEXT_LIMIT:,} characters, this has {len(text):,}"
             )
-        return cls(*Reader(source, text).parts())
+        return cls(*Reader(source, text).fields())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
         """Read a replay from a file.
 
         Raises:
-            StateError: There is no such file, it cannot be read, or it is no replay that can be played.
+            StateError: There is no such file, it cannot be read, or it is not a replay that can be played.
         """
         name = os.fspath(path) or NOTHING
-        return cls.from_text(_file_text(name), name)
+        try:
+            text = read_text(name, TEXT_LIMIT, "a replay")
+        except Unreadable as error:
+            raise StateError(f"{name}: {error}") from None
+        return cls.from_text(text, name)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the replay to a file, whole or not at all; a file of this name is replaced.
+
+        Raises:
+            OutputError: The file cannot be written.
+        """
+        text = self.to_text()
+        try:
+            write_whole(Path(path), lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
+        except OSError as error:
+            raise OutputError(f"{os.fspath(path)}: cannot be written ({error.strerror or error})") from None
+
+    def verify(
+        self, *, rules: Rules | None = None, progress: Callable[[int], None] = lambda _: None
+    ) -> Verdict:
+        """Play the replay again and compare the digests of every second and the end.
+
+        Args:
+            rules: The rules that scored the game, if they are not built in.
+            progress: Called after every second of play with the ticks so far.
+
+        Returns:
+            The verdict, in words, too.
+
+        Raises:
+            StateError: The rules are missing, or are not those of the game.
+        """
+        return verify(self, progress, rules=rules)
 
 
 def without_meshes(table: Table) -> Table:
-    """The table with the footprints of its meshes, so that it needs no other file."""
+    """The table with footprints in place of its mesh files, so that it needs no other file."""
     if not has_mesh(table):
         return table
     prisms = tuple(part.resolved() for part in table.triangular_prism)
     cylinders = tuple(part.resolved() for part in table.cylinder)
     return table.model_copy(update={"triangular_prism": prisms, "cylinder": cylinders})
-
-
-def _file_text(path: str) -> str:
-    """The text of a file, which is read only if it can be a replay."""
-    try:
-        return read_text(path, TEXT_LIMIT, "a replay")
-    except Unreadable as error:
-        raise StateError(f"{path}: {error}") from None

@@ -1,7 +1,7 @@
-"""How is a replay played again? From its beginning, or from any moment, as fast as one likes.
+"""Playing a replay again: from its beginning or from any moment, as fast as the machine can.
 
-`ReplayPlayer` owns a `Game` and gives it the recorded inputs. `seek` goes to any tick: every few seconds of
-play the game is saved, so that going back costs little however long the game was.
+`ReplayPlayer` owns a game and gives it the recorded inputs. `seek` goes to any tick: the game is saved at
+intervals, so going back is quick however long the game was.
 """
 
 from __future__ import annotations
@@ -9,35 +9,42 @@ from __future__ import annotations
 from bisect import bisect_right
 from typing import TYPE_CHECKING
 
-from silverball.errors import SilverballError
-from silverball.game.game import Game
-from silverball.game.replay.lines import Input, read
+from silverball.errors import SilverballError, StateError
+from silverball.game.core import GameCore
+from silverball.game.replay.recording import BALL, LEFT, RIGHT, Input, parse_inputs
 
 if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
+    from silverball.game.rules import Rules
 
-SNAPSHOT_SECONDS = 2  # of play between two saved moments; chosen: a few ms to play, 3 MB for an hour
+SNAPSHOT_SECONDS = 2  # of play between two snapshots: a few ms to play, 3 MB for an hour
 
 
 class InputRefusedError(SilverballError):
-    """A recorded input could not be given to the game: it is not the game that was recorded."""
+    """The game refused a recorded input, so it is not the game that was recorded."""
 
 
 class Playback:
-    """A game that is given the inputs of a replay.
+    """A game that gets the inputs of a replay.
 
     Args:
-        replay: What is played.
+        replay: The replay.
+        rules: The rules that scored it, if they are not built in.
 
     Attributes:
         game: The game, at the moment that has been reached.
-        replay: What is played.
+        replay: The replay.
         at_end: Whether all of the replay has been played.
+
+    Raises:
+        StateError: The rules are missing, or are not those of the replay.
+        SilverballError: The table of the replay cannot be played.
     """
 
-    def __init__(self, replay: Replay) -> None:
+    def __init__(self, replay: Replay, rules: Rules | None = None) -> None:
+        check_rules(replay, rules)
         self.replay = replay
-        self.game = Game(replay.table, replay.seed, replay.mode, replay.tick_rate, record=False)
+        self.game = GameCore(replay.table, replay.seed, replay.mode, replay.tick_rate, rules=rules)
         self.at_end = False
         self._held = (False, False)
         self._second = -1  # the one that the inputs below belong to
@@ -51,17 +58,17 @@ class Playback:
         return self.game.tick
 
     def advance(self, ticks: int = 1) -> None:
-        """Play on with the recorded inputs, at most to the end, and end there as the game did.
+        """Play on with the recorded inputs, at most to the end; there the game ends as it did.
 
         Raises:
-            InputRefusedError: An input could not be given to the game, so it is not the one recorded.
+            InputRefusedError: The game refused an input, so it is not the game that was recorded.
         """
         self.play(ticks)
         if not self.at_end and (self.tick >= self.replay.ticks or self.game.is_over):
             self.finish()
 
     def play(self, ticks: int) -> None:
-        """Play on, but leave out what comes after the last tick."""
+        """Play on with the recorded inputs, without those that come after the last tick."""
         rate = self.replay.tick_rate
         target = min(self.tick + max(ticks, 0), self.replay.ticks)
         while self.tick < target and not self.game.is_over:
@@ -70,10 +77,10 @@ class Playback:
             self._give_inputs()
             following = self._inputs[self._next].tick if self._next < len(self._inputs) else rate
             stop = min(target, self._second * rate + following)
-            self.game.advance(*self._held, ticks=stop - self.tick)
+            self.game.step(*self._held, ticks=stop - self.tick)
 
     def jump(self, state: bytes) -> None:
-        """Go on from a moment at the beginning of a second, as `Game.save` gave it."""
+        """Go to a state of `GameCore.save` that was saved at the beginning of a second."""
         self.game.restore(state)
         self._held = self.game.held
         self.at_end = False
@@ -82,26 +89,26 @@ class Playback:
     def _begin_second(self, second: int) -> None:
         lines = self.replay.lines
         line = lines[second].partition(" ")[2] if second < len(lines) else self.replay.tail
-        self._second, self._inputs, self._next = second, list(read(line)), 0
+        self._second, self._inputs, self._next = second, list(parse_inputs(line)), 0
 
     def _give_inputs(self) -> None:
-        """Give the game what the player did before its next tick."""
+        """Give the game the inputs before its next tick."""
         at = self.tick - self._second * self.replay.tick_rate
         while self._next < len(self._inputs) and self._inputs[self._next].tick == at:
             kind = self._inputs[self._next].kind
             self._next += 1
             left, right = self._held
-            if kind == "L":
+            if kind == LEFT:
                 self._held = (not left, right)
-            elif kind == "R":
+            elif kind == RIGHT:
                 self._held = (left, not right)
             else:
                 self._act(kind)
 
     def _act(self, kind: str) -> None:
-        what = "a new ball" if kind == "+" else "a shove"
+        what = "a new ball" if kind == BALL else "a shove"
         try:
-            if kind == "+":
+            if kind == BALL:
                 self.game.create_ball()
             elif not self.game.jitter():
                 raise SilverballError("the table is tilted, or was shoved already")
@@ -109,7 +116,7 @@ class Playback:
             raise InputRefusedError(f"tick {self.tick}: {what} was recorded, but {error}") from None
 
     def finish(self) -> None:
-        """The last tick has been played: give the inputs that came after it, and end the game."""
+        """Give the inputs that come after the last tick, and end the game as it ended."""
         if self.tick == self.replay.ticks:
             if self.tick // self.replay.tick_rate != self._second:
                 self._begin_second(self.tick // self.replay.tick_rate)
@@ -120,36 +127,37 @@ class Playback:
 
 
 class ReplayPlayer(Playback):
-    """A replay to watch: on, back, to any tick.
+    """A replay that can be watched forwards, backwards and from any tick.
 
     Args:
-        replay: What is watched.
+        replay: The replay.
+        rules: The rules that scored it, if they are not built in.
 
     Attributes:
-        game: The game at the moment that is shown. It stays the same object.
-        replay: What is watched.
+        game: The game at the moment that is shown; always the same object.
+        replay: The replay.
         at_end: Whether the end has been reached.
-        ticks: How long the replay is.
+        ticks: The length of the replay [ticks].
     """
 
-    def __init__(self, replay: Replay) -> None:
-        super().__init__(replay)
+    def __init__(self, replay: Replay, rules: Rules | None = None) -> None:
+        super().__init__(replay, rules)
         self.ticks = replay.ticks
-        self._scout = Playback(replay)  # plays ahead and saves moments
-        self._every = SNAPSHOT_SECONDS * replay.tick_rate
-        self._ticks = [0]
-        self._moments = [self.game.save()]
+        self._scout = Playback(replay, rules)  # plays ahead and takes snapshots
+        self._interval = SNAPSHOT_SECONDS * replay.tick_rate
+        self._snapshot_ticks = [0]
+        self._snapshots = [self.game.save()]
 
     def prepare(self, ticks: int) -> float:
-        """Play some ticks ahead, unseen, so that `seek` is quick up to there.
+        """Play some ticks ahead in the background, so that `seek` is quick up to there.
 
         Call it now and then while something else is shown: an hour of play takes about a second in all.
 
         Args:
-            ticks: How many, at most.
+            ticks: How many ticks, at most.
 
         Returns:
-            The share of the replay that is ready, 0 to 1.
+            The fraction of the replay that is ready, 0 to 1.
         """
         self._scout_to(self._scout.tick + ticks)
         return 1.0 if self._scout.at_end else self._scout.tick / max(self.ticks, 1)
@@ -157,23 +165,42 @@ class ReplayPlayer(Playback):
     def seek(self, tick: int) -> None:
         """Go to the moment before this tick; beyond the end, to the end.
 
-        Events and news of the way are dropped.
+        The events on the way are dropped.
         """
         tick = min(max(tick, 0), self.ticks)
-        if tick > self._ticks[-1] + self._every:
+        if tick > self._snapshot_ticks[-1] + self._interval:
             self._scout_to(tick)
-        number = bisect_right(self._ticks, tick) - 1
-        if not self._ticks[number] <= self.tick <= tick:
-            self.jump(self._moments[number])
+        number = bisect_right(self._snapshot_ticks, tick) - 1
+        if not self._snapshot_ticks[number] <= self.tick <= tick:
+            self.jump(self._snapshots[number])
         self.advance(tick - self.tick)
-        self.game.take_events()
-        self.game.take_news()
+        self.game.take_world_events()
+        self.game.take_game_events()
 
     def _scout_to(self, tick: int) -> None:
         scout = self._scout
         while scout.tick < tick and not scout.at_end:
-            following = self._ticks[-1] + self._every
+            following = self._snapshot_ticks[-1] + self._interval
             scout.advance(min(following, tick) - scout.tick)
             if scout.tick == following and not scout.at_end:
-                self._ticks.append(scout.tick)
-                self._moments.append(scout.game.save())
+                self._snapshot_ticks.append(scout.tick)
+                self._snapshots.append(scout.game.save())
+
+
+def check_rules(replay: Replay, rules: Rules | None) -> None:
+    """Check that these are the rules that scored a replay; None means the built-in ones.
+
+    Raises:
+        StateError: They are not.
+    """
+    given = "" if rules is None else rules.name
+    if given == replay.rules:
+        return
+    if not replay.rules:
+        raise StateError(f"this replay was scored by the built-in rules, not by {given!r}; leave `rules` out")
+    if not given:
+        raise StateError(
+            f"this replay was scored by rules of its own, {replay.rules!r}; play it in Python and give them, "
+            "as in replay.verify(rules=…)"
+        )
+    raise StateError(f"this replay was scored by the rules {replay.rules!r}, not by {given!r}; give those")

@@ -1,8 +1,8 @@
-"""How is the text of a replay read, when it may come from anywhere?
+"""The reader of replays: it checks text from anywhere and refuses it in one sentence.
 
-Every refusal is one sentence that says where: the line, what was expected, what stands there, what to do.
-All sizes and counts have limits: reading takes time in proportion to the text's length, and so does playing,
-for every second of play has a line.
+A refusal says the line, what was expected, what was found, and what to do. All sizes and counts have limits:
+reading takes time proportional to the length of the text, and so does playing, because every second of play
+has a line.
 """
 
 from __future__ import annotations
@@ -17,9 +17,19 @@ from typing import Any, NamedTuple, NoReturn
 from pydantic import ValidationError
 
 from silverball.errors import StateError
-from silverball.game.replay.lines import LINE, TAIL, read
-from silverball.game.replay.recorder import PLAY_LIMIT, SECONDS_LIMIT
-from silverball.game.rules import RULES_VERSION
+from silverball.game.replay.recording import (
+    FIRST,
+    FORMAT,
+    FORMAT_WITH_RULES,
+    LINE,
+    MAX_TICK_RATE,
+    MIN_TICK_RATE,
+    PLAY_LIMIT,
+    SECONDS_LIMIT,
+    TAIL,
+    parse_inputs,
+)
+from silverball.game.rules import NAME_LIMIT, RULES_VERSION, is_own_name
 from silverball.game.view import Mode
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.records import Fault
@@ -28,80 +38,93 @@ from silverball.table import Table, table_digest
 from silverball.table.explain import explain
 from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 
-FORMAT = 1
+FORMATS = (FORMAT, FORMAT_WITH_RULES)
 TEXT_LIMIT = PLAY_LIMIT + TABLE_LIMIT + 10_000
 ENDINGS = ("running", "over", "stopped", *(fault.name.lower() for fault in Fault if fault))
-FIRST = "silverball replay"
 TABLE, PLAY, END = "--- table", "--- play", "--- end"
 HEADER_KEYS = ("program", "physics", "rules", "mode", "seed", "tick_rate", "table")
+RULES_KEY = "own_rules"
+HEADER_LINE = 2  # the first line of the header
 END_KEYS = ("ticks", "score", "ended", "digest", "checksum")
-TICK_RATES = (10, 1000)
 AGAIN = "get the file again from where it was written"
 _NUMBER = re.compile(r"0|[1-9]\d{0,18}", re.ASCII)
 _HEX = re.compile(r"[0-9a-f]{64}", re.ASCII)
 
 
-class _Numbered(NamedTuple):
-    """Lines of a file: the number of the first, counted from 1, and their text."""
+class _Section(NamedTuple):
+    """A section of the file: the number of its first line, counted from 1, and the text of its lines."""
 
     first: int
     text: Sequence[str]
 
 
 class Reader:
-    """Reads one replay; every refusal says where."""
+    """Reads one replay.
+
+    Args:
+        source: What to call the text in messages.
+        text: The text of the replay.
+    """
 
     def __init__(self, source: str, text: str) -> None:
         self.source = source
         self.text = text.replace("\r\n", "\n").removeprefix("\ufeff")
         self.lines = self.text.split("\n")
 
-    def parts(self) -> tuple[Any, ...]:
-        """The attributes of the replay, in their order, every one checked."""
-        self._check_first()
+    def fields(self) -> tuple[Any, ...]:
+        """The attributes of `Replay` in their order, all of them checked.
+
+        Raises:
+            StateError: The text is not a replay, is damaged, or is of another version.
+        """
+        form = self._checked_format()
         head, table, play, end = self._sections()
         self._check_checksum(end)
-        values = self._values(head, HEADER_KEYS)
-        self._whole(head, 1, values[1], PHYSICS_VERSION, PHYSICS_VERSION)
-        self._whole(head, 2, values[2], RULES_VERSION, RULES_VERSION)
+        keys = HEADER_KEYS if form == FORMAT else (*HEADER_KEYS, RULES_KEY)
+        values = self._values(head, keys)
+        self._integer(head, 1, values[1], PHYSICS_VERSION, PHYSICS_VERSION)
+        self._integer(head, 2, values[2], RULES_VERSION, RULES_VERSION)
         mode = self._choice(head, 3, values[3], tuple(Mode))
-        seed = self._whole(head, 4, values[4], 0, 2**63 - 1)
-        rate = self._whole(head, 5, values[5], *TICK_RATES)
+        seed = self._integer(head, 4, values[4], 0, 2**63 - 1)
+        rate = self._integer(head, 5, values[5], MIN_TICK_RATE, MAX_TICK_RATE)
         ends = self._values(end, END_KEYS)
-        ticks = self._whole(end, 0, ends[0], 0, rate * (SECONDS_LIMIT + 1))
-        score = self._whole(end, 1, ends[1], 0, 10**18)
+        ticks = self._integer(end, 0, ends[0], 0, rate * (SECONDS_LIMIT + 1))
+        score = self._integer(end, 1, ends[1], 0, 10**18)
         ended = self._choice(end, 2, ends[2], ENDINGS)
         digest = self._hex(end, 3, ends[3])
         lines, tail = self._play(play, ticks, rate)
         board = self._table(table, self._hex(head, 6, values[6]))
         program = plain(values[0][:40])
-        return program, Mode(mode), board, seed, rate, lines, tail, ticks, score, ended, digest
+        rules = "" if form == FORMAT else self._own_rules(head, 7, values[7])
+        return program, Mode(mode), board, seed, rate, lines, tail, ticks, score, ended, digest, rules
 
     def refuse(self, line: int, message: str) -> NoReturn:
-        """Stop with a sentence that says where."""
+        """Raise `StateError` with a sentence about a line."""
         raise StateError(f"{self.source}, line {line}: {message}")
 
-    def _check_first(self) -> None:
-        """Whether it is a replay at all, and one of a version that can be played."""
+    def _checked_format(self) -> int:
+        """The format of the replay, if it is one and its versions can be played."""
         first = self.lines[0]
         if not self.text.strip():
             raise StateError(f"{self.source}: the file is empty; a replay begins with '{FIRST} {FORMAT}'")
         match = re.fullmatch(rf"{FIRST} (\d{{1,9}})", first, re.ASCII)
         if match is None:
             self.refuse(
-                1, f"this is no replay: it begins with {_shown(first)}, a replay with '{FIRST} {FORMAT}'"
+                1, f"this is not a replay: it begins with {_shown(first)}, a replay with '{FIRST} {FORMAT}'"
             )
-        if int(match[1]) != FORMAT:
-            self.refuse(1, _other_version("format", int(match[1]), FORMAT))
+        form = int(match[1])
+        if form not in FORMATS:
+            self.refuse(1, _other_version("format", form, FORMATS[-1]))
         for number, (key, ours) in enumerate((("physics", PHYSICS_VERSION), ("rules", RULES_VERSION)), 3):
             line = self.lines[number - 1] if len(self.lines) >= number else ""
             version = re.fullmatch(rf"{key} = (\d{{1,9}})", line, re.ASCII)
             if version is not None and int(version[1]) != ours:
                 program = self.lines[1].removeprefix("program = ")[:40]
                 self.refuse(number, _other_version(key, int(version[1]), ours, program))
+        return form
 
-    def _sections(self) -> tuple[_Numbered, _Numbered, _Numbered, _Numbered]:
-        """The four parts of the file."""
+    def _sections(self) -> tuple[_Section, _Section, _Section, _Section]:
+        """The header, the table, the lines of play and the end."""
         starts = [1]
         for mark in (TABLE, PLAY, END):
             try:
@@ -112,16 +135,16 @@ class Reader:
                 )
         edges = [*starts, len(self.lines) + 1]
         head, table, play, end = (
-            _Numbered(first + 1, self.lines[first : after - 1]) for first, after in pairwise(edges)
+            _Section(first + 1, self.lines[first : after - 1]) for first, after in pairwise(edges)
         )
         if len(end.text) < len(END_KEYS) + 1:
             self.refuse(len(self.lines), f"the file is cut off: the last lines are missing; {AGAIN}")
         if len(end.text) > len(END_KEYS) + 1 or end.text[-1]:
             line = end.first + len(END_KEYS)
-            self.refuse(line, "there is more text behind the checksum; take it away")
+            self.refuse(line, "there is more text after the checksum; remove it")
         return head, table, play, end
 
-    def _check_checksum(self, end: _Numbered) -> None:
+    def _check_checksum(self, end: _Section) -> None:
         line = end.first + len(END_KEYS) - 1
         last = end.text[len(END_KEYS) - 1]
         match = re.fullmatch(r"checksum = ([0-9a-f]{32})", last, re.ASCII)
@@ -136,7 +159,7 @@ class Reader:
                 line, f"the text was changed or damaged: expected checksum {match[1]}, got {got}; {AGAIN}"
             )
 
-    def _values(self, part: _Numbered, keys: tuple[str, ...]) -> list[str]:
+    def _values(self, part: _Section, keys: tuple[str, ...]) -> list[str]:
         """The values of lines that must have these keys in this order."""
         values = []
         for number, key in enumerate(keys):
@@ -144,29 +167,35 @@ class Reader:
             if not line.startswith(f"{key} = "):
                 self.refuse(part.first + number, f"expected '{key} = …', got {_shown(line)}; {AGAIN}")
             values.append(line.removeprefix(f"{key} = "))
-        if part.first == 2 and len(part.text) > len(keys):
+        if part.first == HEADER_LINE and len(part.text) > len(keys):
             extra = part.text[len(keys)]
             self.refuse(part.first + len(keys), f"expected '{TABLE}', got {_shown(extra)}; {AGAIN}")
         return values
 
-    def _whole(self, part: _Numbered, number: int, value: str, least: int, most: int) -> int:
+    def _integer(self, part: _Section, number: int, value: str, least: int, most: int) -> int:
         if not _NUMBER.fullmatch(value) or not least <= int(value) <= most:
-            span = f"a whole number from {least} to {most}" if least < most else str(least)
+            span = f"an integer from {least} to {most}" if least < most else str(least)
             self.refuse(part.first + number, f"expected {span}, got {_shown(value)}")
         return int(value)
 
-    def _choice(self, part: _Numbered, number: int, value: str, choices: Sequence[str]) -> str:
+    def _choice(self, part: _Section, number: int, value: str, choices: Sequence[str]) -> str:
         if value not in choices:
             self.refuse(part.first + number, f"expected one of {', '.join(choices)}, got {_shown(value)}")
         return value
 
-    def _hex(self, part: _Numbered, number: int, value: str) -> str:
+    def _hex(self, part: _Section, number: int, value: str) -> str:
         if not _HEX.fullmatch(value):
             self.refuse(part.first + number, f"expected 64 hexadecimal digits, got {_shown(value)}")
         return value
 
-    def _play(self, part: _Numbered, ticks: int, rate: int) -> tuple[tuple[str, ...], str]:
-        """The lines of the full seconds, and the inputs after them."""
+    def _own_rules(self, part: _Section, number: int, value: str) -> str:
+        if not is_own_name(value):
+            expected = f"the name of rules, 1 to {NAME_LIMIT} printable characters that are not a mode"
+            self.refuse(part.first + number, f"expected {expected}, got {_shown(value)}")
+        return value
+
+    def _play(self, part: _Section, ticks: int, rate: int) -> tuple[tuple[str, ...], str]:
+        """The lines of the whole seconds, and the inputs after them."""
         full, rest = divmod(ticks, rate)
         lines = list(part.text)
         has_tail = len(lines) == full + 1 and lines[-1].startswith("=")
@@ -187,20 +216,20 @@ class Reader:
             self._check_inputs(part.first + number, inputs, rest if last else rate - 1)
             tail = inputs if last else ""
         if has_tail and not rest and not tail:
-            self.refuse(part.first + full, f"the last line says nothing; {AGAIN}")
+            self.refuse(part.first + full, f"the last line is empty; {AGAIN}")
         return tuple(lines[:full]), tail
 
     def _check_inputs(self, line: int, inputs: str, last: int) -> None:
         try:
-            for one in read(inputs):
+            for one in parse_inputs(inputs):
                 if one.tick > last:
                     self.refuse(
                         line, f"expected inputs up to tick {last} of the second, got one at {one.tick}"
                     )
         except ValueError as error:
-            self.refuse(line, f"expected inputs such as 'kL' or '+2c', got {_shown(str(error))}")
+            self.refuse(line, f"expected inputs like 'kL' or '+2c', got {_shown(str(error))}")
 
-    def _table(self, part: _Numbered, digest: str) -> Table:
+    def _table(self, part: _Section, digest: str) -> Table:
         text = "\n".join(part.text)
         if len(text) > TABLE_LIMIT:
             self.refuse(part.first, f"a table has at most {TABLE_LIMIT:,} characters, got {len(text):,}")
@@ -209,7 +238,7 @@ class Reader:
         except RecursionError:
             self.refuse(part.first, "the table's brackets are nested too deeply")
         except ValidationError as error:
-            self.refuse(part.first, f"the table cannot be used: {explain(error)[0]}")
+            self.refuse(part.first, f"the table cannot be used: {explain(error, Table)[0]}")
         except ValueError as error:
             self.refuse(part.first, f"the table is not valid TOML: {str(error)[:200]}")
         if table.random is not None:
@@ -226,17 +255,17 @@ class Reader:
 
 
 def has_mesh(table: Table) -> bool:
-    """Whether a part of a table is given by a mesh."""
+    """Whether a part of a table takes its shape from a mesh file."""
     return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
 
 
 def checksum(body: str) -> str:
-    """The checksum over all text before its line."""
+    """The checksum of all text before the checksum's own line."""
     return hashlib.sha256(body.encode("utf-8", "surrogatepass")).hexdigest()[:32]
 
 
 def _other_version(what: str, got: int, ours: int, program: str = "") -> str:
-    """The sentence for a file of another version."""
+    """The sentence that refuses a file of another version."""
     if got > ours:
         return f"this replay has {what} {got}, this program knows {what} {ours}; get a newer Silverball"
     its = f"Silverball {program}, which wrote it" if program else "an older Silverball"
@@ -244,5 +273,5 @@ def _other_version(what: str, got: int, ours: int, program: str = "") -> str:
 
 
 def _shown(text: str) -> str:
-    """Some text as a message repeats it: never long, on one line."""
+    """Some text as a message quotes it: short, on one line."""
     return repr(text if len(text) <= 40 else f"{text[:39]}…")

@@ -1,8 +1,8 @@
-"""Does a replay lead to what it says, and where do two replays part?
+"""Verification of replays: play one and compare it with its record, or play two and find where they differ.
 
-`verify` plays a replay and compares every second's digests and the end. `compare` plays two replays side by
-side and, in the second in which they part, tick by tick, so that it can name the first tick, the field and
-both values.
+`verify` compares the digests of every second and the end. `compare` plays two replays side by side and, in
+the second in which they first differ, tick by tick, so that it names the first tick, the field and both
+values.
 """
 
 from __future__ import annotations
@@ -12,26 +12,35 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.errors import SilverballError
 from silverball.game.replay.digest import CHARACTERS, GROUPS, differing_groups, values
-from silverball.game.replay.player import InputRefusedError, Playback
+from silverball.game.replay.player import InputRefusedError, Playback, check_rules
 from silverball.table import table_digest
 
 if TYPE_CHECKING:
-    from silverball.game.game import Game
+    from silverball.game.core import GameCore
     from silverball.game.replay.format import Replay
+    from silverball.game.rules import Rules
 
 
 class Verdict(NamedTuple):
-    """What came of playing a replay.
+    """The result of verifying a replay, or of comparing two.
 
     Attributes:
-        ok: Whether everything is as it is written.
-        score: That the game reached, as far as it was played.
-        tick: Up to which everything was equal; the difference shows at `seen` at the latest.
-        seen: The tick at which the difference was seen.
-        field: What differs first; empty if nothing does.
-        expected: Its value in the file, or in the first of two files.
-        got: Its value in the game that was played, or in the second file.
-        message: All that in one sentence.
+        ok: Whether nothing differs.
+        score: The score of the game that was played, as far as it was played.
+        tick: Everything was equal up to this tick; the difference arose between it and `seen`.
+        seen: The tick at which the difference was found.
+        field: The first field that differs; empty if none does.
+        expected: Its value in the replay, or in the first of two replays.
+        got: Its value in the game that was played, or in the second replay.
+        message: The result in one sentence.
+
+    Example:
+        >>> import silverball as sb
+        >>> game = sb.Game("classic", seed=7)
+        >>> game.create_ball()
+        >>> game.step(ticks=120)
+        >>> game.replay.verify().message
+        'equal in all 120 ticks (0.5 s), score 0'
     """
 
     ok: bool
@@ -47,21 +56,27 @@ class Verdict(NamedTuple):
 def verify(
     replay: Replay,
     progress: Callable[[int], None] = lambda _: None,
-    look: Callable[[Game], None] = lambda _: None,
+    on_second: Callable[[GameCore], None] = lambda _: None,
+    *,
+    rules: Rules | None = None,
 ) -> Verdict:
-    """Play a replay and see whether the same comes out.
+    """Play a replay and compare the result with the record.
 
     Args:
         replay: The replay.
         progress: Called after every second of play with the ticks so far.
-        look: Called after every second of play, and at the end, with the game that is played.
+        on_second: Called after every second of play, and at the end, with the game.
+        rules: The rules that scored the game, if they are not built in.
 
     Returns:
-        The verdict; a game that cannot be played, such as one on a board that no world can be made of, is
-        a difference too.
+        The verdict. A game that cannot be played, for example because its table is impossible, differs too.
+
+    Raises:
+        StateError: The rules are missing, or are not those of the replay.
     """
+    check_rules(replay, rules)
     try:
-        playback = Playback(replay)
+        playback = Playback(replay, rules)
     except SilverballError as error:
         return _differs(0, 0, 0, "table", "a board that can be played", str(error).replace("\n", " "))
     game, rate = playback.game, replay.tick_rate
@@ -77,13 +92,13 @@ def verify(
         if expected != got:
             return _differs_in_second(game.score, before, game.tick, expected, got)
         progress(game.tick)
-        look(game)
+        on_second(game)
     try:
         playback.play(replay.ticks - game.tick)
         playback.finish()
     except InputRefusedError as error:
         return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
-    look(game)
+    on_second(game)
     if game.tick != replay.ticks:
         return _ended_early(playback)
     equal_until = len(replay.lines) * rate
@@ -95,14 +110,17 @@ def verify(
     for field, expected, got in ends:
         if expected != got:
             return _differs(game.score, equal_until, game.tick, field, expected, got)
-    return Verdict(True, game.score, game.tick, game.tick, message=_words_of(replay))
+    return Verdict(True, game.score, game.tick, game.tick, message=_equal_words(replay))
 
 
 def compare(first: Replay, second: Replay) -> Verdict:
-    """Play two replays side by side and find the first tick at which they part.
+    """Play two replays side by side and find the first tick at which they differ.
 
     Returns:
-        The verdict: `expected` is the first replay's value, `got` the second's, and `tick` equals `seen`.
+        The verdict: `expected` is the value of the first replay, `got` that of the second.
+
+    Raises:
+        StateError: A replay was scored by rules that are not built in.
     """
     heads = (
         ("mode", first.mode, second.mode),
@@ -116,17 +134,17 @@ def compare(first: Replay, second: Replay) -> Verdict:
     plays = Playback(first), Playback(second)
     games = tuple(play.game for play in plays)
     while not (plays[0].at_end and plays[1].at_end):
-        moments = [game.save() for game in games]
+        snapshots = [game.save() for game in games]
         start = games[0].tick
         _advance(plays, first.tick_rate)
         if _states(games[0]) == _states(games[1]) and plays[0].at_end == plays[1].at_end:
             continue
-        for play, moment in zip(plays, moments, strict=True):
-            play.jump(moment)
+        for play, snapshot in zip(plays, snapshots, strict=True):
+            play.jump(snapshot)
         for _ in range(first.tick_rate + 1):
             start = games[0].tick
             refused = _advance(plays, 1)
-            verdict = _parted(plays, start, refused)
+            verdict = _first_difference(plays, start, refused)
             if verdict is not None:
                 return verdict
     return Verdict(
@@ -135,7 +153,7 @@ def compare(first: Replay, second: Replay) -> Verdict:
 
 
 def _advance(plays: tuple[Playback, Playback], ticks: int) -> list[str]:
-    """Play both on; for each the input that was refused, if any."""
+    """Play both on; returns for each the refusal of an input, or an empty text."""
     refused = []
     for play in plays:
         try:
@@ -147,12 +165,12 @@ def _advance(plays: tuple[Playback, Playback], ticks: int) -> list[str]:
     return refused
 
 
-def _states(game: Game) -> tuple[bytes, str]:
+def _states(game: GameCore) -> tuple[bytes, str]:
     return game.world.records[0].tobytes(), game.rules_text
 
 
-def _parted(plays: tuple[Playback, Playback], tick: int, refused: list[str]) -> Verdict | None:
-    """The verdict if two games differ that were equal before this tick."""
+def _first_difference(plays: tuple[Playback, Playback], tick: int, refused: list[str]) -> Verdict | None:
+    """The verdict if two games differ that were equal before this tick; else None."""
     one, other = (play.game for play in plays)
     if _states(one) != _states(other):
         pairs = zip(
@@ -174,7 +192,7 @@ def _parted(plays: tuple[Playback, Playback], tick: int, refused: list[str]) -> 
 
 
 def _ended_early(playback: Playback) -> Verdict:
-    """The game was over before the replay was."""
+    """The verdict on a game that ended before the replay did."""
     game, replay = playback.game, playback.replay
     got = f"{game.tick} ({game.ended})"
     return _differs(game.score, game.tick, game.tick, "ticks", str(replay.ticks), got)
@@ -199,5 +217,5 @@ def _differs(score: int, tick: int, seen: int, field: str, expected: str, got: s
     return Verdict(False, score, tick, seen, field, expected, got, message)
 
 
-def _words_of(replay: Replay) -> str:
+def _equal_words(replay: Replay) -> str:
     return f"equal in all {replay.ticks} ticks ({replay.seconds:.1f} s), score {replay.score}"

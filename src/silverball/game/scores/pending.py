@@ -1,10 +1,9 @@
-"""What waits while another program holds the file of the scores, and where?
+"""Pending data: what cannot be written while another program holds the score file, spooled beside it.
 
-In a file beside it, `silverball-waiting-….json`, one for each program that has something to keep: written
-whole and forced onto the disk with everything that is added, so that what waits there is kept, whatever
-happens to the program. Whoever can write to the file of the scores again takes it in: the program itself, or
-the next one that starts. A file may be taken in twice, as after a crash between taking in and removing it;
-every score has a token, by which the second time is noticed.
+Each program with pending data has a spool file `silverball-waiting-….json`, written whole and flushed to the
+disk with every change, so that nothing is lost if the program dies. The next program that can write the score
+file imports the spool: the same program or one that starts later. A spool may be imported twice, as after a
+crash between the import and the removal of the spool; each score has a token by which this is noticed.
 """
 
 from __future__ import annotations
@@ -20,37 +19,37 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from silverball.game.scores.score import WHOLE_NUMBERS
+from silverball.game.scores.sqlite_file import INTEGER_LIMIT
 from silverball.wholefile import write_whole
 
 NAME = "silverball-waiting-"
-SIZE_LIMIT = 64_000_000  # [bytes] of a file that is taken in; a score takes about 10,000
-_WHOLE = Field(ge=-WHOLE_NUMBERS, lt=WHOLE_NUMBERS)
+SIZE_LIMIT = 64_000_000  # [bytes] of a spool that is imported; a score takes about 10,000
+_INTEGER = Field(ge=-INTEGER_LIMIT, lt=INTEGER_LIMIT)
 
 
 class NewScore(BaseModel):
-    """A score that is to be kept, with all that belongs to it.
+    """A score that is to be kept, with everything that belongs to it.
 
     Attributes:
-        token: Tells it from all others before it has a number.
+        token: Identifies the score until it has a number.
     """
 
     model_config = ConfigDict(strict=True, extra="forbid")
 
     token: str = Field(default_factory=lambda: secrets.token_hex(16))
     initials: str
-    score: int = _WHOLE
+    score: int = _INTEGER
     mode: str
     table_name: str
     table_digest: str
     table_text: str
-    seed: int = _WHOLE
+    seed: int = _INTEGER
     replay: str
     played: int = Field(ge=0, le=253_402_300_799)
 
 
-class Waiting(BaseModel):
-    """What waits: scores, initials by the number of a score, the last game and settings."""
+class Pending(BaseModel):
+    """Pending data: new scores, initials by the number of a score, the last game and settings."""
 
     model_config = ConfigDict(strict=True, extra="forbid")
 
@@ -61,53 +60,54 @@ class Waiting(BaseModel):
     settings: dict[str, Any] = {}
 
     @property
-    def is_nothing(self) -> bool:
-        """Whether nothing waits."""
-        return self == Waiting()
+    def is_empty(self) -> bool:
+        """Whether nothing is pending."""
+        return self == Pending()
 
 
-class WaitingRoom:
-    """The file in which something waits.
+class Spool:
+    """The spool file of this program, and access to those of others.
 
     Args:
-        folder: Where it is.
+        folder: The folder of the score file.
 
     Attributes:
-        waiting: What waits; call `keep` after every change.
-        is_safe: Whether all that waits is on the disk.
+        path: The spool file.
+        pending: The pending data; call `write` after every change.
+        is_written: Whether all pending data is on the disk.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self.path = folder / f"{NAME}{secrets.token_hex(8)}.json"
-        self.waiting = Waiting()
-        self.is_safe = True
+        self.pending = Pending()
+        self.is_written = True
 
-    def keep(self) -> None:
-        """Write down what waits."""
-        text = json.dumps(self.waiting.model_dump(), indent=1)
+    def write(self) -> None:
+        """Write the pending data to the spool file; `is_written` says whether that succeeded."""
+        text = json.dumps(self.pending.model_dump(), indent=1)
         try:
             write_whole(self.path, lambda place: place.write_text(text, encoding="utf-8"))
-            self.is_safe = True
+            self.is_written = True
         except OSError:
-            self.is_safe = False
+            self.is_written = False
 
     def clear(self, *, keep_file: bool) -> None:
-        """Nothing waits any more.
+        """Forget the pending data, which was imported.
 
         Args:
-            keep_file: Leave the file for the next start: what took its content in will not last.
+            keep_file: Leave the spool file for the next start, because the import was not persistent.
         """
-        self.waiting = Waiting()
-        self.is_safe = True
+        self.pending = Pending()
+        self.is_written = True
         if not keep_file:
             with suppress(OSError):
                 self.path.unlink()
 
-    def others(self) -> Iterator[tuple[Path, Waiting | None]]:
-        """What other programs have left behind, or have waiting just now; None for what cannot be read.
+    def claim_others(self) -> Iterator[tuple[Path, Pending | None]]:
+        """The spools of other programs, those still running included; None for one that cannot be read.
 
-        Each file is renamed before it is read, so that nothing is removed that its program adds meanwhile.
+        Each is renamed before it is read, so that data which its program adds meanwhile goes to a new file.
         """
         for path in sorted(self._folder.glob(f"{NAME}*.json")):
             if path == self.path:
@@ -121,6 +121,6 @@ class WaitingRoom:
             except OSError:
                 continue  # another program was quicker
             try:
-                yield claimed, Waiting.model_validate_json(content)
+                yield claimed, Pending.model_validate_json(content)
             except ValidationError:
                 yield claimed, None

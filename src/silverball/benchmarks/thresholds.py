@@ -1,0 +1,44 @@
+"""Returns above which the environments for agents count as solved: those of the trained player.
+
+It decides fifteen times per second and sees the worlds themselves. `PinballPixels-v0` is played on the boards
+of `Pinball-v0`, so its threshold is the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import gymnasium
+import numpy as np
+
+from silverball.benchmarks.speed import Figure
+from silverball.envs import IDS
+from silverball.players.batch_policies import batch_policy
+
+
+def measure_thresholds(episodes: int, advance: Callable[[str], None] = lambda _: None) -> list[Figure]:
+    """Mean return and its 95 % half width in every environment; `advance` is called with its id."""
+    figures = []
+    for id_ in IDS:
+        advance(id_)
+        mean, error = mean_return(id_, episodes)
+        figures += [Figure(id_, mean, "return"), Figure(f"{id_}, ± 95 %", error, "return")]
+    return figures
+
+
+def mean_return(id_: str, episodes: int) -> tuple[float, float]:
+    """Mean return of the trained player over one episode in each of `episodes` environments, and ± 95 %."""
+    envs: Any = gymnasium.make_vec(id_, episodes, observation="state")
+    envs.reset(seed=0)
+    player = batch_policy("trained", envs.unwrapped.batch)
+    assert player is not None
+    returns, plays, step = np.zeros(episodes), np.ones(episodes, bool), 0
+    while plays.any():
+        if step % player.every == 0:
+            player.decide()
+        _, rewards, terminated, truncated, _ = envs.step(player.buttons @ np.array([1, 2]))
+        returns[plays] += rewards[plays]
+        plays &= ~(terminated | truncated)
+        step += 1
+    return float(returns.mean()), float(1.96 * returns.std() / episodes**0.5)

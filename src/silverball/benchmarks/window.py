@@ -1,0 +1,174 @@
+"""Smoothness, input latency and start-up time of the window.
+
+The real window is opened and played with key events and two balls, as the reflex player says; or a player is
+watched in attract mode, and its decisions are timed instead of the latency. Scores go to a folder that is
+removed afterwards.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from random import random
+from typing import Any
+
+import numpy as np
+
+from silverball.benchmarks.speed import Figure
+
+FRAME = 1 / 60  # [s]
+PERCENTILES = (50, 90, 99, 99.9)
+LEAST_DECISION = 1e-4  # [s] a shorter call of a player only looked up its plan
+IMPORTED = time.time()
+
+
+def measure_window(
+    seconds: float, player: str | None, advance: Callable[[str], None] = lambda _: None
+) -> list[Figure]:
+    """Open the window, play, and measure.
+
+    Args:
+        seconds: Length of the measurement [s].
+        player: Player to watch in attract mode; None to play with key events.
+        advance: Called with the name of what is measured next.
+    """
+    import pygame
+
+    from silverball.app.window import Window
+    from silverball.game.view import Mode
+    from silverball.players import make_player
+
+    advance("starting")
+    with tempfile.TemporaryDirectory() as folder:
+        window = Window("random", seed=7, mode=None if player else Mode.FREE, folder=Path(folder))
+        window.frame(0.0)
+        first_picture = seconds_since_python_started()
+        while not window.is_ready:
+            window.frame(1 / 20)
+            time.sleep(1 / 20)
+        window.frame(FRAME)
+        playable = seconds_since_python_started()
+        driver: KeyDriver | AttractDriver
+        driver = AttractDriver(player, window) if player else KeyDriver(make_player("reflex"), window)
+        advance(f"playing {seconds:g} s")
+        starts, work = [], []
+        sharp = 0.0
+        end = time.perf_counter() + seconds
+        before = time.perf_counter()
+        while before < end:
+            now = time.perf_counter()
+            due = now + FRAME
+            before = window.picture(before)
+            starts.append(now)
+            work.append(time.perf_counter() - now)
+            if not sharp and window.is_sharp:
+                sharp = seconds_since_python_started()
+            # A key is pressed at a random moment of the wait for the next picture.
+            before = window.beat_until(time.perf_counter() + random() * (due - time.perf_counter()), before)
+            driver.act()
+            before = window.beat_until(due, before)
+        figures = [
+            Figure("start of Python to first picture", first_picture, "s"),
+            Figure("start of Python to play", playable, "s"),
+            *([Figure("start of Python to full quality", sharp, "s")] if sharp else []),
+            Figure("width of the window", window.size[0], "pixels"),
+            Figure("height of the window", window.size[1], "pixels"),
+            Figure(f"frames, {pygame.display.get_driver()}", len(work) / seconds, "frames/s"),
+            Figure("balls, mean", float(np.mean(driver.balls)), ""),
+            *percentiles("work per frame", work),
+            *percentiles("between frames", np.diff(starts)),
+        ]
+        if isinstance(driver, AttractDriver):
+            figures += percentiles("a decision", driver.decisions)
+            figures += percentiles("processor time of a decision", driver.processor)
+        else:
+            figures += percentiles("button to tick", window.latency.to_tick)
+            figures += percentiles("button to picture", window.latency.to_picture)
+        window.close()
+    return figures
+
+
+def seconds_since_python_started() -> float:
+    """Wall time since this process started [s]; without /proc, since this module was imported."""
+    try:
+        ticks = int(Path("/proc/self/stat").read_text().rsplit(")", 1)[1].split()[19])
+        uptime = float(Path("/proc/uptime").read_text().split()[0])
+        return uptime - ticks / os.sysconf("SC_CLK_TCK")
+    except OSError:
+        return time.time() - IMPORTED
+
+
+def percentiles(name: str, seconds: Iterable[float]) -> list[Figure]:
+    """Percentiles and the maximum of some times; nothing if there are none."""
+    values = np.array(list(seconds)) * 1e3
+    if not values.size:
+        return []
+    found = [Figure(f"{name}, {p:g} %", float(np.percentile(values, p)), "ms") for p in PERCENTILES]
+    return [*found, Figure(f"{name}, longest", float(values.max()), "ms")]
+
+
+class KeyDriver:
+    """Presses keys as a player says, and keeps two balls on the board.
+
+    Args:
+        player: A player for a single world.
+        window: The open window, in a game.
+    """
+
+    def __init__(self, player: Any, window: Any) -> None:
+        self._player, self._window = player, window
+        self._down = [False, False]
+        self.balls: list[int] = []
+        player.press(window.program.stage.game.world)  # loads its kernel now, not within a frame
+
+    def act(self) -> None:
+        """Post the key events of all buttons that changed."""
+        import pygame
+
+        world = self._window.program.stage.game.world
+        self.balls.append(len(world.balls))
+        if len(world.balls) < 2:
+            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
+        for side, held in enumerate(self._player.press(world)):
+            if held != self._down[side]:
+                self._down[side] = held
+                kind = pygame.KEYDOWN if held else pygame.KEYUP
+                key = (pygame.K_a, pygame.K_d)[side]
+                pygame.event.post(pygame.Event(kind, key=key, mod=0, scancode=0))
+
+
+class AttractDriver:
+    """Lets a player play in attract mode, and measures how long its decisions take.
+
+    Attributes:
+        decisions: Wall time of each decision [s].
+        processor: The part of it in which this thread had the processor [s].
+    """
+
+    def __init__(self, name: str, window: Any) -> None:
+        window.rehearsal.wait()
+        window.program.menus.open_attract()
+        window.program.show_off(name, nobody_there=True)
+        self._window = window
+        self._player = window.program.stage.player
+        window.program.stage.player = self
+        self.balls: list[int] = []
+        self.decisions: list[float] = []
+        self.processor: list[float] = []
+
+    def press(self, world: Any) -> tuple[bool, bool]:
+        """The buttons that the watched player holds, timed."""
+        wall_start, processor_start = time.perf_counter(), time.thread_time()
+        held: tuple[bool, bool] = self._player.press(world)
+        wall = time.perf_counter() - wall_start
+        if wall > LEAST_DECISION:
+            self.decisions.append(wall)
+            self.processor.append(time.thread_time() - processor_start)
+        return held
+
+    def act(self) -> None:
+        """Count the balls; no key is pressed."""
+        self.balls.append(len(self._window.program.stage.game.world.balls))

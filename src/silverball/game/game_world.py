@@ -1,0 +1,96 @@
+"""The world of a game: reads its record without copies, and knows which ticks can be played at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from silverball.physics.records import WORLD
+from silverball.world import World
+
+SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
+GUTTER_MARGIN = 0.1  # [u] a ball nearer to the gutter is played tick by tick
+
+_WORDS = {name: int(field[1]) // 8 for name, field in (WORLD.fields or {}).items()}
+# Places in the world record, in words of eight bytes. One of the words from `draws` to `fault` changes with
+# every event, so comparing them tells whether the event log must be read.
+_TICK, _COUNTS, _COUNTS_END = _WORDS["tick"], _WORDS["draws"], _WORDS["fault"]
+
+
+class GameWorld:
+    """Fast access to the world of a game.
+
+    Args:
+        world: The world.
+
+    Attributes:
+        world: The world.
+        paddle_reach: No paddle reaches a ball above this x [u].
+        tick: Returns the ticks so far; it is called twice in every tick, so it has no Python frame.
+    """
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self._record = world.records[0]
+        self._words: NDArray[np.int64] = np.frombuffer(self._record, np.int64)
+        self.tick: Callable[[], int] = partial(self._words.item, _TICK)
+        self._counters = self._words[_COUNTS:_COUNTS_END]
+        self._last_counters = self._counters.tobytes()
+        self._ball_x = self._record["ball"]["x"]
+        self._ball_id = self._record["ball"]["id"]
+        board = world.table.board
+        self._skip_floor = board.gutter + GUTTER_MARGIN
+        self._ticks_per_unit = world.tick_rate / board.speed_cap
+        self.paddle_reach = float(world.records[1]["paddle_top"])
+
+    @property
+    def ball_count(self) -> int:
+        """Balls on the board."""
+        return int(np.count_nonzero(self._ball_id))
+
+    @property
+    def ball_ids(self) -> list[int]:
+        """The ids of the balls on the board; 0 for an empty slot."""
+        ids: list[int] = self._ball_id.tolist()
+        return ids
+
+    @property
+    def places(self) -> list[tuple[int, float, float]]:
+        """The balls on the board: id, x [u] and z [u]."""
+        return [ball for ball in self._record["ball"][["id", "x", "z"]].tolist() if ball[0]]
+
+    def to_bytes(self) -> bytes:
+        """The bytes of the record."""
+        return self._words.tobytes()
+
+    def has_new_events(self) -> bool:
+        """Whether anything has happened since `mark_read`."""
+        return self._counters.tobytes() != self._last_counters
+
+    def mark_read(self) -> None:
+        """The events so far have been read."""
+        self._last_counters = self._counters.tobytes()
+
+    def skippable_ticks(self, count: int) -> int:
+        """How many of these ticks can be played at once because no ball can leave the board, at least 1."""
+        lowest = min(
+            (x for x, ball in zip(self._ball_x.tolist(), self._ball_id.tolist(), strict=True) if ball),
+            default=None,
+        )
+        if lowest is None:
+            return count
+        skippable = (lowest - self._skip_floor) * self._ticks_per_unit - 1.0
+        return min(count, SKIP_LIMIT, int(skippable)) if skippable >= 1.0 else 1  # NaN gives 1, too
+
+    def snapshot(self) -> NDArray[np.int64]:
+        """The words of the record, for `rewind`."""
+        return self._words.copy()
+
+    def rewind(self, snapshot: NDArray[np.int64]) -> None:
+        """Go back to a snapshot; `World.hits` still counts the hits after it."""
+        before = snapshot.view(WORLD)[0]
+        for name in WORLD.names or ():
+            self._record[name] = before[name]

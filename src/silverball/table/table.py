@@ -1,0 +1,276 @@
+"""A whole table: the model `Table`, and the checks that make one of data.
+
+Tables from files and changed copies (`Table.replace`) take the same way: the data are validated, meshes are
+replaced by their footprints, the layout is checked, and a recipe is tried out. A constructor alone validates
+the fields and nothing else, so that strange boards can be tried; `check_table` says what is wrong with one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, BeforeValidator, Field, ValidationError
+
+from silverball.errors import Problem, TableError
+from silverball.table.check import Layout, check_layout
+from silverball.table.explain import explain
+from silverball.table.parts import (
+    PART_KINDS,
+    Arcade,
+    Board,
+    Cylinder,
+    Model,
+    Name,
+    Paddle,
+    RandomRecipe,
+    SlantWall,
+    StandingPart,
+    TriangularPrism,
+)
+from silverball.table.placement import try_recipe
+from silverball.table.quantity import refuse, shown
+
+FORMAT: Literal[1] = 1  # version of the file format
+PARTS_LIMIT = 256  # parts of one kind in a table; chosen: ten times a rich table, checked in a second
+MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
+
+_MeshPart: TypeAlias = TriangularPrism | Cylinder
+
+# Without these a layout cannot be measured; chosen to be what `check` needs to know of a board.
+_MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
+
+
+def _known_format(value: Any) -> Any:
+    if value != FORMAT or isinstance(value, bool):
+        refuse(f"must be {FORMAT}, got {shown(value)}: a newer file needs a newer Silverball")
+    return FORMAT
+
+
+class Table(Model):
+    """A pinball table as data, immutable.
+
+    With a `random` section it is a recipe, from which every seed makes a finished table (`generate_table`).
+
+    Example:
+        >>> import silverball as sb
+        >>> classic = sb.load_table("classic")
+        >>> heavy = classic.replace(name="Heavy", board={"gravity": 12})
+        >>> heavy.board.gravity, heavy.board.friction == classic.board.friction
+        (12.0, True)
+    """
+
+    format: Annotated[Literal[1], BeforeValidator(_known_format)] = FORMAT
+    """The version of the file format."""
+    name: Name = "Untitled"
+    """The title of the table."""
+    board: Board = Board()
+    """The board and its borders."""
+    slant_wall: Annotated[tuple[SlantWall, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The slant walls."""
+    paddle: Annotated[tuple[Paddle, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The paddles, at most one per side."""
+    triangular_prism: Annotated[tuple[TriangularPrism, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The triangular prisms."""
+    cylinder: Annotated[tuple[Cylinder, ...], Field(max_length=PARTS_LIMIT)] = ()
+    """The cylinders."""
+    random: RandomRecipe | None = None
+    """The obstacles to place at random for each seed, if any."""
+    arcade: Arcade = Arcade()
+    """The rules of an arcade game."""
+
+    @property
+    def standing_parts(self) -> tuple[StandingPart, ...]:
+        """The parts that do not move: slant walls, triangular prisms, cylinders, in this order."""
+        return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
+
+    @property
+    def has_mesh(self) -> bool:
+        """Whether a part names a mesh file."""
+        return any(part.mesh for part in self.triangular_prism) or any(part.mesh for part in self.cylinder)
+
+    def resolved(self) -> Table:
+        """The same table with the footprints of its meshes, so that it needs no other file.
+
+        Raises:
+            TableError: A mesh cannot be read or used.
+        """
+        if not self.has_mesh:
+            return self
+        return self.model_copy(
+            update={
+                "triangular_prism": tuple(part.resolved() for part in self.triangular_prism),
+                "cylinder": tuple(part.resolved() for part in self.cylinder),
+            }
+        )
+
+    def replace(self, **changes: Any) -> Table:
+        """Make a changed table, with every check that a table file gets.
+
+        Args:
+            **changes: New values by the names of the fields. A dict changes the fields that it names in the
+                model that is there, at any depth: ``board={"gravity": 12}``. A model, a list of parts
+                or any other value takes the place of the old one. Parts may be models or dicts.
+
+        Returns:
+            The new table; meshes that the changes name are replaced by their footprints.
+
+        Raises:
+            TableError: A name is unknown, a value is invalid, or the table cannot be played. `problems`
+                lists every mistake, in the words of the table file.
+
+        Example:
+            >>> import silverball as sb
+            >>> table = sb.load_table("classic").replace(board={"gravty": 12})
+            Traceback (most recent call last):
+            ...
+            silverball.errors.TableError: Classic: 1 problem
+              board.gravty: unknown key: did you mean `gravity`?
+        """
+        return checked_table(_merged(self, changes), self.name)
+
+
+def check_table(table: Table) -> list[Problem]:
+    """Find every problem of a table.
+
+    Returns:
+        The problems, each with its path in the file and a sentence; an empty list for a table that can be
+        played. Tables of `load_table`, `generate_table` and `Table.replace` have none.
+
+    Example:
+        >>> import silverball as sb
+        >>> sb.check_table(sb.load_table("classic"))
+        []
+        >>> outside = sb.parts.Cylinder(center=(20.0, 0.0), radius=0.5)
+        >>> [problem.path for problem in sb.check_table(sb.Table(cylinder=(outside,)))]
+        ['cylinder[0].center']
+    """
+    return check_layout(Layout.of(table)) or try_recipe(table)
+
+
+def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = None) -> Table:
+    """Make a table of the data of a table file, with every check.
+
+    Args:
+        data: The sections of the file; a section may be a dict or a model.
+        source: What to call it in messages.
+        folder: Where meshes are looked for; the current folder by default.
+
+    Raises:
+        TableError: The data have problems; all of them are in `problems`.
+    """
+    table: Table | None = None
+    problems: list[Problem] = []
+    try:
+        table = Table.model_validate(data)
+        layout: Layout | None = Layout.of(table)
+    except ValidationError as error:
+        problems += explain(error, Table)
+        layout = _valid_layout(data, error)
+    if layout is not None:
+        layout, footprint_problems = _with_footprints(layout, folder or Path())
+        problems += footprint_problems
+        problems += check_layout(layout)
+    if problems or table is None or layout is None:
+        raise TableError(source, problems)
+    if table.has_mesh:
+        table = table.model_copy(
+            update={
+                "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
+                "cylinder": tuple(part for _, part in layout.cylinders),
+            }
+        )
+    problems = try_recipe(table)
+    if problems:
+        raise TableError(source, problems)
+    return table
+
+
+def _merged(model: BaseModel, changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The data of a model, as its section of a file holds them, with changes merged into it."""
+    data = model.model_dump(exclude_defaults=True)
+    for key, value in changes.items():
+        now = getattr(model, key, None) if key in type(model).model_fields else None
+        if isinstance(value, Mapping) and isinstance(now, BaseModel):
+            data[key] = _merged(now, value)
+        else:
+            data[key] = _plain_data(value)
+    return data
+
+
+def _plain_data(value: Any) -> Any:
+    """Models, also in lists, as the data of a file."""
+    if isinstance(value, BaseModel):
+        return value.model_dump(exclude_defaults=True)
+    if isinstance(value, Mapping):
+        return {key: _plain_data(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain_data(item) for item in value]
+    return value
+
+
+def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | None:
+    """The layout of the valid parts, under their own paths, so that they are checked too.
+
+    None if the board itself cannot be measured.
+    """
+    broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
+    if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
+        return None
+    bad_keys = {place[1] for place in broken if place[0] == "board"}
+    # Each remaining key is valid, but perhaps not together with the default of an invalid one (`rolling`
+    # needs `friction`), so the board is built without validation.
+    board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
+    left: dict[str, list[tuple[str, Any]]] = {}
+    for kind, model in PART_KINDS.items():
+        usable = (kind,) not in broken
+        bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
+        left[kind] = [
+            (f"{kind}[{index}]", model.model_validate(item))
+            for index, item in enumerate(data.get(kind, []) if usable else [])
+            if index not in bad
+        ]
+    recipe = None
+    if "random" in data and not any(place[0] == "random" for place in broken):
+        recipe = RandomRecipe.model_validate(data["random"])
+    parts = {f"{kind}s": tuple(left[kind]) for kind in PART_KINDS}
+    return Layout(board=board, random=recipe, **parts)
+
+
+def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
+    """The layout with every mesh replaced by its footprint, without the parts whose mesh is unusable."""
+    problems: list[Problem] = []
+    known: dict[tuple[type, str], _MeshPart | TableError] = {}  # a file that many parts name is read once
+
+    def resolved(part: _MeshPart) -> _MeshPart | TableError:
+        assert part.mesh is not None
+        key = (type(part), part.mesh)
+        if key not in known and len(known) >= MESHES_LIMIT:
+            message = f"is one mesh too many: a table has at most {MESHES_LIMIT}: give its footprint instead"
+            return TableError(part.mesh, [Problem("mesh", message)])
+        if key not in known:
+            try:
+                known[key] = part.resolved(folder)
+            except TableError as error:
+                known[key] = error
+        found = known[key]
+        if isinstance(found, TableError):
+            return found
+        place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
+        return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
+
+    def solid(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
+        kept: list[tuple[str, _MeshPart]] = []
+        for path, part in parts:
+            found = part if part.mesh is None else resolved(part)
+            if isinstance(found, TableError):
+                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
+            else:
+                kept.append((path, found))
+        return tuple(kept)
+
+    whole = layout._replace(
+        triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
+    )
+    return whole, problems

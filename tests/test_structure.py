@@ -1,0 +1,44 @@
+"""The shape of the code: no circles of imports, one meaning a file name, few wide kernels."""
+
+from __future__ import annotations
+
+import ast
+
+import structure
+
+REASONS: dict[str, str] = {}
+"""Kernels that may have more than eight parameters, and why."""
+
+
+def test_no_modules_import_each_other():
+    assert structure.circles() == []
+
+
+def test_no_two_files_share_a_name():
+    """A command may be called as what it commands."""
+    shared = {
+        name: paths
+        for name, paths in structure.homonyms().items()
+        if len([path for path in paths if not path.startswith("cli/")]) > 1
+    }
+    assert shared == {}
+
+
+def test_kernels_take_at_most_eight_parameters():
+    assert set(structure.wide_kernels()) == set(REASONS)
+    assert len(REASONS) <= 5
+
+
+def test_every_package_is_told_in_one_sentence():
+    for module, path in structure.sources().items():
+        if path.name == "__init__.py":
+            text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+            first = text.split("\n")[0]
+            assert first.endswith("."), f"{module}: {first!r}"
+            assert "?" not in first
+
+
+def test_no_file_opens_with_a_question():
+    for module, path in structure.sources().items():
+        text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+        assert "?" not in text.split("\n")[0], module
