@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from silverball.benchmarks.envs import environments, measure, table
+from silverball.benchmarks.envs import environments, measure, rate_table
 from silverball.benchmarks.envs.environments import Candidate
 from silverball.cli.app import run
 
@@ -90,8 +90,8 @@ def test_who_is_not_installed_is_named_and_left_out(clock):
     assert len(result.rates) == 1
     assert result.missing == ["elsewhere"]
     assert heard == [one.name for one in (clock.sleeper(1e-4, 1), *strangers)]
-    assert "Not installed: elsewhere." in table.footing(result)
-    assert table.headers(table.yardsticks(result)) == ["environment", "steps/s"]
+    assert "Not installed: elsewhere." in rate_table.footing(result)
+    assert rate_table.headers(rate_table.yardsticks(result)) == ["environment", "steps/s"]
 
 
 def rate(value: float, sees: str, ours: bool = True, yardstick: str = "", unit: str = "steps/s"):
@@ -115,20 +115,20 @@ RESULT = measure.Result(
 
 
 def test_pictures_are_not_compared_with_states_but_states_with_pictures():
-    atari, breakout = table.yardsticks(RESULT)
-    assert [table.ratio(one, atari) for one in RESULT.rates] == [500.0, 20.0, None, 1.0, None, None]
-    assert [table.ratio(one, breakout) for one in RESULT.rates] == [5.0, None, None, None, 1.0, None]
+    atari, breakout = rate_table.yardsticks(RESULT)
+    assert [rate_table.ratio(one, atari) for one in RESULT.rates] == [500.0, 20.0, None, 1.0, None, None]
+    assert [rate_table.ratio(one, breakout) for one in RESULT.rates] == [5.0, None, None, None, 1.0, None]
 
 
 def test_the_table_is_told_in_markdown_and_in_json():
-    lines = table.markdown(RESULT).splitlines()
+    lines = rate_table.markdown(RESULT).splitlines()
     assert lines[0] == "| environment | steps/s | beside Atari | beside breakout |"
     assert lines[2] == "| state 5000.0 | 5,000 | 500 × | 5.00 × |"
     assert lines[3] == "| pictures 200.0 | 200 | 20 × |  |"
     assert lines[4] == "|  0.5 | 0.500 µs |  |  |"
     assert len({line.count("|") for line in lines[:8]}) == 1
     assert lines[9] == "Medians of 5 rounds, random actions; a machine; Python 3."
-    told = json.loads(table.as_json(RESULT))
+    told = json.loads(rate_table.as_json(RESULT))
     assert told["rates"][0]["beside"] == {"Atari": 500.0, "breakout": 5.0}
     assert told["rates"][2]["beside"] == {"Atari": None, "breakout": None}
 

@@ -175,7 +175,7 @@ def envs(
     Example: `silverball bench envs --rounds 5 --out envs.md`
     """
     from silverball.benchmarks.envs import measure
-    from silverball.benchmarks.envs import table as report
+    from silverball.benchmarks.envs import rate_table as report
     from silverball.wholefile import write_whole
 
     paths = [output_path(text, (".md",)) for text in out]

@@ -24,10 +24,10 @@ from silverball.envs.board_pool import Pool, PooledBatch, pool_of
 from silverball.envs.buffers import OutputPool
 from silverball.envs.episode import run_task
 from silverball.envs.options import Options
-from silverball.envs.pictures import no_pictures, pictures_of
 from silverball.envs.pixels import draw_finals
 from silverball.envs.pointers import ADDRESSES, OUTPUTS, write_addresses
 from silverball.envs.rewards import TERMS, called, called_for_many, resolve_reward
+from silverball.envs.sprites import no_pictures, pictures_of
 from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, ResetMode, StepFlag, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
