@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from silverball.cli.options import LAST_SEED
+from silverball.cli.shared_options import LAST_SEED
 from silverball.errors import NoDisplay
 from silverball.game.view import Mode
 

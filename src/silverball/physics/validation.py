@@ -1,4 +1,4 @@
-"""Validation of states from outside: is the state possible, and is each ball on its flight?
+"""Validation of states from outside: possible or not, and whether each ball is on its flight.
 
 A state that is as the last call left it continues; the log holds a checksum for that. Any other state comes
 from outside: it was restored, copied, shoved, or its fields were written to. Then the balls must be where

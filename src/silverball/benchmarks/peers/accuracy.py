@@ -20,9 +20,9 @@ from typing import Any, NamedTuple
 import mpmath
 import numpy as np
 
-from silverball.benchmarks.peers import tables
-from silverball.benchmarks.peers.play import free_places
+from silverball.benchmarks.peers import common_tables as tables
 from silverball.benchmarks.peers.playfield import FRAME_RATE, Playfield
+from silverball.benchmarks.peers.random_play import free_places
 from silverball.benchmarks.peers.reference import DIGITS, Path, follow
 from silverball.errors import SilverballError
 from silverball.table import Table
