@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import doctest
+import re
 from importlib import import_module
+from pathlib import Path
 from types import FunctionType, ModuleType
 
 import pytest
@@ -11,6 +13,7 @@ import pytest
 import silverball as sb
 from silverball.errors import SilverballError
 
+DOCS = Path(__file__).parents[2] / "docs"
 NAMES = [name for name in sb.__all__ if not name.startswith("__")]
 ERRORS = [
     name
@@ -64,6 +67,12 @@ def test_the_examples_of_a_module_are_true(module: str, tmp_path, monkeypatch):
     assert doctest.testmod(import_module(module), optionflags=doctest.ELLIPSIS).failed == 0
 
 
-def test_an_unknown_name_is_no_attribute():
+@pytest.mark.parametrize("name", NAMES)
+def test_every_public_name_has_a_place_in_the_site(name: str):
+    pages = (path.read_text(encoding="utf-8") for path in DOCS.rglob("*.md"))
+    assert any(re.search(rf"^::: silverball\.(errors\.)?{name}$", page, re.MULTILINE) for page in pages)
+
+
+def test_an_unknown_name_is_not_an_attribute():
     with pytest.raises(AttributeError, match="'Flipper'"):
         sb.Flipper  # noqa: B018  (reading it is the test)

@@ -2,6 +2,16 @@
 
 `make_player(name)` makes one for a single `World`, `players.rollout.play` lets one play many worlds, and
 `metrics.ball_time.time_balls` measures how long it keeps a ball. `register` adds a player of your own.
+
+Example:
+    >>> import silverball as sb
+    >>> class Lifter:
+    ...     def press(self, world):
+    ...         return True, True
+    >>> sb.players.register("lifter", Lifter)
+    >>> sb.players.make_player("lifter").press(sb.World("classic"))
+    (True, True)
+    >>> sb.players.unregister("lifter")
 """
 
 from __future__ import annotations

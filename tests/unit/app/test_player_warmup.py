@@ -70,7 +70,7 @@ def test_without_compiled_code_the_stand_in_goes_on(monkeypatch, ends_well):
     assert player_warmup.is_ready(STAND_IN.name)
 
 
-def test_a_player_that_fails_does_not_get_ready_and_stops_nobody_else(monkeypatch):
+def test_a_player_that_fails_does_not_get_ready_and_stops_no_other(monkeypatch, unregistered):
     pressed = []
 
     def warm_up_player(demo_player, table):
