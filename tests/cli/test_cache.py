@@ -146,6 +146,17 @@ def test_links_inside_the_caches_are_not_followed_and_not_removed(silverball, fo
     assert all((folder / link).is_symlink() for link in links)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="only Unix has pipes and sockets in folders")
+def test_what_is_no_regular_file_is_kept(silverball, folder):
+    path = folder / "pictures" / f"{KEY}.picture"
+    path.parent.mkdir()
+    for make_special in (os.mkfifo, os.mkdir):
+        make_special(path)
+        assert silverball("cache", "--clear").stdout.startswith("removed 0 files")
+        assert path.exists()
+        path.unlink() if make_special is os.mkfifo else path.rmdir()
+
+
 def test_a_cache_folder_that_is_itself_a_link_is_cleared(silverball, folder, tmp_path, monkeypatch):
     make(folder, OURS)
     link = tmp_path / "link"

@@ -144,11 +144,11 @@ def test_a_folder_with_too_long_a_name_is_reported(silverball, folders, monkeypa
 def test_a_package_that_cannot_be_imported_is_reported_and_the_rest_is_printed(
     silverball, folders, monkeypatch
 ):
-    def broken():
-        raise ImportError("libSDL2.so: cannot open shared object file")
+    def broken(error: type[Exception]):
+        raise error("libSDL2.so: cannot open shared object file")
 
-    monkeypatch.setitem(info.PARTS, "display", broken)
-    monkeypatch.setitem(info.PARTS, "compiled", broken)
+    monkeypatch.setitem(info.PARTS, "display", lambda: broken(ImportError))
+    monkeypatch.setitem(info.PARTS, "compiled", lambda: broken(AttributeError))
     report = reported(silverball)
     assert "libSDL2.so" in report["display"]["problem"]
     assert "libSDL2.so" in report["compiled"]["problem"]

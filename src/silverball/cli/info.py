@@ -42,10 +42,10 @@ def info(as_json: AsJson = False) -> None:
 
 
 def found(part: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """A part of the report; if a package or a folder is broken, the problem in its place."""
+    """A part of the report; if a package or a folder is broken, in whatever way, the problem in its place."""
     try:
         return part()
-    except (ImportError, OSError) as error:
+    except Exception as error:
         return {"problem": f"{type(error).__name__}: {error}"}
 
 
