@@ -34,14 +34,14 @@ def info(as_json: AsJson = False) -> None:
 
     Example: `silverball info --json`
     """
-    report = {name: found(part) for name, part in PARTS.items()}
+    report = {name: collect(part) for name, part in PARTS.items()}
     if as_json:
         say_json(report)
     else:
         print_report(report)
 
 
-def found(part: Callable[[], dict[str, Any]]) -> dict[str, Any]:
+def collect(part: Callable[[], dict[str, Any]]) -> dict[str, Any]:
     """A part of the report; if a package or a folder is broken, in whatever way, the problem in its place."""
     try:
         return part()
