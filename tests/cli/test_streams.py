@@ -11,7 +11,7 @@ import pytest
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams are closed as a shell of Unix does it")
 
-PRINTING = ("--help", "check classic", "scores --json")
+PRINTING = ("--help", "check classic", "scores --json", "info", "info --json", "cache", "cache --clear")
 MISTAKES = ("check nowhere.toml", "simulate --seconds soon")
 HARNESS = """
 import os, resource, sys
@@ -24,6 +24,7 @@ os.execv(sys.executable, [sys.executable, "-X", "dev", "-W", "ignore", "-m", "si
 @pytest.fixture(autouse=True)
 def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("SILVERBALL_DATA", str(tmp_path / "data"))
+    monkeypatch.setenv("SILVERBALL_CACHE", str(tmp_path / "cache"))
     monkeypatch.chdir(tmp_path)
 
 

@@ -24,7 +24,7 @@ from silverball.app.table_files import (
     is_path,
 )
 from silverball.errors import SilverballError
-from silverball.game.user_folder import write_user_file
+from silverball.game.user_folder import TABLES, write_user_file
 from silverball.game.view import Mode
 from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, table_digest, table_names
@@ -32,7 +32,6 @@ from silverball.table import Table, generate_table, load_table, table_digest, ta
 if TYPE_CHECKING:
     from silverball.game.scores.store import Store
 
-TABLES = "tables"  # subfolder of the data folder for the user's tables
 REPLAYS = "replays"  # subfolder of the data folder for replay files
 MAX_SCORES = 10
 

@@ -14,10 +14,12 @@ import typer.main
 
 from silverball.cli.ball_time import ball_time
 from silverball.cli.bench import bench
+from silverball.cli.cache import cache
 from silverball.cli.check import check
 from silverball.cli.demo import demo
 from silverball.cli.feel import feel
 from silverball.cli.generate import generate
+from silverball.cli.info import info
 from silverball.cli.play import play
 from silverball.cli.replay import replay
 from silverball.cli.scores import scores
@@ -37,13 +39,12 @@ RENAMED = {  # options of version 0.1 that are commands now
 }
 
 app = typer.Typer(
-    add_completion=False,
     rich_markup_mode="markdown",
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for command in (
-    play, replay, scores, demo, tables, show, check, generate, simulate, ball_time, feel, soak,
+    play, replay, scores, demo, tables, show, check, generate, simulate, ball_time, feel, soak, info, cache,
 ):  # fmt: skip
     app.command()(command)
 app.add_typer(bench, name="bench")

@@ -6,11 +6,19 @@ from typing import Annotated
 
 import typer
 
+from silverball.cli.completion import complete_table
 from silverball.cli.console import say
 
 
 def check(
-    table: Annotated[str, typer.Argument(metavar="FILE", help="Table file, or name of a built-in table.")],
+    table: Annotated[
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Table file, or name of a built-in table.",
+            autocompletion=complete_table,
+        ),
+    ],
 ) -> None:
     """Check a table and report all of its problems at once.
 

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from silverball.cli.completion import complete_table
 from silverball.cli.console import say
 from silverball.cli.shared_options import LAST_SEED, Force
 
@@ -19,7 +20,10 @@ def generate(
         Path | None, typer.Option(metavar="FILE.toml", help="File to write. [default: standard output]")
     ] = None,
     recipe: Annotated[
-        str, typer.Option("--table", help="Recipe: a table with a \\[random] section.")
+        str,
+        typer.Option(
+            "--table", help="Recipe: a table with a \\[random] section.", autocompletion=complete_table
+        ),
     ] = "random",
     force: Force = False,
 ) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from silverball.cli.completion import complete_table
 from silverball.cli.shared_options import LAST_SEED
 from silverball.errors import NoDisplay
 from silverball.game.view import Mode
@@ -18,7 +19,11 @@ DEMO_SECONDS = 20.0
 
 def play(
     table: Annotated[
-        str | None, typer.Option(help="Built-in table or table file. [default: the one chosen last]")
+        str | None,
+        typer.Option(
+            help="Built-in table or table file. [default: the one chosen last]",
+            autocompletion=complete_table,
+        ),
     ] = None,
     seed: Annotated[
         int | None,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from silverball.cli.completion import LAST_REPLAY, complete_replay
 from silverball.cli.console import baking, compiling, errors, progress_bar, say, say_json
 from silverball.cli.shared_options import Force, Size, ThemeName, file_name, theme_named
 from silverball.errors import SilverballError
@@ -15,13 +16,17 @@ if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
     from silverball.game.replay.verify import Verdict
 
-LAST = "last"
 DIFFERS = 1  # exit code where a replay does not lead to what it records
 
 
 def replay(
     file: Annotated[
-        str, typer.Argument(metavar="FILE", help="Replay file, or `last` for the game that was played last.")
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="Replay file, or `last` for the game that was played last.",
+            autocompletion=complete_replay,
+        ),
     ],
     verify: Annotated[
         bool, typer.Option("--verify", help="Play it without showing it, and check every recorded result.")
@@ -87,7 +92,7 @@ def load(file: str) -> Replay:
     with compiling():
         from silverball.game.replay.format import Replay
 
-    if file != LAST:
+    if file != LAST_REPLAY:
         return Replay.load(file)
     text = last_game()
     if text is None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from silverball.cli.completion import complete_player, complete_table, complete_theme
 from silverball.errors import OutputError, SilverballError
 
 if TYPE_CHECKING:
@@ -41,7 +42,9 @@ def theme_named(name: str) -> Theme:
     return THEMES[name]
 
 
-TableName = Annotated[str, typer.Option("--table", help="Built-in table or table file.")]
+TableName = Annotated[
+    str, typer.Option("--table", help="Built-in table or table file.", autocompletion=complete_table)
+]
 BoardSeed = Annotated[
     int, typer.Option("--seed", min=0, max=LAST_SEED, help="Seed of the board and of all randomness on it.")
 ]
@@ -62,6 +65,7 @@ PlayerName = Annotated[
     typer.Option(
         "--player",
         help="Who holds the buttons: idle, random, reflex, hold, planner, trained, or a registered player.",
+        autocompletion=complete_player,
     ),
 ]
 TickRate = Annotated[
@@ -74,7 +78,12 @@ Size = Annotated[
     int | None, typer.Option("--size", min=100, max=4320, help="Height of the picture [pixels].")
 ]
 ThemeName = Annotated[
-    str, typer.Option("--theme", help="Look of the table: neon, parlour, or clear (for colour-blind eyes).")
+    str,
+    typer.Option(
+        "--theme",
+        help="Look of the table: neon, parlour, or clear (for colour-blind eyes).",
+        autocompletion=complete_theme,
+    ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]

@@ -8,6 +8,7 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
+from silverball.cli.completion import complete_table
 from silverball.cli.console import compiling, progress_bar, say, say_json
 from silverball.cli.shared_options import AsJson, FirstSeed, TickRate, Worlds
 from silverball.errors import SilverballError, StateError
@@ -18,7 +19,11 @@ SHOWN_FINDINGS = 10
 def soak(
     table: Annotated[
         str | None,
-        typer.Option(help="Built-in table or table file; not with --hostile.", show_default="random"),
+        typer.Option(
+            help="Built-in table or table file; not with --hostile.",
+            show_default="random",
+            autocompletion=complete_table,
+        ),
     ] = None,
     seed: FirstSeed = 0,
     frames: Annotated[int, typer.Option(min=1, help="Frames to reach, those of earlier runs included.")] = (

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from silverball.wholefile import write_whole
 
+TABLES = "tables"  # subfolder of the data folder for the user's tables
+
 
 def data_folder() -> Path:
     """The folder for the user's data; the environment variable SILVERBALL_DATA names another one."""

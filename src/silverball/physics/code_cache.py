@@ -88,8 +88,9 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
             return None
         content = read_code(index)
         if content is None:
-            Damage.report(self._folder.parent)
-            discard(index)
+            if os.path.lexists(index):  # otherwise another process has just cleared the cache
+                Damage.report(self._folder.parent)
+                discard(index)
             return None
         saved_key, code = pickle.loads(content)
         return Result._rebuild(target_context, *code) if saved_key == key else None
@@ -114,10 +115,25 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
         return self._folder / f"{self._name}.{types}{INDEX}"
 
 
-def sweep(folder: Path) -> bool:
-    """Discard damaged files in a folder of compiled code; whether all were intact."""
+def find_code(folder: Path, function: str) -> list[Path]:
+    """Find the indexes of a function in a folder of compiled code, those of damaged code left out."""
     try:
-        damaged = [index for index in folder.rglob(f"*{INDEX}") if read_code(index) is None]
+        return [index for index in folder.rglob(f"*.{function}-*{INDEX}") if read_code(index) is not None]
+    except OSError:
+        return []  # it cannot be listed, or another process clears it
+
+
+def sweep(folder: Path) -> bool:
+    """Discard damaged files in a folder of compiled code; whether all were intact.
+
+    An index that has disappeared is not damaged: another process clears the cache, indexes first.
+    """
+    try:
+        damaged = [
+            index
+            for index in folder.rglob(f"*{INDEX}")
+            if read_code(index) is None and os.path.lexists(index)
+        ]
     except OSError:
         return True  # it cannot be listed; each file is checked again before it is used
     for index in damaged:

@@ -26,6 +26,7 @@ import shutil
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
@@ -35,7 +36,7 @@ import numba.core.config
 from numba import extending, types
 from numba.core.registry import CPUDispatcher
 
-from silverball.physics.code_cache import INDEX, CodeCache, discard, read_code, remove, sweep
+from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
 
 SETTINGS: Any = numba.core.config
@@ -130,9 +131,8 @@ them would be compiled once for each.
 """
 
 
-@cache
-def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
-    """Make the folder for compiled code of exactly these sources; None where no folder can be written.
+def code_folder(packages: tuple[str, ...] = PLAY) -> Path:
+    """The folder for compiled code of exactly these sources; it may not exist.
 
     Args:
         packages: The packages whose sources the code is made of: `PLAY`, `STUDY`, `DRAWING` or `AGENTS`.
@@ -145,7 +145,17 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
         digest.update(source.relative_to(package).as_posix().encode())
         digest.update(source.read_bytes())
     base = os.environ.get("SILVERBALL_CACHE") or platformdirs.user_cache_dir("silverball")
-    folder = Path(base) / "compiled" / digest.hexdigest()[:16]
+    return Path(base) / "compiled" / digest.hexdigest()[:16]
+
+
+@cache
+def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
+    """Make the folder for compiled code of exactly these sources; None where no folder can be written.
+
+    Args:
+        packages: As for `code_folder`.
+    """
+    folder = code_folder(packages)
     try:
         if not folder.is_dir():
             remove(folder)  # it is something else
@@ -165,7 +175,7 @@ def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> b
     folder = cache_folder(packages)
     if folder is None:
         return False
-    found = [index for index in folder.rglob(f"*.{name}-*{INDEX}") if read_code(index) is not None]
+    found = find_code(folder, name)
     if folder not in _swept:
         _swept.add(folder)
         if not sweep(folder):
@@ -198,9 +208,10 @@ def evict_old_code() -> None:
     if folder is None:
         return
     keep = (folder, *map(cache_folder, (STUDY, DRAWING, AGENTS)))
-    for other in folder.parent.iterdir():
-        if other not in keep and time.time() - other.stat().st_mtime > KEEP_SECONDS:
-            shutil.rmtree(other, ignore_errors=True)
+    with suppress(OSError):  # another process may remove folders at the same time
+        for other in folder.parent.iterdir():
+            if other not in keep and time.time() - other.stat().st_mtime > KEEP_SECONDS:
+                shutil.rmtree(other, ignore_errors=True)
 
 
 def _compile(function: F, **more: bool | str) -> F:

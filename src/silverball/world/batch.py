@@ -290,7 +290,7 @@ class WorldBatch:
         """
         digests, board_of = self.boards.digests, self.board_of
         rows = scatter(snapshot, self.state, digests, board_of, self.tick_rate, index)
-        for name in ("count", "lost", "carried", "done"):
+        for name in ("count", "carried", "done", "lost", "checksum"):
             self.logs[name][rows] = 0
 
     def digests(self) -> list[str]:

@@ -203,3 +203,29 @@ def test_processes_that_start_together_keep_one_whole_cache(tmp_path, said):
     assert (last(2, 1), last(2.0, 1), last(1, 2.0)) == (7, 7.0, 5.0)
     assert hits(last) == 3
     assert said() == []
+
+
+def test_code_that_another_process_clears_is_not_damaged(tmp_path, said, monkeypatch):
+    read = codecache.read_file
+
+    def cleared_before_the_code_is_read(path: Path) -> bytes | None:
+        if path.suffix == codecache.CODE:
+            for ending in (codecache.INDEX, codecache.CODE):
+                for one in list(tmp_path.rglob(f"*{ending}")):
+                    one.unlink()
+        return read(path)
+
+    assert compiled(squared, tmp_path)(3) == 9
+    with monkeypatch.context() as patch:
+        patch.setattr(codecache, "read_file", cleared_before_the_code_is_read)
+        assert compiled(squared, tmp_path)(3) == 9
+    assert list(tmp_path.rglob(f"*{codecache.CODE}")), "it was not compiled again"
+    with monkeypatch.context() as patch:
+        patch.setattr(codecache, "read_file", cleared_before_the_code_is_read)
+        assert codecache.sweep(tmp_path)
+    assert said() == []
+
+
+def test_old_code_that_another_process_clears_is_no_error(cache, monkeypatch):
+    monkeypatch.setattr(kernel.Path, "iterdir", lambda folder: iter([folder / "cleared"]))
+    kernel.evict_old_code()
