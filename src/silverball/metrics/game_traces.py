@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import as_int, internal, kernel
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.portable_math import uniform
@@ -228,11 +229,11 @@ def play_balls(
         for _ in range(ticks):
             if game.over != Over.NO:
                 break
-            log.count, log.lost = 0, 0
+            clear_log(log)
             if game.ticks == 0:
                 create_ball(world, board, colliders, setup.places, log)
                 game.at_x, game.at_z = ball.x, ball.z
-                log.count = 0
+                clear_log(log)
             if setup.player == BEGINNER:
                 left, right = beginner_presses(world, board, colliders, traces.wishes[index], tick)
             else:

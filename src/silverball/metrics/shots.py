@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
 from silverball.physics.balls import put_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.records import NOTHING, BatchGeometry, BoardGeometry, EventKind, Lane, Lanes, records
 from silverball.physics.step import step_world
@@ -174,12 +175,12 @@ def shoot(
     for index in range(first, end):
         world, log, shot = lanes.worlds[index], lanes.logs[index], shots[index]
         lane = Lane(world, log, lanes.tallies[index])
-        log.count, log.lost = 0, 0
+        clear_log(log)
         put_ball(world, board, log, 0, approach.x, approach.z, 0.0, 0.0)
         ball = world.ball[0]
         shot.first, shot.low_z, shot.high_z, shot.highest = NOTHING + 0, np.nan, np.nan, -board.half_length
         for now in range(shot.press + int(AFTER / tick)):
-            log.count, log.lost = 0, 0
+            clear_log(log)
             up = now < approach.wait or shot.press <= now < shot.press + int(HOLD / tick)
             before = ball.x
             step_world(lane, geometry, up and left, up and not left, False, tick)

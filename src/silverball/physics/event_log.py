@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from silverball.physics.kernel import inlined, internal
+from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.records import (
+    BALL_COUNT,
+    LOG_LENGTH,
     LOG_RESERVE,
     LOG_SIZE,
     BallRecord,
@@ -15,9 +17,29 @@ from silverball.physics.records import (
 
 
 @internal
+def begin_step(log: LogRecord) -> None:
+    """Drop the events of the previous step, but not the balls created since it ended."""
+    carried = min(max(log.count - log.done, 0), BALL_COUNT)
+    first = log.count - carried
+    for number in range(carried):
+        log.event[number] = log.event[first + number]
+    log.count, log.carried, log.done, log.lost = carried, carried, carried, 0
+
+
+@inlined
+def clear_log(log: LogRecord) -> None:
+    """Drop all events, created balls included."""
+    log.count, log.carried, log.done, log.lost = 0, 0, 0, 0
+
+
+@internal
 def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
     """Append an event of a ball at its present position (see `records.EVENT`), or count it as lost."""
-    capacity = LOG_SIZE - LOG_RESERVE if kind <= EventKind.BALL_TOUCH else LOG_SIZE
+    capacity = log.carried + LOG_SIZE
+    if kind <= EventKind.BALL_TOUCH:
+        capacity -= LOG_RESERVE
+    elif kind == EventKind.CREATED:
+        capacity = as_int(LOG_LENGTH)
     if log.count >= capacity:
         log.lost += 1
         return

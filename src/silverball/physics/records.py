@@ -22,7 +22,10 @@ BALL_COUNT = 2
 """Balls in a world record; a table may allow one or two (`max_balls`)."""
 
 LOG_SIZE = 64
-"""Capacity of a world's log; later events are counted as lost."""
+"""Events of one step that a world's log holds; later ones are counted as lost."""
+
+LOG_LENGTH = LOG_SIZE + 2 * BALL_COUNT
+"""Capacity of a log: the events of a step, and the balls created before it and after it."""
 
 LOG_RESERVE = 8
 """Slots of a log that contacts leave free: a jam comes after many touches and must not be lost."""
@@ -215,8 +218,10 @@ EVENT = np.dtype(
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
+        ("carried", "i8"),  # the first events: balls created before the last step
+        ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "f8"),  # of the flights and angles that the last call left
-        ("event", EVENT, (LOG_SIZE,)),
+        ("event", EVENT, (LOG_LENGTH,)),
     ],
     align=True,
 )  # fmt: skip

@@ -18,7 +18,7 @@ from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
 from silverball.physics.broad_phase import is_near
 from silverball.physics.contact import first_contact, resolve
-from silverball.physics.event_log import log_event, store_checksum
+from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
@@ -327,7 +327,7 @@ def run_worlds(
     """Move the worlds first … end − 1 on by a number of ticks.
 
     Args:
-        lanes: The worlds. Their logs are emptied first, their tallies added to.
+        lanes: The worlds. Events of the previous step are dropped first, tallies are added to.
         geometries: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.
@@ -346,7 +346,7 @@ def run_worlds(
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)
         if not is_continued:
-            log.count, log.lost = 0, 0
+            begin_step(log)
         if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
         step = 0
@@ -370,3 +370,4 @@ def run_worlds(
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # sets the fault
         store_checksum(world, log)
+        log.done = log.count

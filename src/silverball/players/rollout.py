@@ -15,6 +15,7 @@ import numpy as np
 
 from silverball.physics.audit import deepest
 from silverball.physics.balls import create_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.records import (
     BALL_COUNT,
@@ -170,7 +171,7 @@ def play_worlds(
         lane = Lane(world, log, lanes.tallies[index])
         geometry = BoardGeometry(board, colliders, geometries.grid)
         for done in range(ticks):
-            log.count, log.lost = 0, 0
+            clear_log(log)
             # Before a decision `play` has created the balls, so that the player could see them.
             if ball_count(world) < rollout.balls and (done > 0 or not has_decided):
                 create_ball(world, board, colliders, rollout.places, log)

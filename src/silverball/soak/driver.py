@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
@@ -145,7 +146,7 @@ def apply_action(
     action: ActionRecord,
 ) -> None:
     """Do the part of an action that comes before the tick: new velocities and a new ball."""
-    log.count, log.lost = 0, 0
+    clear_log(log)
     for slot in range(BALL_COUNT):
         if action.kick[slot] != 0 and world.ball[slot].id != 0:
             world.ball[slot].vx, world.ball[slot].vz = action.vx[slot], action.vz[slot]
