@@ -62,7 +62,7 @@ def store_checksum(world: WorldRecord, log: LogRecord) -> None:
 def flight_checksum(world: WorldRecord) -> float:
     """Compute a number that identifies the flights, the next contacts and the paddles' angles.
 
-    It tells an unchanged state from a changed one, but is no protection against deliberate collisions.
+    It detects changed states, but does not protect against deliberate collisions.
     """
     angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
     return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles

@@ -39,6 +39,7 @@ from silverball.physics.code_cache import INDEX, CodeCache, discard, read_code, 
 from silverball.physics.compile_thread import run_in_compiler_thread
 
 SETTINGS: Any = numba.core.config
+# The packages whose sources the machine code of some kernels depends on.
 PLAY = ("physics", "world", "players")
 STUDY = (*PLAY, "metrics", "soak")
 DRAWING = ("physics", "drawing/kernels")
@@ -100,8 +101,8 @@ def ir_inlined(function: F) -> F:
 def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
     """Compile a kernel for the types of these arguments and return it without Numba's type dispatch.
 
-    The dispatch takes longer than a tick does. A call with arguments of other types than these would read
-    and write memory that is not theirs.
+    The dispatch takes longer than a tick. A call with arguments of other types would read and write
+    arbitrary memory.
 
     Args:
         function: A kernel.
@@ -148,7 +149,7 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     folder = Path(base) / "compiled" / digest.hexdigest()[:16]
     try:
         if not folder.is_dir():
-            remove(folder)  # it is something else
+            remove(folder)  # a file of this name, if there is one
         folder.mkdir(parents=True, exist_ok=True)
         folder.touch()
     except OSError:

@@ -42,7 +42,7 @@ class Part(IntEnum):
     FIRST_SHAPE = 5
 
 
-# Other values of a field that holds part numbers; plain integers, so that they mix with these.
+# Special values in fields that hold part numbers; plain integers, so that both have one type in kernels.
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
@@ -166,7 +166,7 @@ BOARD = np.dtype(
         ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
         ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
-        # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
+        # The grid (see broad_phase.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
         ("skin", "f8"),  # a cell lists all parts that a ball can touch within this travel [u]
         ("search_time", "f8"),  # the longest search for contacts [s]

@@ -20,7 +20,7 @@ from silverball.physics.audit import (
     depth_in_stationary,
     gap_to,
     is_out_of_reach,
-    turned_for,
+    angle_after,
 )
 from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import (
@@ -213,7 +213,7 @@ def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: Before,
             continue
         c = truth.colliders[truth.board.collider_first + event.part]
         side = 1 if event.part == Part.RIGHT_PADDLE else 0
-        angle = turned_for(c, before.angles[side], world.paddle[side].angle, event.offset)
+        angle = angle_after(c, before.angles[side], world.paddle[side].angle, event.offset)
         gap = gap_to(c, event.part, angle, event.x, event.z) - truth.board.ball_radius
         slot = 0 if event.ball == watch.tracker[0].id else 1
         watch.deepest = max(watch.deepest, -gap)
@@ -277,7 +277,7 @@ def depth_along_path(
         if at_paddle:
             for side in range(2):
                 c = colliders[paddles + side]
-                angle = turned_for(c, before[side], after[side], share * tick)
+                angle = angle_after(c, before[side], after[side], share * tick)
                 depth = max(depth, depth_in_paddle(c, angle, x, z, radius))
     return depth
 
