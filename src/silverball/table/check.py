@@ -1,7 +1,7 @@
-"""Checks of a layout: every reason why its parts cannot be played on, with its path in the file.
+"""Checks of a layout: every reason why a table cannot be played, with its path in the file.
 
 In this order: each part by itself (degenerate, outside the board, a paddle faster than the cap), parts
-against each other (overlaps, gaps that a ball barely fits), the swing of the paddles, the way to the gutter,
+against each other (overlaps, gaps that a ball barely fits), the swing of the paddles, the path to the gutter,
 the places where a ball would lie forever, and the rules of a recipe.
 
 Single values are validated in `parts.py`, meshes in `mesh.py`; `placement.py` tries whether a recipe makes
@@ -46,8 +46,8 @@ if TYPE_CHECKING:
 
 FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may extend beyond an edge of the board
-LEAST_OPEN = 0.5  # share of the board that must lead to the gutter; corners may be closed off
-CROWD = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500
+MIN_OPEN_SHARE = 0.5  # share of the board that must lead to the gutter; corners may be closed off
+MAX_CLOSE_PAIRS = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500
 OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
 
 
@@ -94,7 +94,7 @@ def check_layout(layout: Layout) -> list[Problem]:
     problems += part_problems
     if board_problems:
         return problems
-    layout = layout._replace(paddles=_one_a_side(layout.paddles))  # the others are problems already
+    layout = layout._replace(paddles=_one_per_side(layout.paddles))  # the others are problems already
     overlaps, tight = _pair_problems(standing, layout.board)
     problems += overlaps[:OVERLAPS_LISTED]
     if len(overlaps) > OVERLAPS_LISTED:
@@ -104,7 +104,7 @@ def check_layout(layout: Layout) -> list[Problem]:
     outlines = [part.outline() for part in standing.parts]
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
-    problems += _way_problems(layout, paddles, ball_space)
+    problems += _exit_problems(layout, paddles, ball_space)
     crowd = _crowd_problems(standing, layout.board)
     problems += crowd
     can_rest_anywhere = layout.board.gravity == 0.0
@@ -146,7 +146,7 @@ def _hop_problems(board: Board) -> list[Problem]:
 
 
 def _paddle_problems(layout: Layout) -> list[Problem]:
-    """Paddles by themselves: one per side, on the board, slower than the cap."""
+    """Problems of single paddles: one per side, on the board, slower than the cap."""
     problems = []
     seen: dict[str, str] = {}
     for path, paddle in layout.paddles:
@@ -162,7 +162,7 @@ def _paddle_problems(layout: Layout) -> list[Problem]:
     return problems
 
 
-def _one_a_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, Paddle], ...]:
+def _one_per_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, Paddle], ...]:
     """The first paddle of each side."""
     first = {paddle.side: (path, paddle) for path, paddle in reversed(paddles)}
     return tuple(sorted(first.values(), key=lambda item: item[0]))
@@ -281,9 +281,11 @@ def _pair_problems(
 def _crowd_problems(standing: Measured, board: Board) -> list[Problem]:
     """Slant walls may overlap, but each pair may make pockets, so their number is limited."""
     pairs = len(near_pairs(standing.shapes, 2.0 * board.ball_radius)[0])
-    if pairs <= CROWD:
+    if pairs <= MAX_CLOSE_PAIRS:
         return []
-    message = f"has {pairs:,} pairs of parts between which no ball fits, at most {CROWD:,}: remove parts"
+    message = (
+        f"has {pairs:,} pairs of parts between which no ball fits, at most {MAX_CLOSE_PAIRS:,}: remove parts"
+    )
     return [Problem("board", message)]
 
 
@@ -349,12 +351,12 @@ def _touch(path: str, angle: float, other: str) -> Problem:
     return Problem(path, f"{message}: move one of the two")
 
 
-def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
+def _exit_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
     """Whether a ball can be created, and whether it can leave from most of the board."""
     board = layout.board
     above = ball_space.free[ball_space.grid.floor_row :]
     leads_out = ball_space.reached[ball_space.grid.floor_row :]
-    if above.any() and leads_out.sum() >= LEAST_OPEN * above.sum():
+    if above.any() and leads_out.sum() >= MIN_OPEN_SHARE * above.sum():
         return []
     if not above.any():
         floor = creation_floor(board, paddles)

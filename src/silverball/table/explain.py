@@ -2,7 +2,7 @@
 
 Each mistake becomes a `Problem` with its path in the file (``triangular_prism[2].vertices``) and a sentence
 that says what was expected and what was given. An unknown key gets a suggestion: the key that is spelled
-alike, our name for another word of pinball, or the section to which it belongs.
+alike, the name used here for another pinball term, or the section to which it belongs.
 """
 
 from __future__ import annotations

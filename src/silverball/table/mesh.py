@@ -186,11 +186,11 @@ def _circle_of_few(points: list[Point]) -> tuple[tuple[float, float, float], lis
     """The smallest circle around up to four points, and the two or three that define it."""
     pairs = [(_circle_of_two(p, q), [p, q]) for p, q in itertools.combinations(points, 2)]
     triples = [(_circle_of_three(p, q, r), [p, q, r]) for p, q, r in itertools.combinations(points, 3)]
-    holding = [found for found in pairs + triples if all(_holds(found[0], point) for point in points)]
+    holding = [found for found in pairs + triples if all(_contains(found[0], point) for point in points)]
     return min(holding or triples or pairs, key=lambda found: found[0][2])
 
 
-def _holds(circle: tuple[float, float, float], point: Point) -> bool:
+def _contains(circle: tuple[float, float, float], point: Point) -> bool:
     return math.dist(circle[:2], point) <= circle[2] * (1.0 + 1e-12) + 1e-12
 
 

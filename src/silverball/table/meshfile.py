@@ -1,8 +1,8 @@
-"""Readers of mesh files: the vertices that the faces use, at their places in the scene.
+"""Readers of mesh files: the vertices that the faces use, at their positions in the scene.
 
 STL (binary and text), OBJ and GLB (binary glTF 2.0) are read, as far as a footprint needs: no colours, no
-textures, no other files. The file size limits the vertices of STL and OBJ. A GLB can ask for far more than it
-holds (many nodes with one mesh, accessors without data), so its vertices are counted before they are made.
+textures, no other files. The file size limits the vertices of STL and OBJ. A GLB can describe far more than
+it holds (many nodes with one mesh, accessors without data), so its vertices are counted before they are made.
 
 Source: Khronos Group, glTF 2.0 specification, sections 3.5 (scenes), 3.6 (accessors) and 4.4 (GLB).
 """
@@ -27,11 +27,10 @@ JSON_LIMIT = 2**20  # [bytes] of a GLB's scene; chosen: a thousand nodes take a 
 NODES_LIMIT = 10_000  # of a scene, counted once per path
 LINES_LIMIT = 2_200_000  # of text; chosen: the most short lines ("v 1 1 1", "f 1 2 3") in 16 MiB
 LINE_LIMIT = 2**16  # [bytes] of a line of text; chosen: a face of 5,000 corners
-KNOWN = (
-    "KHR_mesh_quantization",
-    "KHR_materials_",
-    "KHR_texture_",
-)  # extensions that are supported, or do not change the shape
+# Extensions that are supported, or do not change the shape
+SUPPORTED_EXTENSIONS = ("KHR_mesh_quantization", "KHR_materials_", "KHR_texture_")
+STL_HEADER = 84  # [bytes] before the triangles of a binary STL; the last four are their number
+GLB_JSON, GLB_BINARY = 0x4E4F534A, 0x004E4942  # types of the chunks of a GLB
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])  # 50 bytes
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 
@@ -48,7 +47,7 @@ def mesh_points(content: bytes, kind: str) -> Floats:
         kind: One of `KINDS`.
 
     Raises:
-        MeshError: The file is damaged, or asks for too much.
+        MeshError: The file is damaged, or exceeds a limit.
     """
     read = {"stl": _stl, "obj": _obj, "glb": _glb}[kind]
     try:
@@ -74,13 +73,14 @@ def mesh_points(content: bytes, kind: str) -> Floats:
 
 def _stl(content: bytes) -> Floats:
     """Every corner of every triangle."""
-    count = int.from_bytes(content[80:84], "little") if len(content) >= 84 else 0
-    ends = 84 + 50 * count
-    is_text = content.lstrip()[:5].lower() == b"solid" and len(content) != ends
+    is_binary = len(content) >= STL_HEADER
+    count = int.from_bytes(content[STL_HEADER - 4 : STL_HEADER], "little") if is_binary else 0
+    end = STL_HEADER + _TRIANGLE.itemsize * count
+    is_text = content.lstrip()[:5].lower() == b"solid" and len(content) != end
     if not is_text:
-        if len(content) < max(ends, 84):
+        if len(content) < max(end, STL_HEADER):
             raise ValueError(f"{len(content):,} bytes are too few for {count:,} triangles")
-        triangles = np.frombuffer(content, _TRIANGLE, count, 84)
+        triangles = np.frombuffer(content, _TRIANGLE, count, STL_HEADER)
         return triangles["corner"].reshape(-1, 3).astype(np.float64)
     values = array("d")
     for line in _lines(content):
@@ -136,7 +136,7 @@ def _glb(content: bytes) -> Floats:
     """The vertices of all meshes of the scene, transformed by their nodes."""
     scene, binary = _chunks(content)
     for extension in scene.get("extensionsRequired", ()):
-        if not str(extension).startswith(KNOWN):
+        if not str(extension).startswith(SUPPORTED_EXTENSIONS):
             raise MeshError(
                 f"needs the extension {str(extension)[:60]!r}, which is not supported: export it without"
             )
@@ -158,7 +158,7 @@ def _glb(content: bytes) -> Floats:
 def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
     """The scene, and the binary data that it refers to."""
     magic, version, _, length, kind = struct.unpack_from("<4sIIII", content)
-    if magic != b"glTF" or version != 2 or kind != 0x4E4F534A:
+    if magic != b"glTF" or version != 2 or kind != GLB_JSON:
         raise ValueError("it does not have the header of binary glTF 2.0")
     if length > JSON_LIMIT:
         raise MeshError(f"has a scene of {length:,} bytes, at most {JSON_LIMIT:,}: simplify it")
@@ -169,7 +169,7 @@ def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
     if len(rest) < 8:
         return scene, rest[:0]
     size, kind = struct.unpack_from("<II", rest)
-    return scene, rest[8 : 8 + size] if kind == 0x004E4942 else rest[:0]
+    return scene, rest[8 : 8 + size] if kind == GLB_BINARY else rest[:0]
 
 
 def _instances(scene: dict[str, Any]) -> list[tuple[int, Floats]]:

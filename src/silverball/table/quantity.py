@@ -26,7 +26,7 @@ SHOWN = 40  # characters of a refused value in a message; chosen to keep it on o
 
 
 def shown(value: object) -> str:
-    """Return a value as it stands in a message: as TOML would write it, and short."""
+    """Format a value for a message: as TOML would write it, and short."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, dict):

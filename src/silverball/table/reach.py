@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 CELL = 1.25  # [ball radii] side of a cell in which a ball may be created
 SAMPLES = 4  # samples along each side of a cell
+NEAR_SAMPLES = 4  # samples around a point that count as near it, in each direction
 STEP = CELL / SAMPLES  # [ball radii] between two samples
 PASSAGE = (
     math.sqrt(2.0) * STEP
@@ -75,10 +76,12 @@ class Space(NamedTuple):
     reached: Bools
 
     def reaches(self, point: tuple[float, float]) -> bool:
-        """Return whether a way leads from the gutter to a place, within four steps."""
+        """Return whether a point is within a few samples of one that leads to the gutter."""
         row = round((point[0] - float(self.grid.x[0])) / self.grid.step) if len(self.grid.x) else 0
         column = round((point[1] - float(self.grid.z[0])) / self.grid.step)
-        rows, columns = slice(max(0, row - 4), max(0, row + 5)), slice(max(0, column - 4), max(0, column + 5))
+        rows, columns = (
+            slice(max(0, index - NEAR_SAMPLES), max(0, index + NEAR_SAMPLES + 1)) for index in (row, column)
+        )
         return bool(self.reached[rows, columns].any())
 
     def places(self) -> tuple[Floats, float]:

@@ -86,7 +86,7 @@ def pockets(shapes: Shapes, board: Board, space: Space) -> list[Pocket]:
     found: list[Pocket] = []
     for ball in balls:
         if space.reaches((float(ball[0]), float(ball[1]))):
-            pocket = _held(ball, shapes, board)
+            pocket = _pocket_at(ball, shapes, board)
             if pocket is not None:
                 found.append(pocket)
     return found
@@ -106,7 +106,7 @@ def _gaps(balls: Floats, shapes: Shapes, board: Board) -> Floats:
     return np.concatenate([to_shapes, border_gaps(balls, board) - board.ball_radius], axis=1)
 
 
-def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
+def _pocket_at(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
     """The pocket made of the contacts that hold a ball at a place, or None."""
     gaps = _gaps(ball[None, :], shapes, board)[0]
     contacts: list[tuple[float, int]] = []  # (angle of the normal to the right [rad], shape)

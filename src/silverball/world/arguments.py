@@ -1,4 +1,4 @@
-"""Checks of arguments: integers in a range, seeds, and the ways to choose some of many worlds."""
+"""Checks of arguments: integers in a range, seeds, and selections of worlds."""
 
 from __future__ import annotations
 
