@@ -14,13 +14,13 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from silverball.physics.audit import (
+    angle_after,
     depth_in_borders,
     depth_in_other_ball,
     depth_in_paddle,
     depth_in_stationary,
     gap_to,
     is_out_of_reach,
-    angle_after,
 )
 from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import (

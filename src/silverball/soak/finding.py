@@ -18,7 +18,6 @@ from pydantic import AfterValidator, Field, ValidationError
 from pydantic.dataclasses import dataclass
 
 from silverball.errors import StateError
-from silverball.game.replay.reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.records import BALL_COUNT, NOTHING, BoardGeometry, Lane, Motion
 from silverball.physics.validation import validate_world
@@ -136,7 +135,7 @@ class Finding:
             table = Table.model_validate(tomllib.loads(self.table_text))
         except ValidationError:
             raise ValueError("table_text: is a table that cannot be used") from None
-        if table.random is not None or has_mesh(table):
+        if table.random is not None or table.has_mesh:
             raise ValueError("table_text: is not a finished table")
         if table_digest(table) != self.table_digest:
             raise ValueError("table_text: does not belong to table_digest; it was changed")

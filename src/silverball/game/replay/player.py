@@ -58,7 +58,7 @@ class Playback:
         return self.game.tick
 
     def advance(self, ticks: int = 1) -> None:
-        """Play on with the recorded inputs, at most to the end; there the game ends as it did.
+        """Advance with the recorded inputs, at most to the end; there the game ends as recorded.
 
         Raises:
             InputRefusedError: The game refused an input, so it is not the game that was recorded.
@@ -68,7 +68,7 @@ class Playback:
             self.finish()
 
     def play(self, ticks: int) -> None:
-        """Play on with the recorded inputs, without those that come after the last tick."""
+        """Advance with the recorded inputs, without those that come after the last tick."""
         rate = self.replay.tick_rate
         target = min(self.tick + max(ticks, 0), self.replay.ticks)
         while self.tick < target and not self.game.is_over:
@@ -151,7 +151,7 @@ class ReplayPlayer(Playback):
     def prepare(self, ticks: int) -> float:
         """Play some ticks ahead in the background, so that `seek` is quick up to there.
 
-        Call it now and then while something else is shown: an hour of play takes about a second in all.
+        Call it repeatedly while something else is shown: an hour of play takes about a second in all.
 
         Args:
             ticks: How many ticks, at most.
@@ -200,7 +200,7 @@ def check_rules(replay: Replay, rules: Rules | None) -> None:
         raise StateError(f"this replay was scored by the built-in rules, not by {given!r}; leave `rules` out")
     if not given:
         raise StateError(
-            f"this replay was scored by rules of its own, {replay.rules!r}; play it in Python and give them, "
+            f"this replay was scored by custom rules, {replay.rules!r}; play it in Python and pass them, "
             "as in replay.verify(rules=…)"
         )
-    raise StateError(f"this replay was scored by the rules {replay.rules!r}, not by {given!r}; give those")
+    raise StateError(f"this replay was scored by the rules {replay.rules!r}, not by {given!r}; pass those")

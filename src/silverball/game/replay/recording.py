@@ -3,10 +3,10 @@
     q3Zx0aKfB1Gg +c4kK2a
 
 A line begins with the digests of the state at the end of the second, two characters for each group of fields
-(see `digest`). The inputs of the second follow, if there are any. A letter is a change of a button: a small
-one of the left button, a capital one of the right button, down and up in turn. The letter also gives the
-ticks since the input before it: a 0, b 1, … z 25, and a number in front adds 26 each. The first input counts
-from the beginning of the second. `+` and `!` before a small letter make it a new ball and a shove.
+(see `digest`). The inputs of the second follow, if there are any. A letter is a change of a button, down and
+up in turn: lower case for the left button, upper case for the right one. The letter also gives the ticks
+since the previous input: a is 0, b is 1, … z is 25; a number in front of it adds 26 each. The first input
+counts from the beginning of the second. `+` before a lower-case letter is a new ball, `!` a shove.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def format_input(kind: str, ticks: int) -> str:
 
     Args:
         kind: The kind of input.
-        ticks: Ticks since the input before it.
+        ticks: Ticks since the previous input.
     """
     more, letter = divmod(ticks, LETTERS)
     first = "A" if kind == RIGHT else "a"
@@ -61,11 +61,11 @@ def parse_inputs(text: str) -> Iterator[Input]:
     """
     tick = 0
     for prefix, more, letter in _TOKEN.findall(text):
-        is_small = letter >= "a"
-        if more.startswith("0") or (prefix and not is_small):
+        is_lower = letter >= "a"
+        if more.startswith("0") or (prefix and not is_lower):
             raise ValueError(f"{prefix}{more}{letter}")
-        tick += LETTERS * int(more or 0) + ord(letter) - ord("a" if is_small else "A")
-        yield Input(tick, prefix or (LEFT if is_small else RIGHT))
+        tick += LETTERS * int(more or 0) + ord(letter) - ord("a" if is_lower else "A")
+        yield Input(tick, prefix or (LEFT if is_lower else RIGHT))
 
 
 class Recorder:
@@ -102,7 +102,7 @@ class Recorder:
         return len(self.lines) >= SECONDS_LIMIT or self._size + len(self.inputs) >= PLAY_LIMIT
 
 
-def has_own_rules(text: str) -> bool:
+def has_custom_rules(text: str) -> bool:
     """Whether the text of a replay is of a game with rules that are not built in."""
     first_line = text.removeprefix("\ufeff").partition("\n")[0].rstrip("\r")
     return first_line == f"{FIRST} {FORMAT_WITH_RULES}"
