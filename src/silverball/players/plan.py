@@ -33,10 +33,10 @@ PlanRecord: TypeAlias = Any  # a PLAN record
 
 # All of the following are in decision steps, and chosen, not tuned.
 FIRST_SPAN = 90  # within which a new press begins: long enough to let a caught ball come to rest
-SHORT, LONG = 10, 90  # the longest short press (a shot) and the longest long one (a catch)
+SHORT, LONG = 10, 90  # upper limits of a short press (a shot) and of a long one (a catch)
 GAP = 30  # at most, between two presses of a new plan
 SHIFT = 8  # at most, by which a press is shifted to make another plan
-FRESH = 0.3  # of the plans are new, the others vary the best one
+NEW_SHARE = 0.3  # of the plans that are new; the others vary the best one
 
 
 class Change(IntEnum):
@@ -98,7 +98,7 @@ def draw(seed: int, step: int, count: int, below: int) -> int:
 @internal
 def wants_new_plan(seed: int, step: int, count: int) -> bool:
     """Whether to draw a new plan, by the count-th random number of a step, rather than vary the best one."""
-    return uniform(seed ^ PLANNER_KEY, step * DRAWS + count) < FRESH
+    return uniform(seed ^ PLANNER_KEY, step * DRAWS + count) < NEW_SHARE
 
 
 @internal
@@ -146,10 +146,10 @@ def vary_plan(plan: PlanRecord, earliest: int, seed: int, step: int, count: int)
         if draw(seed, step, count + 4, 2) == 0:
             by = -by
         count += 5
-        is_over = plan.end[side, press] <= max(earliest, plan.start[side, press])
+        has_ended = plan.end[side, press] <= max(earliest, plan.start[side, press])
         if change == Change.UNTIL:
             plan.until = max(earliest, plan.until + 3 * by)
-        elif is_over:
+        elif has_ended:
             count = draw_press(plan, side, press, earliest, seed, step, count)
             plan.until = max(plan.until, plan.end[side, press])
         elif change == Change.DROP:

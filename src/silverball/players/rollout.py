@@ -97,11 +97,11 @@ def play(
 
     Args:
         batch: The worlds.
-        player: The name of the player who presses.
+        player: The name of the player.
         seconds: Simulated time of each world [s], rounded to whole ticks.
         balls: Balls to keep on the board, at most the table's max_balls; 0 creates none.
         audit: Whether to check every tick for a ball inside anything (halves the speed).
-        progress: Called now and then with the simulated seconds so far.
+        progress: Called from time to time with the simulated seconds so far.
 
     Returns:
         The totals.

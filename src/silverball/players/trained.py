@@ -1,4 +1,4 @@
-"""The trained player: presses what a small network says that was trained on random boards.
+"""The trained player: a small neural network, trained on random boards, chooses the buttons.
 
 `examples/train_sb3.py` trains it. This module holds its weights and evaluates it, with NumPy alone.
 
@@ -41,7 +41,7 @@ class Policy:
         command: The command that trained it.
 
     Raises:
-        ValueError: The layers do not fit each other, or have other than small 32-bit integers.
+        ValueError: The layers do not fit each other, or hold anything but small 32-bit integers.
     """
 
     def __init__(self, layers: list[Layer], command: str = "") -> None:

@@ -1,8 +1,8 @@
 """Checks of the soak after every tick: places, contacts, passages, faults, and balls that are stuck.
 
-They use nothing of the solver's own geometry. A ball must be on the board and in the region it was created in
-(`regions.py`), inside nothing, and just at the surface at every contact (`audit.py`). It must not get through
-anything without a contact, nor stay in one place for a minute. The first finding stops a world.
+They do not use the solver's geometry. A ball must be on the board and in the region it was created in
+(`regions.py`), inside nothing, and just at the surface at every contact (`audit.py`). It must not pass
+through anything without a contact, nor stay in one place for a minute. The first finding stops a world.
 """
 
 from __future__ import annotations
@@ -64,11 +64,11 @@ class Found(IntEnum):
     """What a soak can find."""
 
     NOTHING = 0
-    ESCAPE = 1  # a ball where it cannot have got to
+    ESCAPE = 1  # a ball at a place that it cannot reach
     PENETRATION = 2  # a ball deeper than DEPTH inside something
-    PASSAGE = 3  # a ball that got through something without a contact
+    PASSAGE = 3  # a ball that passed through something without a contact
     PHANTOM = 4  # a contact with nothing
-    FAULT = 5  # the world has stopped by itself
+    FAULT = 5  # the solver has stopped the world with a fault
     STUCK = 6  # a ball in one place for too long
 
 
@@ -151,7 +151,7 @@ class Watches(NamedTuple):
 
 @kernel
 def register_new_balls(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
-    """Note where new balls start. On a board that was checked, that can only be the region of the gutter."""
+    """Record where new balls start. On a board that was checked, that can only be the region of the gutter."""
     for slot in range(BALL_COUNT):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id != tracker.id:
@@ -296,9 +296,9 @@ def depth_of_meeting(
 
 @kernel
 def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
-    """Check that no ball got through something without a contact.
+    """Check that no ball passed through anything without a contact.
 
-    The sagitta of a path may only seem to be inside, so that much is allowed.
+    The path is checked as a straight line, so a depth up to its sagitta is allowed.
     """
     world, log = lane.world, lane.log
     a, b = world.ball[0], world.ball[1]
@@ -344,7 +344,7 @@ def watched_tick(
     action: ActionRecord,
     tick: float,
 ) -> None:
-    """Do what the action says, move the world on by one tick, and check it.
+    """Apply an action, advance the world by one tick, and check it.
 
     Args:
         lane: The world.
@@ -384,7 +384,7 @@ def soak_worlds(
 ) -> None:  # fmt: skip
     """Soak the worlds first … end − 1 for a number of ticks of length `tick` [s].
 
-    A world with a finding stands still.
+    A world with a finding is not advanced any further.
     """
     for index in range(first, end):
         world, log, tally = lanes.worlds[index], lanes.logs[index], lanes.tallies[index]

@@ -1,12 +1,12 @@
 """Random play for the soak: which buttons are held, and when balls are created, kicked and shoved.
 
-Two balls are kept on the board. Buttons are held for random times, now and then for only a tick or two; balls
+Two balls are kept on the board. Buttons are held for random times, sometimes for only a tick or two; balls
 are shoved; and in *wild* worlds a ball gets a random velocity about once a second. A *quiet* world presses
 nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball that lies somewhere forever is
 found.
 
 Everything random is a function of the world's seed and a counter, so one world can be run again alone. What
-is done in a tick is an ACTION record: it can be written to a file and done again without this module.
+is done in a tick is an ACTION record, which can be written to a file and replayed without this module.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Drivers(NamedTuple):
 
 
 @kernel
-def drawn(world: WorldRecord, driver: DriverRecord) -> float:
+def next_random(world: WorldRecord, driver: DriverRecord) -> float:
     """The next of the soak's random numbers of a world, in [0, 1)."""
     driver.draws += 1
     return uniform(world.seed ^ SOAK_KEY, driver.draws)
@@ -103,32 +103,32 @@ def choose_action(
     """Choose what is done to a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
-    plays = wild or now * tick % (QUIET + LIVELY) >= QUIET
+    is_active = wild or now * tick % (QUIET + LIVELY) >= QUIET
     for side in range(2):
-        if plays and now >= driver.press_at[side]:
-            down = 1 if drawn(world, driver) < 0.5 else 0
-            hold = HOLDS[int(drawn(world, driver) * len(HOLDS))] * (0.5 + drawn(world, driver))
-            both = drawn(world, driver) < BOTH_SHARE
+        if is_active and now >= driver.press_at[side]:
+            down = 1 if next_random(world, driver) < 0.5 else 0
+            hold = HOLDS[int(next_random(world, driver) * len(HOLDS))] * (0.5 + next_random(world, driver))
+            both = next_random(world, driver) < BOTH_SHARE
             if side == 0 or both:
                 action.left, driver.press_at[0] = down, now + 1 + int(hold / tick)
             if side == 1 or both:
                 action.right, driver.press_at[1] = down, now + 1 + int(hold / tick)
-    if not plays:
+    if not is_active:
         action.left, action.right = 0, 0
     elif now >= driver.shove_at:
         action.shove = 1
-        driver.shove_at = now + 1 + int(drawn(world, driver) * SHOVE_EVERY / tick)
+        driver.shove_at = now + 1 + int(next_random(world, driver) * SHOVE_EVERY / tick)
     for slot in range(BALL_COUNT):
         action.kick[slot] = 0
         if world.ball[slot].id == 0:
             continue
         balls += 1
         if wild and now >= driver.kick_at[slot]:
-            driver.kick_at[slot] = now + 1 + int(drawn(world, driver) * KICK_EVERY / tick)
+            driver.kick_at[slot] = now + 1 + int(next_random(world, driver) * KICK_EVERY / tick)
             speed = board.speed_cap
-            if drawn(world, driver) >= CAP_SHARE:
-                speed *= drawn(world, driver)
-            sine, cosine = sine_cosine(2.0 * pi * drawn(world, driver))
+            if next_random(world, driver) >= CAP_SHARE:
+                speed *= next_random(world, driver)
+            sine, cosine = sine_cosine(2.0 * pi * next_random(world, driver))
             action.kick[slot], action.vx[slot], action.vz[slot] = 1, speed * sine, speed * cosine
     action.create = 0
     if balls < board.max_balls and now >= driver.create_at:

@@ -146,9 +146,9 @@ def record_finding(options: Options, place: FindingPlace) -> Finding:
     """Run the world of a finding again, alone, and record its last `LEAD_SECONDS`."""
     from silverball import __version__
 
-    rehearsal = round_batch(options, place.round, place.world)
-    rehearsal.run(place.tick)
-    watch = rehearsal.watches.states[0]
+    first_run = round_batch(options, place.round, place.world)
+    first_run.run(place.tick)
+    watch = first_run.watches.states[0]
     kind = Found(int(watch["found"]))
     since = int(watch["since"])
     start = since if kind == Found.STUCK else max(0, since - round(LEAD_SECONDS * options.tick_rate))
@@ -183,7 +183,7 @@ def record_finding(options: Options, place: FindingPlace) -> Finding:
 
 
 def reproduce(finding: Finding) -> Found:
-    """Do the actions of a finding again; what the checks find now, `Found.NOTHING` if nothing.
+    """Repeat the actions of a finding; return what the checks find now, `Found.NOTHING` if nothing.
 
     Raises:
         StateError: The state was changed, or is of another version of the physics.
