@@ -1,6 +1,7 @@
 """The threads that bake pictures, a few rows at a time, so that the work can be cancelled at any moment.
 
-Kernels release Python's lock, so a game runs beside them. On Linux the threads also get a lower priority.
+Kernels release Python's lock, so a game can run at the same time. On Linux the threads also get a lower
+priority.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Heights of the parts and measures of the cabinet, which the physics does not know: it has footprints only.
+"""Heights of the parts and dimensions of the cabinet. The physics does not need them: it has footprints only.
 
 All in units [u] of the board. Heights scale with the ball. Most obstacles are lower than a ball, so that it
 stays visible behind them and its shadow falls onto them; rails, caps of cylinders and the apron are taller.

@@ -57,11 +57,11 @@ TOP = 2.0  # [u] below the upper border, where the top of the table begins
 
 # The beginner decides like the reflex player, but presses after a reaction time that varies a little.
 # Source: the reaction to a seen event takes 150 to 250 ms; the jitter is chosen.
-BEGINNER = 3  # not a `PlayerKind`, and none of their numbers
+BEGINNER = 3  # not a `PlayerKind`, so its number differs from all of theirs
 BEGINNER_KEY = 0xBE61  # keeps its random numbers apart from the world's own
 REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once per game
 REACTION_JITTER = 0.03  # [s] by which it may be early or late, drawn for every half second
-DECISION_TICKS = 128  # of decisions that it remembers: more than its slowest reaction
+REMEMBERED_TICKS = 128  # of decisions that it remembers: more than its slowest reaction
 
 
 class Over(IntEnum):
@@ -177,7 +177,7 @@ def play_games(
     kind = BEGINNER if player == "beginner" else int(PlayerKind[player.upper()])
     setup = Setup(kind, round(longest * TICK_RATE), batch.boards.place)
     reached, seen = np.zeros_like(batch.tallies), np.zeros_like(batch.tallies)
-    traces = Traces(records(count, GAME), np.zeros((count, 2, DECISION_TICKS), np.bool_), reached, seen)
+    traces = Traces(records(count, GAME), np.zeros((count, 2, REMEMBERED_TICKS), np.bool_), reached, seen)
     board = batch.tables[0].board
     shape = (int(CELLS * board.length) + 1, int(CELLS * board.width) + 1)
     heat, stays, gaps = _empty_maps(shape)
@@ -264,11 +264,11 @@ def beginner_presses(
     reaction = REACTION[0] + (REACTION[1] - REACTION[0]) * uniform(key, as_int(0))
     half_second = int(world.tick * tick / 0.5)
     late = REACTION_JITTER * (2.0 * uniform(key, 1 + half_second) - 1.0)
-    now = world.tick % DECISION_TICKS
+    now = world.tick % REMEMBERED_TICKS
     for side in range(2):
         c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
         decisions[side, now] = strikes(world, board, c, LOOK_AHEAD + reaction)
-    then = (world.tick - int((reaction + late) / tick)) % DECISION_TICKS
+    then = (world.tick - int((reaction + late) / tick)) % REMEMBERED_TICKS
     return decisions[0, then], decisions[1, then]
 
 

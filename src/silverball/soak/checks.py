@@ -151,7 +151,7 @@ class Watches(NamedTuple):
 
 @kernel
 def register_new_balls(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
-    """Record where new balls start. On a board that was checked, that can only be the region of the gutter."""
+    """Record where new balls start. On a checked board, that can only be the region of the gutter."""
     for slot in range(BALL_COUNT):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id != tracker.id:

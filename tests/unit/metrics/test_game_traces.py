@@ -10,7 +10,7 @@ import pytest
 from boards import full_table, place, speed_of
 from silverball.metrics.game_traces import (
     CELLS,
-    DECISION_TICKS,
+    REMEMBERED_TICKS,
     GAME,
     ON_PADDLE,
     REACTION,
@@ -117,13 +117,13 @@ def test_a_part_is_reached_at_most_once_per_strike() -> None:
 
 def test_the_beginner_presses_a_reaction_time_after_the_ball_could_be_seen_coming() -> None:
     world = World(TABLE, 3, TICK_RATE)
-    decisions = np.zeros((2, DECISION_TICKS), np.bool_)
+    decisions = np.zeros((2, REMEMBERED_TICKS), np.bool_)
     decided, pressed = [], []
     world.create_ball((-1.5, -1.2), (-9.0, 0.0))  # falls onto the outer half of the left paddle
     for tick in range(TICK_RATE):
         record, board, colliders = world.records
         buttons = beginner_presses(record, board, colliders, decisions, 1.0 / TICK_RATE)
-        decided += [tick] * bool(decisions[0, tick % DECISION_TICKS])
+        decided += [tick] * bool(decisions[0, tick % REMEMBERED_TICKS])
         pressed += [tick] * bool(buttons[0])
         world.step(*(bool(button) for button in buttons))
     late = (pressed[0] - decided[0]) / TICK_RATE

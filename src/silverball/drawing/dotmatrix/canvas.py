@@ -135,8 +135,8 @@ class Dots:
         count = max(abs(x1 - x0), abs(y1 - y0)) + 1
         x = np.rint(np.linspace(x0, x1, count)).astype(np.int64)
         y = np.rint(np.linspace(y0, y1, count)).astype(np.int64)
-        there = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
-        self.pixels[y[there], x[there]] = brightness
+        is_inside = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
+        self.pixels[y[is_inside], x[is_inside]] = brightness
 
     def box(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
         """Fill a rectangle."""

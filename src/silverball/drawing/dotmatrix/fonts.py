@@ -135,7 +135,7 @@ def _box(width: int, height: int, thickness: int) -> Glyph:
 
 _fonts = _load(Path(__file__).with_name("fonts.txt"))
 TINY = _fonts["tiny"]
-"""3 × 5 dots, capitals only: for what is of little importance."""
+"""3 × 5 dots, capitals only: for minor texts."""
 NORMAL = _fonts["normal"]
 """5 × 7 dots, with small letters: for all texts."""
 BOLD = _fonts["bold"]

@@ -67,9 +67,8 @@ class DotPanel:
     def draw(self, target: pygame.Surface, dots: Dots) -> None:
         """Draw dots with the bezel around them; unchanged dots are only copied."""
         if self._face.get_masks() != target.get_masks() or self._face.get_bitsize() != target.get_bitsize():
-            self._face = self._face.convert(
-                target
-            )  # once, because surfaces of the same format are copied fastest
+            # Once, because surfaces of the same format are copied fastest
+            self._face = self._face.convert(target)
         if self._shown is None or not np.array_equal(self._shown, dots.pixels):
             self._shown = dots.pixels.copy()
             self._light(dots.pixels)

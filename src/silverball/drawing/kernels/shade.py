@@ -56,7 +56,7 @@ def radiance(scene: Scene, part: int, point: Vector, direction: Vector, pixel: f
     light = (light[0] + f.light[0], light[1] + f.light[1], light[2] + f.light[2])
     # It mirrors more at grazing angles. Source: C. Schlick, "An inexpensive BRDF model", 1994.
     grazing = clamp01(1.0 - toward)
-    # Limited, because far edges, one pixel wide, would flicker between sky and paint.
+    # Limited, because distant edges, one pixel wide, would flicker between sky and paint.
     share = f.gloss + min(1.0 - f.gloss, MAX_GRAZING) * grazing**5
     rx, ry, rz = dx + 2.0 * toward * f.nx, dy + 2.0 * toward * f.ny, dz + 2.0 * toward * f.nz
     if part == FLOOR:
