@@ -33,7 +33,7 @@ from silverball.table.parts import (
     Paddle,
     RandomRecipe,
     SlantWall,
-    StandingPart,
+    StationaryPart,
     TriangularPrism,
 )
 from silverball.table.placement_rules import recipe_problems
@@ -78,10 +78,10 @@ class Layout(NamedTuple):
 
 
 class Measured(NamedTuple):
-    """The standing parts of a layout that have an extent, with their shapes."""
+    """The stationary parts of a layout that have an extent, with their shapes."""
 
     paths: list[str]
-    parts: list[StandingPart]
+    parts: list[StationaryPart]
     shapes: Shapes
 
 
@@ -90,28 +90,28 @@ def check_layout(layout: Layout) -> list[Problem]:
     board_problems = _board_problems(layout.board)
     paddle_problems = _paddle_problems(layout)
     problems = board_problems + _hop_problems(layout.board) + paddle_problems
-    standing, part_problems = _standing(layout)
+    stationary, part_problems = _stationary(layout)
     problems += part_problems
     if board_problems:
         return problems
     layout = layout._replace(paddles=_one_per_side(layout.paddles))  # the others are problems already
-    overlaps, tight = _pair_problems(standing, layout.board)
+    overlaps, tight = _pair_problems(stationary, layout.board)
     problems += overlaps[:OVERLAPS_LISTED]
     if len(overlaps) > OVERLAPS_LISTED:
         problems.append(Problem("", f"and {len(overlaps) - OVERLAPS_LISTED:,} more overlaps"))
-    problems += _sweep_problems(layout, standing)
+    problems += _sweep_problems(layout, stationary)
     paddles = tuple(paddle for _, paddle in layout.paddles)
-    outlines = [part.outline() for part in standing.parts]
+    outlines = [part.outline() for part in stationary.parts]
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
     problems += _exit_problems(layout, paddles, ball_space)
-    crowd = _crowd_problems(standing, layout.board)
+    crowd = _crowd_problems(stationary, layout.board)
     problems += crowd
     can_rest_anywhere = layout.board.gravity == 0.0
     if len(overlaps) <= OVERLAPS_LISTED and not crowd and not can_rest_anywhere:
-        problems += _trap_problems(layout, standing, ball_space)
+        problems += _trap_problems(layout, stationary, ball_space)
     if layout.random is not None:
-        problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)
+        problems += recipe_problems(layout.board, stationary.parts, paddles, layout.random)
     return problems
 
 
@@ -195,12 +195,12 @@ def _tip_and_hop(tip_speed: float, paddle: Paddle, board: Board) -> float:
     return tip_speed + math.sqrt(2.0 * (board.gravity + tip_speed**2 / paddle.reach) * HOP)
 
 
-def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
-    """The standing parts with an extent, and the problems of those without one or beyond the board."""
+def _stationary(layout: Layout) -> tuple[Measured, list[Problem]]:
+    """The stationary parts with an extent, and the problems of those without one or beyond the board."""
     problems: list[Problem] = []
     paths: list[str] = []
-    parts: list[StandingPart] = []
-    everything: tuple[tuple[str, StandingPart], ...] = (
+    parts: list[StationaryPart] = []
+    everything: tuple[tuple[str, StationaryPart], ...] = (
         *layout.slant_walls,
         *layout.triangular_prisms,
         *layout.cylinders,
@@ -215,7 +215,7 @@ def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
     return Measured(paths, parts, Shapes.of([part.outline() for part in parts])), problems
 
 
-def _own_problem(path: str, part: StandingPart, board: Board) -> Problem | None:
+def _own_problem(path: str, part: StationaryPart, board: Board) -> Problem | None:
     core, radius = part.outline()
     points = np.array(core)
     path = f"{path}.{_place_key(part)}"
@@ -241,7 +241,7 @@ def _height(corners: Floats) -> float:
     return abs(twice_area) / longest if longest > 0.0 else 0.0
 
 
-def _place_key(part: StandingPart) -> str:
+def _place_key(part: StationaryPart) -> str:
     """The key of a part's position."""
     if isinstance(part, SlantWall):
         return "end"
@@ -249,12 +249,12 @@ def _place_key(part: StandingPart) -> str:
 
 
 def _pair_problems(
-    standing: Measured, board: Board
+    stationary: Measured, board: Board
 ) -> tuple[list[Problem], list[tuple[Problem, tuple[float, float]]]]:
     """Overlaps; and gaps that a ball barely fits, each with the middle of the gap."""
     overlaps: list[Problem] = []
     tight: list[tuple[Problem, tuple[float, float]]] = []
-    shapes, parts, paths = standing.shapes, standing.parts, standing.paths
+    shapes, parts, paths = stationary.shapes, stationary.parts, stationary.paths
     if not parts:
         return overlaps, tight
     widest = (2.0 + PASSAGE) * board.ball_radius
@@ -278,9 +278,9 @@ def _pair_problems(
     return overlaps, tight
 
 
-def _crowd_problems(standing: Measured, board: Board) -> list[Problem]:
+def _crowd_problems(stationary: Measured, board: Board) -> list[Problem]:
     """Slant walls may overlap, but each pair may make pockets, so their number is limited."""
-    pairs = len(near_pairs(standing.shapes, 2.0 * board.ball_radius)[0])
+    pairs = len(near_pairs(stationary.shapes, 2.0 * board.ball_radius)[0])
     if pairs <= MAX_CLOSE_PAIRS:
         return []
     message = (
@@ -298,7 +298,7 @@ def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
     return Problem(path, message)
 
 
-def _cross(one: StandingPart, other: StandingPart) -> bool:
+def _cross(one: StationaryPart, other: StationaryPart) -> bool:
     """Whether two slant walls cross away from their ends."""
     (a, b, _), near = one.outline()
     (c, d, _), far = other.outline()
@@ -326,7 +326,7 @@ def _middle(first: Floats, second: Floats) -> tuple[float, float]:
     return best[1], best[2]
 
 
-def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
+def _sweep_problems(layout: Layout, stationary: Measured) -> list[Problem]:
     """The parts that the paddles touch while they turn."""
     problems = []
     for index, (path, paddle) in enumerate(layout.paddles):
@@ -339,7 +339,7 @@ def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
         border = touches_border(paddle, layout.board)
         if border is not None:
             problems.append(_touch(path, border[0], BORDER_NAMES[border[1]]))
-        for other_path, part in zip(standing.paths, standing.parts, strict=True):
+        for other_path, part in zip(stationary.paths, stationary.parts, strict=True):
             angle = touches_shape(paddle, *part.outline())
             if angle is not None:
                 problems.append(_touch(path, angle, other_path))
@@ -370,12 +370,12 @@ def _exit_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Spac
     return [Problem("board", message)]
 
 
-def _trap_problems(layout: Layout, standing: Measured, ball_space: Space) -> list[Problem]:
+def _trap_problems(layout: Layout, stationary: Measured, ball_space: Space) -> list[Problem]:
     """The places where a ball would lie forever, with the paddles at rest."""
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for _, paddle in layout.paddles]
-    shapes = Shapes.of([*(part.outline() for part in standing.parts), *resting])
-    paths = [*standing.paths, *(path for path, _ in layout.paddles)]
-    keys = [*(_place_key(part) for part in standing.parts), *("rest_angle" for _ in layout.paddles)]
+    shapes = Shapes.of([*(part.outline() for part in stationary.parts), *resting])
+    paths = [*stationary.paths, *(path for path, _ in layout.paddles)]
+    keys = [*(_place_key(part) for part in stationary.parts), *("rest_angle" for _ in layout.paddles)]
     problems = []
     for shape, slope, (x, z) in level_faces(shapes, layout.board, ball_space):
         message = (

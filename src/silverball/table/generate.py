@@ -50,5 +50,5 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
 
 @functools.lru_cache(maxsize=16)
 def _parts_problems(table: Table) -> tuple[Problem, ...]:
-    """The problems of the standing parts and the rules of a recipe, checked once for all seeds."""
+    """The problems of the stationary parts and the rules of a recipe, checked once for all seeds."""
     return tuple(check_layout(Layout.of(table)))

@@ -422,7 +422,7 @@ class Cylinder(CylinderSurface, _Part):
         return ((x, z), (x, z), (x, z)), radius
 
 
-StandingPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
+StationaryPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
 """A part that does not move."""
 
 PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {

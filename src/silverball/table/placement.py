@@ -89,7 +89,7 @@ def try_recipe(table: Table) -> list[Problem]:
     """
     if table.random is None:
         return []
-    for seed in range(TRIAL_SEEDS if len(table.standing_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
+    for seed in range(TRIAL_SEEDS if len(table.stationary_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
         try:
             board_of(table, seed, layouts=LAYOUTS // TRIAL_SHARE, boards=BOARDS // TRIAL_SHARE)
         except TableError as error:
@@ -101,7 +101,7 @@ def try_recipe(table: Table) -> list[Problem]:
 def _prepare(table: Table) -> _Prepared:
     """Prepare a recipe, once for all seeds."""
     assert table.random is not None
-    around = Surroundings.of(table.board, table.standing_parts, table.paddle)
+    around = Surroundings.of(table.board, table.stationary_parts, table.paddle)
     return _Prepared(table, table.random, around, np.array(allowed_rotations(table.random)))
 
 

@@ -1,7 +1,7 @@
 """Reachability: where a ball can be on the board, and where one may be created.
 
 The places of a ball's centre are sampled on a square grid. A sample is free if a ball there touches no
-border, no standing part and no paddle at rest. It is reached if it is eight-connected to the gutter. A
+border, no stationary part and no paddle at rest. It is reached if it is eight-connected to the gutter. A
 passage is found if it is wider than a ball by about 0.45 ball radii; `check.py` refuses narrower ones, so for
 a checked table the result is exact.
 
@@ -118,16 +118,16 @@ def ball_places(table: Table) -> tuple[Floats, float]:
         The centres of the cells (x, z) [u], shape [cell, 2], row by row from the paddles to the top, each
         from left to right; and the side of a cell [u].
     """
-    return space(table.board, table.paddle, [part.outline() for part in table.standing_parts]).places()
+    return space(table.board, table.paddle, [part.outline() for part in table.stationary_parts]).places()
 
 
-def space(board: Board, paddles: tuple[Paddle, ...], standing: list[Outline]) -> Space:
-    """Return the free space for a ball between the standing parts and the paddles at rest."""
+def space(board: Board, paddles: tuple[Paddle, ...], stationary: list[Outline]) -> Space:
+    """Return the free space for a ball between the stationary parts and the paddles at rest."""
     grid = Grid.of(board, paddles)
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in paddles]
     margin = board.wall_thickness + board.ball_radius
     free = np.outer(grid.x <= 0.5 * board.length - margin, np.abs(grid.z) <= 0.5 * board.width - margin)
-    for core, radius in [*standing, *resting]:
+    for core, radius in [*stationary, *resting]:
         _block(free, grid, core, radius + board.ball_radius)
     return Space(grid, free, _connected_to_first_row(free))
 

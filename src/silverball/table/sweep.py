@@ -20,7 +20,7 @@ from silverball.table.parts import Board, Paddle, Triangle
 
 CLEARANCE = 0.02  # [u] that a turning paddle must leave; chosen: far above rounding, far below a ball
 FINEST = 1e-4  # [u] least motion that is still bisected
-CACHED = 256  # cached results; the boards of a recipe share their standing parts
+CACHED = 256  # cached results; the boards of a recipe share their stationary parts
 SPLITS = 40  # halvings at most; from 170° and a reach of 10 u, twenty are enough
 
 
@@ -31,7 +31,7 @@ def sweep_angles(paddle: Paddle) -> tuple[float, float]:
 
 @functools.lru_cache(maxsize=CACHED)
 def touches_shape(paddle: Paddle, core: Triangle, radius: float) -> float | None:
-    """Return an angle [deg] at which a paddle is too close to a standing part, or None."""
+    """Return an angle [deg] at which a paddle is too close to a stationary part, or None."""
     other = np.array(core)
     if float(distances(np.array(paddle.pivot), other)) - radius > paddle.reach + CLEARANCE:
         return None

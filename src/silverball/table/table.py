@@ -26,7 +26,7 @@ from silverball.table.parts import (
     Paddle,
     RandomRecipe,
     SlantWall,
-    StandingPart,
+    StationaryPart,
     TriangularPrism,
 )
 from silverball.table.placement import try_recipe
@@ -81,7 +81,7 @@ class Table(Model):
     """The rules of an arcade game."""
 
     @property
-    def standing_parts(self) -> tuple[StandingPart, ...]:
+    def stationary_parts(self) -> tuple[StationaryPart, ...]:
         """The parts that do not move: slant walls, triangular prisms, cylinders, in this order."""
         return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
 

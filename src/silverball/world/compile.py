@@ -118,13 +118,13 @@ def compile_parts(table: Table) -> NDArray[Any]:
         TableError: A part has no extent, or two paddles are on one side.
     """
     _refuse_degenerate(table)
-    rows = records(Part.FIRST_SHAPE + len(table.standing_parts), COLLIDER)
+    rows = records(Part.FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
     rows["speed_factor"] = 1.0
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
     for number, side in PADDLES:
         _set_paddle(rows[number], paddles.get(side))
-    for row, part in zip(rows[Part.FIRST_SHAPE :], table.standing_parts, strict=True):
+    for row, part in zip(rows[Part.FIRST_SHAPE :], table.stationary_parts, strict=True):
         if isinstance(part, SlantWall):
             _set_slant_wall(row, part, table.board)
         elif isinstance(part, TriangularPrism):
