@@ -1,6 +1,6 @@
 """Baked pictures of one table at one size, loaded from the cache or baked and saved.
 
-This module needs compiled code, so it is imported only when something is baked or composed.
+This module needs compiled code; import it only when something is baked or composed.
 """
 
 from __future__ import annotations

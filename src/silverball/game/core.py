@@ -297,7 +297,7 @@ class GameCore:
 
     @property
     def short_digests(self) -> str:
-        """The short digests of the state, as they stand in replays."""
+        """The short digests of the state, as written to replays."""
         return short_digests(self._board.to_bytes(), self.rules_text)
 
     def digest(self) -> str:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from silverball.table import Table
 
 RULES_VERSION = 1
-"""Raised whenever the built-in rules give another game than before for the same table, seed and inputs."""
+"""Incremented when the built-in rules change the game for the same table, seed and inputs."""
 
 NO_COMBOS = -1  # `combo_ticks` of rules without combos
 NAME_LIMIT = 60  # characters of the name of rules
@@ -237,7 +237,7 @@ def ended(state: RuleState, tick: int) -> Outcome:
 
 
 def points_by_part(table: Table) -> dict[str, int]:
-    """The points of every part in the table, by its path as events give it."""
+    """The points of every part of a table, by its path in events."""
     points = {f"paddle.{paddle.side}": paddle.points for paddle in table.paddle}
     for kind in ("slant_wall", "triangular_prism", "cylinder"):
         points |= {f"{kind}[{index}]": part.points for index, part in enumerate(getattr(table, kind))}
@@ -245,7 +245,7 @@ def points_by_part(table: Table) -> dict[str, int]:
 
 
 def is_custom_name(name: object) -> bool:
-    """Whether rules that are not built in may have this name."""
+    """Whether custom rules may have this name."""
     if not isinstance(name, str) or name != name.strip() or not 0 < len(name) <= NAME_LIMIT:
         return False
     return name.isprintable() and name not in {str(mode) for mode in Mode}

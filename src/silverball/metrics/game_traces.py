@@ -49,7 +49,7 @@ LONGEST = 600.0  # [s] after which a game is cut short
 CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
 CELLS = 4  # of a map, along each unit
 GAPS = 200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
-STAY = 0.5  # [u] a ball that gets no further than this from where it was has stayed there
+STAY = 0.5  # [u] a ball within this distance of a place has stayed there
 ON_PADDLE = 0.02  # [u] gap below which a ball lies on a paddle or rolls along it; hops are 5e-4 u high
 STRUCK = 5.0  # [u/s] up the table, with which a ball leaves a paddle that has struck it
 CARRY = 0.2  # [s] for which a paddle may carry a ball: contacts within it are one strike
@@ -58,7 +58,7 @@ TOP = 2.0  # [u] below the upper border, where the top of the table begins
 # The beginner decides like the reflex player, but presses after a reaction time that varies a little.
 # Source: the reaction to a seen event takes 150 to 250 ms; the jitter is chosen.
 BEGINNER = 3  # not a `PlayerKind`, so its number differs from all of theirs
-BEGINNER_KEY = 0xBE61  # keeps its random numbers apart from the world's own
+BEGINNER_KEY = 0xBE61  # makes its random numbers independent of the world's
 REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once per game
 REACTION_JITTER = 0.03  # [s] by which it may be early or late, drawn for every half second
 REMEMBERED_TICKS = 128  # of decisions that it remembers: more than its slowest reaction

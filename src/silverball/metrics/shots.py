@@ -32,8 +32,8 @@ AFTER = 3.0  # [s] after the press, for which a shot is followed
 START = 1.5  # [u] up the guide from its lower end, where the ball is released; less on a shorter guide
 CLEAR = 0.002  # [u] between the ball and the guide there
 LOW, HIGH = 2.0, 5.0  # [u] the two x at which the crossing of a shot is recorded
-AIMED = 3.0  # [u] beyond the paddles' reach: a shot was aimed at what it meets from there on
-MIDDLE = 0.16  # of the board's width: a shot that comes nearer to the middle than this is one to the middle
+AIM_DISTANCE = 3.0  # [u] beyond the paddles' reach: a shot is aimed at the first part met from there on
+MIDDLE = 0.16  # of the board's width: a shot within this distance of the middle goes to the middle
 DEGREES = 180.0 / np.pi
 
 
@@ -202,7 +202,7 @@ def shoot(
                     is_met_again = shot.launched == 1
                 elif event.kind == EventKind.HIT and shot.first == NOTHING:
                     shot.first, shot.first_x, shot.first_z = event.part, event.x, event.z
-                    if isnan(shot.low_z) and event.x > board.paddle_top + AIMED:
+                    if isnan(shot.low_z) and event.x > board.paddle_top + AIM_DISTANCE:
                         shot.clean, shot.aim_z = shot.launched, event.z
             if is_met_again:
                 break

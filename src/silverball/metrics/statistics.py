@@ -70,7 +70,7 @@ def share(count: int, of: int) -> Estimate:
 
 
 def median_life(times: NDArray[np.float64], ended: NDArray[np.bool_]) -> Estimate:
-    """The median life, by the Kaplan–Meier estimate of survival, which is right for censored lives too.
+    """The median life, by the Kaplan–Meier estimate of survival, which allows for censored lives.
 
     Sources: E. L. Kaplan, P. Meier, "Nonparametric estimation from incomplete observations", J. Am. Stat.
     Assoc. 53 (1958); interval: R. Brookmeyer, J. Crowley, "A confidence interval for the median survival

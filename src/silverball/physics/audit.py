@@ -62,7 +62,7 @@ def part_gap(c: ColliderRecord, angle: float, x: float, z: float) -> float:
         return corners_gap(x, z, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
     if c.kind != Kind.PADDLE:
         return inf
-    # Turn the ball backwards instead of the three corners; the right paddle is mirrored.
+    # Rotate the ball backwards instead of the three corners; the right paddle is mirrored.
     sine, cosine = sin(-angle), cos(-angle)
     dx, dz = x - c.x, (z - c.z) * c.side
     return corners_gap(cosine * dx + sine * dz, cosine * dz - sine * dx, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)

@@ -68,7 +68,7 @@ def state_at(ball: BallRecord, age: float) -> BallMotion:
 
 @inlined
 def newton_refined(time: float, gap: float, rate: float) -> float:
-    """Refine a time by one Newton step on the gap; a graze too flat for a short step is left as it is."""
+    """Refine a time by one Newton step on the gap; a graze too flat for a short step is not changed."""
     if abs(gap) >= abs(rate) * NEWTON_TIME:  # also where both are 0
         return time
     return max(0.0, time - gap / rate)

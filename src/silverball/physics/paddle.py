@@ -83,7 +83,7 @@ def paddle_distance(c: ColliderRecord, angle: float, x: float, z: float) -> tupl
 
 @inlined
 def stationary_sine_cosine(c: ColliderRecord, angle: float) -> tuple[float, float]:
-    """Look up or compute sine and cosine of a stationary paddle's angle; precomputed at both stops."""
+    """Compute sine and cosine of a stationary paddle's angle; they are precomputed at both stops."""
     if angle == c.angle_rest:
         return c.sine_rest, c.cosine_rest
     if angle == c.angle_up:

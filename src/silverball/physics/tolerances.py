@@ -88,8 +88,8 @@ LOW_GRAVITY = 0.1
 not take a million searches. Smaller: it may. Larger: no harm, but different bits."""
 
 MAX_SEARCH_TIME = 1e4
-"""[s] No search is longer. Smaller: more searches for a ball at rest without gravity. Larger: times lose
-digits."""
+"""[s] Upper limit of any search. Smaller: more searches for a ball at rest without gravity. Larger: times
+lose digits."""
 
 SKIN_SHARE = 0.5
 """Where parts are close to each other, `skin` is this share of the mean distance between them. Source:

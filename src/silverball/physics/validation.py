@@ -70,9 +70,9 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
 
 @internal
 def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
-    """Whether the paddles are within their stops and no ball is inside anything; if not, set the fault.
+    """Check that the paddles are within their stops and no ball is inside anything; if not, set the fault.
 
-    Two balls that overlap are moved apart first, where that is possible.
+    Two overlapping balls are moved apart first, if that is possible.
     """
     board, colliders = geometry.board, geometry.colliders
     for side in range(2):
@@ -113,7 +113,7 @@ def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: 
 
 @kernel
 def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
-    """Whether positions and speeds of the balls are possible; if not, set the world's fault."""
+    """Check that positions and speeds of the balls are possible; if not, set the fault and return False."""
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0 or is_valid_ball(ball, board):

@@ -17,7 +17,7 @@ import numpy as np
 from silverball.physics.kernel import as_int, internal
 from silverball.physics.portable_math import uniform
 
-PLANNER_KEY = 0x9_1A77  # keeps the planner's random numbers apart from the world's own
+PLANNER_KEY = 0x9_1A77  # makes the planner's random numbers independent of the world's
 DRAWS = 4096  # random numbers reserved for one step
 PRESSES = 2  # of each paddle in one plan: to catch a ball and to shoot it
 

@@ -171,7 +171,7 @@ def report(world: WorldRecord, watch: WatchRecord, found: int, slot: int, since:
 
 @kernel
 def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
-    """Check that no ball is where it cannot be, or inside anything."""
+    """Check that every ball is at a possible place and not inside anything."""
     board, colliders, now = truth.board, truth.colliders, world.tick
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
@@ -200,7 +200,7 @@ def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
 
 @kernel
 def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
-    """Check that every ball was at the surface of the part that it met, neither inside nor away from it."""
+    """Check that every ball touched the surface of the part that it met."""
     world, log = lane.world, lane.log
     if log.lost > 0:
         return
@@ -286,7 +286,7 @@ def depth_along_path(
 def depth_of_meeting(
     previous_a: PreviousBall, a: BallRecord, previous_b: PreviousBall, b: BallRecord, radius: float
 ) -> float:
-    """How deep two balls were inside each other on their paths [u]; straight, so the relative one is too."""
+    """How deep two balls were inside each other on their straight paths [u]."""
     x, z = previous_b.x - previous_a.x, previous_b.z - previous_a.z
     dx, dz = b.x - a.x - x, b.z - a.z - z
     square = dx * dx + dz * dz

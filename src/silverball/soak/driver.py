@@ -31,7 +31,7 @@ from silverball.physics.records import (
     records,
 )
 
-SOAK_KEY = 0x50A4  # keeps these random numbers apart from the world's own
+SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's
 # All of the following are chosen.
 HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] for which a button may be held or released, each as likely
 BOTH_SHARE = 0.2  # of the presses are of both buttons at once
@@ -100,7 +100,7 @@ def choose_action(
     tick: float,
     wild: bool,
 ) -> None:
-    """Choose what is done to a world before and in its next tick, of length `tick` [s]."""
+    """Choose the action of a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
     is_active = wild or now * tick % (QUIET + LIVELY) >= QUIET
@@ -145,7 +145,7 @@ def apply_action(
     log: LogRecord,
     action: ActionRecord,
 ) -> None:
-    """Do the part of an action that comes before the tick: new velocities and a new ball."""
+    """Apply the part of an action that comes before the tick: new velocities and a new ball."""
     clear_log(log)
     for slot in range(BALL_COUNT):
         if action.kick[slot] != 0 and world.ball[slot].id != 0:

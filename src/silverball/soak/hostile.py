@@ -115,7 +115,7 @@ def heap(site: _Site) -> list[Part]:
 
 
 def pocket(site: _Site) -> list[Part]:
-    """A V of two slant walls, open at a random side: a ball is held where it gets too narrow for it."""
+    """A V of two slant walls, open at a random side, in which a ball gets stuck."""
     turn, half = site.pick.uniform(0.0, 2.0 * math.pi), site.pick.uniform(0.02, 0.6)
     long = site.pick.uniform(0.5, 2.5)
     return [

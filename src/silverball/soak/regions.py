@@ -121,7 +121,7 @@ def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderR
 
 @kernel
 def cell_number(value: float, low: float, cell: float, count: int) -> int:
-    """The row or column of a coordinate, the first or last one if it lies beyond."""
+    """The row or column of a coordinate, clamped to the first and last one."""
     return int(min(max(floor((value - low) / cell), 0.0), count - 1.0))
 
 

@@ -54,7 +54,7 @@ OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
 class Layout(NamedTuple):
     """The parts of a table, each with its path in the file.
 
-    The valid parts of a file with mistakes make a layout too.
+    A file with mistakes has a layout too, made of its valid parts.
     """
 
     board: Board
@@ -133,7 +133,7 @@ def _board_problems(board: Board) -> list[Problem]:
 
 
 def _hop_problems(board: Board) -> list[Problem]:
-    """A ball at rest hops; if a hop counted as a hit, the ball would score forever."""
+    """Check that a hop cannot count as a hit: a ball at rest hops, and would score forever."""
     hop = math.sqrt(2.0 * board.gravity * HOP)
     if board.hit_speed >= hop / HOP_SHARE:
         return []
@@ -169,7 +169,7 @@ def _one_per_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, P
 
 
 def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
-    """A tip as fast as the speed cap would pass through balls that it has just hit."""
+    """Check that the tip is slower than the cap; otherwise it would pass through balls that it has hit."""
     if _tip_and_hop(paddle.tip_speed, paddle, board) < board.speed_cap:
         return []
     quick = "stroke" if paddle.stroke <= paddle.return_stroke else "return_stroke"
@@ -279,7 +279,7 @@ def _pair_problems(
 
 
 def _crowd_problems(stationary: Measured, board: Board) -> list[Problem]:
-    """Slant walls may overlap, but each pair may make pockets, so their number is limited."""
+    """Limit the number of close pairs: slant walls may overlap, but each pair may make pockets."""
     pairs = len(near_pairs(stationary.shapes, 2.0 * board.ball_radius)[0])
     if pairs <= MAX_CLOSE_PAIRS:
         return []
@@ -352,7 +352,7 @@ def _touch(path: str, angle: float, other: str) -> Problem:
 
 
 def _exit_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
-    """Whether a ball can be created, and whether it can leave from most of the board."""
+    """Check that a ball can be created, and that it can leave from most of the board."""
     board = layout.board
     above = ball_space.free[ball_space.grid.floor_row :]
     leads_out = ball_space.reached[ball_space.grid.floor_row :]

@@ -1,4 +1,4 @@
-"""Random boards: `generate_table` makes the board of a seed from a recipe."""
+"""Random boards: `generate_table` makes a board from a recipe and a seed."""
 
 from __future__ import annotations
 

@@ -199,7 +199,7 @@ def _circle_of_two(p: Point, q: Point) -> tuple[float, float, float]:
 
 
 def _circle_of_three(p: Point, q: Point, r: Point) -> tuple[float, float, float]:
-    """The circle through three points; if they lie on a line, the largest one through two of them."""
+    """The circle through three points; for collinear points the largest one through two of them."""
     ax, az, bx, bz = q[0] - p[0], q[1] - p[1], r[0] - p[0], r[1] - p[1]
     twice = 2.0 * (ax * bz - az * bx)
     if twice == 0.0:

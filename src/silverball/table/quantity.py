@@ -54,7 +54,7 @@ class Rule(ABC):
 
     @abstractmethod
     def check(self, value: Any) -> Any:
-        """Return the canonical value, or refuse with what was expected and what was given."""
+        """Return the canonical value, or refuse with a sentence: what was expected, what was given."""
 
     @abstractmethod
     def json_schema(self) -> JsonSchemaValue:

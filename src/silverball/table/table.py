@@ -150,7 +150,7 @@ def check_table(table: Table) -> list[Problem]:
 
 
 def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = None) -> Table:
-    """Make a table of the data of a table file, with every check.
+    """Make a table from the data of a table file, with every check.
 
     Args:
         data: The sections of the file; a section may be a dict or a model.
@@ -188,7 +188,7 @@ def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = No
 
 
 def _merged(model: BaseModel, changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The data of a model, as its section of a file holds them, with changes merged into it."""
+    """Return the data of a model, as in a table file, with changes merged into them."""
     data = model.model_dump(exclude_defaults=True)
     for key, value in changes.items():
         current = getattr(model, key, None) if key in type(model).model_fields else None

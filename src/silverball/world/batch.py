@@ -264,7 +264,7 @@ class WorldBatch:
         return gather(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
 
     def restore(self, snapshot: Snapshot, index: Index = None) -> None:
-        """Go back to saved states, bit for bit; each world is then on the table it was saved on.
+        """Restore saved states, bit for bit; each world is then on the table it was saved on.
 
         Record i of the snapshot goes into the i-th chosen world, a single record into all of them:
         ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches share the seed, so

@@ -74,7 +74,7 @@ class SingleStepper:
         self._step: Callable[[Any, int, int], int] = self._first_step
 
     def __reduce__(self) -> Any:
-        """Refuse to be copied: a copy would hold the addresses of the original's arrays."""
+        """Refuse copies: a copy would hold the addresses of the original's arrays."""
         raise TypeError("SingleStepper holds addresses and cannot be copied; copy the World that owns it")
 
     def step(self, buttons: int, ticks: int) -> int:

@@ -302,7 +302,7 @@ class World:
         return saved_world.pack(self._record, self._batch.boards.digests[0], self.tick_rate)
 
     def restore(self, state: bytes) -> None:
-        """Go back to a saved state, bit for bit.
+        """Restore a saved state, bit for bit.
 
         The events are dropped. Two overlapping balls in an edited state are moved apart equally. On any error
         nothing has changed.

@@ -12,7 +12,7 @@
     ...
     checksum = 0a1b...            of all text before this line
 
-Format 2 has one more line before the table, `own_rules = NAME`, for games with rules that are not built in.
+Format 2 has one more line before the table, `own_rules = NAME`, for games with custom rules.
 `reader` reads and checks untrusted text.
 """
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 FIRST = "silverball replay"  # the first line of a replay, with the format
 FORMAT = 1
-FORMAT_WITH_RULES = 2  # has one more line in its header: the name of rules that are not built in
+FORMAT_WITH_RULES = 2  # with the name of custom rules in its header
 MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000  # [1/s] of games: a recording counts ticks within a second
 PLAY_LIMIT = 4_000_000  # characters of all lines: a day of lively play, or hours of a program
 SECONDS_LIMIT = 86_400  # longest game
@@ -103,6 +103,6 @@ class Recorder:
 
 
 def has_custom_rules(text: str) -> bool:
-    """Whether the text of a replay is of a game with rules that are not built in."""
+    """Whether the text of a replay is of a game with custom rules."""
     first_line = text.removeprefix("\ufeff").partition("\n")[0].rstrip("\r")
     return first_line == f"{FIRST} {FORMAT_WITH_RULES}"

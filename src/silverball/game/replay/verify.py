@@ -1,7 +1,7 @@
 """Verification of replays: play one and compare it with its record, or play two and find where they differ.
 
 `verify` compares the digests of every second and the end. `compare` plays two replays side by side and, in
-the second in which they first differ, tick by tick, so that it names the first tick, the field and both
+the second in which they first differ, tick by tick, so that it reports the first tick, the field and both
 values.
 """
 

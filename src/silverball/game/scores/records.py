@@ -148,7 +148,7 @@ class ScoreList(NamedTuple):
 
 
 def score_of(row: tuple[Any, ...]) -> Score:
-    """The score in a row of `COLUMNS`."""
+    """Make a score from a row of `COLUMNS`."""
     id, initials, score, mode, table_name, table_digest, seed, played, verified, why, has_replay = row
     damage = [
         f"its {name} is {_TYPES[type(value)]}"
@@ -211,7 +211,7 @@ def add(connection: sqlite3.Connection, one: NewScore) -> int:
 
 
 def import_pending(connection: sqlite3.Connection, pending: Pending) -> dict[str, int]:
-    """Import pending data; a score that was imported before only gets its new initials.
+    """Import pending data; of a score that was imported before, only the initials are updated.
 
     Returns:
         The numbers of the scores by their tokens.

@@ -1,4 +1,4 @@
-"""A store whose writes are spooled while another program holds its file, and whose reads are cached then."""
+"""A store that spools writes and caches reads while another program holds its file."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _Result = TypeVar("_Result")
 
 
 class SpooledStore:
-    """The file of a store, with a spool for the time in which another program holds it.
+    """The file of a store, with a spool for the time during which another program holds it.
 
     Args:
         folder: The folder of the file; None: the data folder of the user.
         schema: The records of the file.
-        nonblocking: Never wait for another program, as a window must not: reads give the last result then.
-            Otherwise it is waited for, and reading fails in the end.
+        nonblocking: Never wait for another program, for use in a window: reads then return the last
+            result. Otherwise wait for it, and fail after a timeout.
     """
 
     def __init__(self, folder: Path | None, schema: Schema, *, nonblocking: bool) -> None:

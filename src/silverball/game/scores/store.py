@@ -53,8 +53,8 @@ class Store(SpooledStore):
 
     Args:
         folder: The folder of the file; None: the data folder of the user.
-        nonblocking: Never wait for another program that holds the file, as a window must not: reads give the
-            last result then. Otherwise it is waited for, and reading fails in the end.
+        nonblocking: Never wait for another program that holds the file, for use in a window: reads then
+            return the last result. Otherwise wait for it, and fail after a timeout.
     """
 
     def __init__(self, folder: Path | None = None, *, nonblocking: bool = False) -> None:

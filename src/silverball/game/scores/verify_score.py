@@ -1,7 +1,7 @@
 """Verification of scores: a score is proven if its replay, played again, reaches it.
 
 *Proven* means: there are inputs that reach this score with this seed on this table, and no other score that
-was proven before is of the same game. Everything else is *not proven*, with the reason in words:
+was proven before is of the same game. Every other score is *not proven*, with a reason:
 
 * the record is damaged, or the replay is missing, cut off, changed, or of another version;
 * the table is not available: its text is not kept with the list, or does not have the digest of the list. The
