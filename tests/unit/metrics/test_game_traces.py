@@ -10,13 +10,13 @@ import pytest
 from boards import full_table, place, speed_of
 from silverball.metrics.game_traces import (
     CELLS,
-    REMEMBERED_TICKS,
     GAME,
     ON_PADDLE,
     REACTION,
+    REACTION_JITTER,
+    REMEMBERED_TICKS,
     STAY,
     TICK_RATE,
-    UNSTEADY,
     Over,
     beginner_presses,
     play_games,
@@ -127,7 +127,7 @@ def test_the_beginner_presses_a_reaction_time_after_the_ball_could_be_seen_comin
         pressed += [tick] * bool(buttons[0])
         world.step(*(bool(button) for button in buttons))
     late = (pressed[0] - decided[0]) / TICK_RATE
-    assert REACTION[0] - UNSTEADY - 1.0 / TICK_RATE <= late <= REACTION[1] + UNSTEADY
+    assert REACTION[0] - REACTION_JITTER - 1.0 / TICK_RATE <= late <= REACTION[1] + REACTION_JITTER
 
 
 def test_the_worlds_and_their_tallies_are_restored_after_the_games() -> None:
