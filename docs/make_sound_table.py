@@ -13,9 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from silverball.app.sound.bank import FULL, Key, make_bank
-from silverball.app.sound.loudness import loudness
-from silverball.app.sound.recipes import RECIPES
+from silverball.app.sound.bank import FULL, RECIPES, Key, make_bank
+from silverball.app.sound.levels import loudness
 from silverball.app.sound.rolling import ROLL_SPEEDS
 from silverball.app.sound.synth import RATE, Wave
 

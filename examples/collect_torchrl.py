@@ -1,4 +1,4 @@
-"""TorchRL takes the vector environment as it is; a rollout of a random policy.
+"""A rollout of a random policy with TorchRL, on the vector environment.
 
 pip install '.[rl]' torchrl
 python examples/collect_torchrl.py
@@ -11,7 +11,7 @@ from torchrl.envs import GymWrapper
 
 import silverball.envs  # noqa: F401  (registers the environments)
 
-# TorchRL wants episodes to begin anew in the step in which they end.
+# TorchRL needs environments that are reset in the step in which an episode ends.
 envs = GymWrapper(
     gym.make_vec("silverball/PinballClassic-v0", 16, autoreset_mode=gym.vector.AutoresetMode.SAME_STEP)
 )

@@ -1,7 +1,7 @@
 """PPO of RLlib on the vector environment, through its registered entry point.
 
-pip install 'ray[rllib]' torch  # asks for an older Gymnasium than we do,
-pip install '.[rl]'               # but runs with this one; pip warns of it
+pip install 'ray[rllib]' torch  # asks for an older Gymnasium than Silverball,
+pip install '.[rl]'               # but works with this one; pip warns
 python examples/train_rllib.py --rounds 5
 """
 

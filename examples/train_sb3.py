@@ -1,4 +1,4 @@
-"""A player for boards that it has never seen: PPO of Stable-Baselines3 on random boards, in 15 minutes.
+"""Train a player for unseen boards: PPO of Stable-Baselines3 on random boards, in 15 minutes.
 
 pip install '.[rl]' stable-baselines3 matplotlib
 python examples/train_sb3.py --minutes 15 --out curve.png --policy policy.npz
@@ -26,14 +26,14 @@ from silverball.players.features import COLUMNS, ENCODED, MIRRORED, encode
 from silverball.players.trained import DECISIONS, Policy
 from silverball.world import WorldBatch
 
-HORIZON = 6.0  # [s] in which what is to come loses its weight: 1/e
-UNSEEN = 1_000_000  # seed of the first board that is played on but never trained on; training has 0, 1, …
-MEAN_OF = 1000  # balls: the curve of the training is a mean of so many
-LONGEST = 300.0  # [s] that a ball is played at most
+HORIZON = 6.0  # [s] after which a reward is discounted to 1/e
+UNSEEN = 1_000_000  # seed of the first board of the evaluation; training uses 0, 1, …
+MEAN_OF = 1000  # balls in the moving average of the training curve
+LONGEST = 300.0  # [s] after which a ball is stopped
 
 
 class Seen(VecEnvWrapper):
-    """Shows what `players/features.py` makes of an observation; balls on the right are seen in the mirror."""
+    """Observations as the features of `players/features.py`; balls on the right are mirrored to the left."""
 
     def __init__(self, envs):
         super().__init__(envs, Box(-10.0, 10.0, (ENCODED,), np.float32))
@@ -59,7 +59,7 @@ class Seen(VecEnvWrapper):
 
 
 def policy_of(model, command=""):
-    """The network that chooses, as plain arrays."""
+    """The policy network as plain arrays."""
     net = model.policy
     linear = [*(one for one in net.mlp_extractor.policy_net if hasattr(one, "weight")), net.action_net]
     return Policy.rounded(
@@ -68,7 +68,7 @@ def policy_of(model, command=""):
 
 
 def evaluate(policy, envs):
-    """Points of a ball and its life [s], one on each board: means, and half of the 95 % intervals."""
+    """Mean points and time [s] of one ball on each board, with half widths of the 95 % intervals."""
     rows, _ = envs.reset(seed=0)
     points, steps, plays = np.zeros(len(rows)), np.zeros(len(rows)), np.ones(len(rows), bool)
     while plays.any():
@@ -82,7 +82,7 @@ def evaluate(policy, envs):
 
 
 class Curve(BaseCallback):
-    """Writes down how it goes: each ball of the training, and now and then balls on unseen boards."""
+    """Records the balls of the training, and evaluates on unseen boards at intervals."""
 
     def __init__(self, minutes, unseen, every):
         super().__init__()
@@ -91,11 +91,11 @@ class Curve(BaseCallback):
         self.began, self.paused = time.perf_counter(), 0.0
 
     def elapsed(self):
-        """Seconds of training, evaluations left out."""
+        """Training time without evaluations [s]."""
         return time.perf_counter() - self.began - self.paused
 
     def evaluate(self):
-        """Play on unseen boards; the clock of the training stands still meanwhile."""
+        """Play on unseen boards; this does not count as training time."""
         started = time.perf_counter()
         (points, spread), (life, life_spread) = evaluate(policy_of(self.model), self.envs)
         self.paused += time.perf_counter() - started
@@ -118,12 +118,14 @@ class Curve(BaseCallback):
     def _on_rollout_end(self):
         self.minutes.append((self.num_timesteps, self.elapsed() / 60))
         last = self.unseen[-1][0]
-        if self.num_timesteps - last >= min(self.every, max(self.every / 10, 2 * last)):  # often at first
+        if self.num_timesteps - last >= min(
+            self.every, max(self.every / 10, 2 * last)
+        ):  # more often at first
             self.evaluate()
 
 
 def draw(curve, others, path):
-    """The learning curve as a picture, beside the points of other players on the unseen boards."""
+    """Plot the learning curve, with the points of other players on the unseen boards."""
     figure, axes = plt.subplots(figsize=(7.5, 4.5), layout="constrained")
     millions = lambda steps: np.asarray(steps) / 1e6  # noqa: E731
     if len(curve.balls) >= MEAN_OF:
@@ -144,7 +146,10 @@ def draw(curve, others, path):
     axes.set(xlabel="steps [million]", ylabel="points a ball", xlim=(0, 1.02 * last), ylim=(0, None))
     axes.yaxis.set_major_formatter("{x:,.0f}")
     steps, minutes = np.array([(0, 0.0), *curve.minutes]).T
-    steps, minutes = np.append(steps, 2 * steps[-1]), np.append(minutes, 2 * minutes[-1])  # beyond the end
+    steps, minutes = (
+        np.append(steps, 2 * steps[-1]),
+        np.append(minutes, 2 * minutes[-1]),
+    )  # extrapolated beyond the end
     clock = axes.secondary_xaxis(
         "top",
         functions=(
@@ -173,7 +178,7 @@ parser.add_argument("--out", default="curve.png", help="picture of the learning 
 parser.add_argument("--policy", help="file for the policy as plain arrays (.npz)")
 chosen = parser.parse_args()
 
-torch.set_num_threads(1)  # the network is small: two threads mostly wait for each other
+torch.set_num_threads(1)  # the network is too small for two threads
 options = {"frame_skip": 60 // DECISIONS, "time_limit": LONGEST}
 unseen = PinballVectorEnv(
     chosen.balls, "SameStep", own_boards=True, boards=chosen.balls, board_seed=UNSEEN, **options
@@ -190,12 +195,12 @@ envs = Seen(SilverballVecEnv(chosen.envs, chosen.seed, boards=chosen.boards, **o
 curve = Curve(chosen.minutes, unseen, chosen.every)
 model = PPO(
     "MlpPolicy",
-    VecNormalize(envs, norm_obs=False, gamma=gamma),  # of the rewards
+    VecNormalize(envs, norm_obs=False, gamma=gamma),  # normalises the rewards
     n_steps=64,
     batch_size=min(8192, 64 * chosen.envs),
     n_epochs=4,
     gamma=gamma,
-    # Down to nothing by the time that it ends, by the clock or by steps.
+    # Decays towards the end, measured by time or by steps, whichever is sooner.
     learning_rate=lambda left: 1e-3 * max(0.02, min(left, 1 - curve.elapsed() / curve.seconds)),
     ent_coef=0.01,
     policy_kwargs={"net_arch": [64, 64], "activation_fn": torch.nn.ReLU},

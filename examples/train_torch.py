@@ -1,4 +1,4 @@
-"""PPO in one file, in the manner of CleanRL: the loop sees nothing but Gymnasium's vector interface.
+"""PPO in one file, in the style of CleanRL: the loop uses only Gymnasium's vector interface.
 
 pip install '.[rl]' torch
 python examples/train_torch.py --steps 500000
@@ -25,7 +25,7 @@ chosen = parser.parse_args()
 LENGTH, EPOCHS, PARTS, GAMMA, LAMBDA, CLIP = 64, 4, 8, 0.995, 0.95, 0.2
 
 torch.manual_seed(0)
-# With NEXT_STEP, the default, the step after an end begins the next episode and counts for nothing.
+# With NEXT_STEP, the default, the step after the end of an episode is a reset and is masked out of the loss.
 envs = gym.make_vec(chosen.id, chosen.envs, boards=chosen.boards, frame_skip=4)
 envs = gym.wrappers.vector.RecordEpisodeStatistics(envs)
 columns, actions = envs.single_observation_space.shape[0], int(envs.single_action_space.n)

@@ -1,4 +1,4 @@
-"""How the tests call the command line: in this process, or as a program that can be stopped."""
+"""Run the command line from tests: in this process, or in a new one that can be stopped."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from typing import Any
 
 
 def hear_ctrl_c() -> None:
-    """Let a new process hear Ctrl-C, as in a terminal: what a shell runs in the background does not."""
+    """Handle SIGINT in a new process as in a terminal; a shell ignores it for background processes."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def started(*arguments: str, **options: Any) -> subprocess.Popen[str]:
-    """`silverball` with these arguments, in a process of its own that hears Ctrl-C."""
+    """Start `silverball` with these arguments in a new process that handles Ctrl-C."""
     if sys.platform != "win32":
         options["preexec_fn"] = hear_ctrl_c
     return subprocess.Popen(
@@ -27,7 +27,7 @@ def started(*arguments: str, **options: Any) -> subprocess.Popen[str]:
 
 
 def ran(*arguments: str, cwd: Any = None) -> subprocess.CompletedProcess[str]:
-    """`silverball` with these arguments, in this process: it saves a second each time."""
+    """Run `silverball` with these arguments in this process, which saves a second each time."""
     from silverball.cli.app import run
 
     out, errors = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))

@@ -43,6 +43,8 @@ def site(tmp_path, monkeypatch, unregistered):
     imported = {name for name, one in sys.modules.items() if str(folder) in str(getattr(one, "__file__", ""))}
     for name in imported:
         del sys.modules[name]
+
+
 SLOW_FILES = (  # those that take longest; they come first, or one of them would run alone at the end
     "window/test_real_window.py",
     "property/test_forged_states.py",

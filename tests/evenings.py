@@ -1,7 +1,8 @@
-"""A program without a window, and somebody who spends an evening at it."""
+"""A program without a window, and a player for it."""
 
 from __future__ import annotations
 
+from silverball.app.button_handlers import press, release
 from silverball.app.catalog import Catalog
 from silverball.app.controls import Action, Held
 from silverball.app.program import Program
@@ -24,30 +25,39 @@ class Evening:
     def __init__(self, folder, settings=None, table=LEAKY) -> None:
         self.said: list[str] = []
         self.store = Store(folder, nonblocking=True)  # as a window has it
-        self.library = Catalog(self.store, folder, {table.name: table})
+        self.catalog = Catalog(self.store, folder, {table.name: table})
         chosen = settings or Settings(table=table.name)
-        self.program = Program(self.store, chosen, self.library, seed=3, say=self.said.append)
+        self.program = Program(self.store, chosen, self.catalog, seed=3, show_message=self.said.append)
         self.seconds = 0.0
 
     def go(self, seconds: float) -> None:
         for _ in range(round(seconds * 30)):
             self.seconds += 1 / 30
-            self.program.pass_time(self.seconds)
-            self.program.advance(NOTHING, 8)
+            self.program.update(self.seconds)
+            self.advance(8)
             self.program.dots(self.seconds)
+
+    def advance(self, ticks: int) -> None:
+        """Advance the session, as the window does."""
+        if self.program.session is not None and self.program.is_moving:
+            with self.program.stopping_on_error():
+                self.program.session.advance(NOTHING, ticks)
+
+    def press(self, action: Action) -> None:
+        press(self.program, action)
 
     def tap(self, *actions: Action) -> None:
         for action in actions:
-            self.program.press(action)
-            self.program.release(action)
+            self.press(action)
+            release(self.program, action)
             self.go(1 / 30)
 
     def play_to_the_end(self) -> None:
         for _ in range(30):
-            if self.program.stage.has_ended:
+            if self.program.session.has_ended:
                 return
             self.tap(Action.CREATE)
             for _ in range(60):
-                if self.program.stage.game.phase is not Phase.PLAY:
+                if self.program.session.game.phase is not Phase.PLAY:
                     break
                 self.go(0.5)

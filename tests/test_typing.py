@@ -26,6 +26,7 @@ import silverball as sb
 
 sb.World("classic", sed=7)
 sb.World("classic").step(left="yes")
+sb.load_table(7)
 sb.Flipper
 """
 
@@ -45,5 +46,5 @@ def test_a_correct_program_passes(tmp_path):
 def test_mistakes_are_found(tmp_path):
     shown, code = check(tmp_path, MISTAKES)
     assert code == 1
-    for word in ("sed", "left", "Flipper"):
+    for word in ("sed", "left", "load_table", "Flipper"):
         assert word in shown

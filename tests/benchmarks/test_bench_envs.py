@@ -6,22 +6,20 @@ import json
 
 import pytest
 
-from silverball.benchmarks.envs import environments as contestants
-from silverball.benchmarks.envs import measure as contest
-from silverball.benchmarks.envs import table as report
-from silverball.benchmarks.envs.environments import Contestant
+from silverball.benchmarks.envs import environments, measure, rate_table
+from silverball.benchmarks.envs.environments import Candidate
 from silverball.cli.app import run
 
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch):
     """Few environments and short rounds: what is measured is not the point here."""
-    monkeypatch.setattr(contestants, "BOARDS", 2)
-    monkeypatch.setattr(contestants, "SINGLE_STEPS", 20)
-    monkeypatch.setattr(contestants, "STATES", [(3, {"threads": 1}), (3, {"zero_copy": True})])
-    monkeypatch.setattr(contestants, "PICTURES", [(1, 2, {}), (4, 2, {"frame_skip": 4})])
-    monkeypatch.setattr(contest, "ROUND", 1e-4)
-    monkeypatch.setattr(contest, "WARM_UP", 2)
+    monkeypatch.setattr(environments, "BOARDS", 2)
+    monkeypatch.setattr(environments, "SINGLE_STEPS", 20)
+    monkeypatch.setattr(environments, "STATES", [(3, {"threads": 1}), (3, {"zero_copy": True})])
+    monkeypatch.setattr(environments, "PICTURES", [(1, 2, {}), (4, 2, {"frame_skip": 4})])
+    monkeypatch.setattr(measure, "ROUND", 1e-4)
+    monkeypatch.setattr(measure, "WARM_UP", 2)
 
 
 class Clock:
@@ -33,27 +31,27 @@ class Clock:
     def perf_counter(self) -> float:
         return self.now
 
-    def sleeper(self, seconds: float, steps: int, **about) -> Contestant:
+    def sleeper(self, seconds: float, steps: int, **about) -> Candidate:
         def sleep() -> None:
             self.now += seconds
 
-        return Contestant(f"{steps} steps in {seconds} s", lambda: (sleep, steps), **about)
+        return Candidate(f"{steps} steps in {seconds} s", lambda: (sleep, steps), **about)
 
 
 @pytest.fixture
 def clock(monkeypatch) -> Clock:
     clock = Clock()
-    monkeypatch.setattr(contest, "time", clock)
+    monkeypatch.setattr(measure, "time", clock)
     return clock
 
 
-def absent() -> contestants.Made:
+def absent() -> environments.Made:
     raise ModuleNotFoundError("No module named 'elsewhere'")
 
 
 def test_ours_are_all_measured():
-    ours = [one for one in contestants.contestants() if one.ours]
-    result = contest.run(2, taking_part=ours)
+    ours = [one for one in environments.candidates() if one.ours]
+    result = measure.run(2, chosen=ours)
     assert [rate.name for rate in result.rates] == [one.name for one in ours]
     assert all(rate.value > 0 for rate in result.rates)
     for rate in result.rates:
@@ -63,9 +61,9 @@ def test_ours_are_all_measured():
 
 
 def test_a_call_of_many_steps_counts_as_many(clock):
-    one, ten = contest.run(3, taking_part=[clock.sleeper(2e-3, 1), clock.sleeper(2e-3, 10)]).rates
+    one, ten = measure.run(3, chosen=[clock.sleeper(2e-3, 1), clock.sleeper(2e-3, 10)]).rates
     assert (one.value, ten.value) == pytest.approx((500.0, 5000.0))
-    call = contest.run(3, taking_part=[clock.sleeper(2e-3, 10, unit="µs")]).rates[0]
+    call = measure.run(3, chosen=[clock.sleeper(2e-3, 10, unit="µs")]).rates[0]
     assert (call.value, call.slowest) == pytest.approx((200.0, 200.0))
 
 
@@ -77,30 +75,30 @@ def test_the_median_round_counts(clock, monkeypatch):
     def step() -> None:
         clock.now += 1e-3 + next(slow)
 
-    result = contest.run(5, taking_part=[Contestant("uneven", lambda: (step, 1))])
+    result = measure.run(5, chosen=[Candidate("uneven", lambda: (step, 1))])
     assert result.rates[0].value == pytest.approx(1 / 2e-3)
     assert result.rates[0].slowest == pytest.approx(1 / 10e-3)
 
 
 def test_who_is_not_installed_is_named_and_left_out(clock):
     strangers = [
-        Contestant("elsewhere", absent, ours=False, yardstick="Elsewhere", package="elsewhere"),
-        Contestant("elsewhere, twice", absent, ours=False, package="elsewhere"),
+        Candidate("elsewhere", absent, ours=False, yardstick="Elsewhere", package="elsewhere"),
+        Candidate("elsewhere, twice", absent, ours=False, package="elsewhere"),
     ]
     heard = []
-    result = contest.run(1, heard.append, [clock.sleeper(1e-4, 1), *strangers])
+    result = measure.run(1, heard.append, [clock.sleeper(1e-4, 1), *strangers])
     assert len(result.rates) == 1
     assert result.missing == ["elsewhere"]
     assert heard == [one.name for one in (clock.sleeper(1e-4, 1), *strangers)]
-    assert "Not installed: elsewhere." in report.footing(result)
-    assert report.headers(report.yardsticks(result)) == ["environment", "steps/s"]
+    assert "Not installed: elsewhere." in rate_table.footing(result)
+    assert rate_table.headers(rate_table.yardsticks(result)) == ["environment", "steps/s"]
 
 
 def rate(value: float, sees: str, ours: bool = True, yardstick: str = "", unit: str = "steps/s"):
-    return contest.Rate(f"{sees} {value}", value, value, unit, sees, ours, yardstick)
+    return measure.Rate(f"{sees} {value}", value, value, unit, sees, ours, yardstick)
 
 
-RESULT = contest.Result(
+RESULT = measure.Result(
     [
         rate(5000.0, "state"),
         rate(200.0, "pictures"),
@@ -117,27 +115,27 @@ RESULT = contest.Result(
 
 
 def test_pictures_are_not_compared_with_states_but_states_with_pictures():
-    atari, breakout = report.yardsticks(RESULT)
-    assert [report.ratio(one, atari) for one in RESULT.rates] == [500.0, 20.0, None, 1.0, None, None]
-    assert [report.ratio(one, breakout) for one in RESULT.rates] == [5.0, None, None, None, 1.0, None]
+    atari, breakout = rate_table.yardsticks(RESULT)
+    assert [rate_table.ratio(one, atari) for one in RESULT.rates] == [500.0, 20.0, None, 1.0, None, None]
+    assert [rate_table.ratio(one, breakout) for one in RESULT.rates] == [5.0, None, None, None, 1.0, None]
 
 
 def test_the_table_is_told_in_markdown_and_in_json():
-    lines = report.markdown(RESULT).splitlines()
+    lines = rate_table.markdown(RESULT).splitlines()
     assert lines[0] == "| environment | steps/s | beside Atari | beside breakout |"
     assert lines[2] == "| state 5000.0 | 5,000 | 500 × | 5.00 × |"
     assert lines[3] == "| pictures 200.0 | 200 | 20 × |  |"
     assert lines[4] == "|  0.5 | 0.500 µs |  |  |"
     assert len({line.count("|") for line in lines[:8]}) == 1
     assert lines[9] == "Medians of 5 rounds, random actions; a machine; Python 3."
-    told = json.loads(report.as_json(RESULT))
+    told = json.loads(rate_table.as_json(RESULT))
     assert told["rates"][0]["beside"] == {"Atari": 500.0, "breakout": 5.0}
     assert told["rates"][2]["beside"] == {"Atari": None, "breakout": None}
 
 
 def test_the_command_writes_the_table(tmp_path, monkeypatch, capsys):
-    idle = Contestant("idle", lambda: (lambda: None, 1), ours=False, yardstick="an idler")
-    monkeypatch.setattr(contestants, "others", lambda: [idle])
+    idle = Candidate("idle", lambda: (lambda: None, 1), ours=False, yardstick="an idler")
+    monkeypatch.setattr(environments, "others", lambda: [idle])
     place = tmp_path / "envs.md"
     assert run(["bench", "envs", "--rounds", "1", "--out", str(place)]) == 0
     told = capsys.readouterr()
@@ -147,6 +145,6 @@ def test_the_command_writes_the_table(tmp_path, monkeypatch, capsys):
 
 
 def test_another_ending_is_refused_before_anything_is_measured(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(contest, "run", None)
+    monkeypatch.setattr(measure, "run", None)
     assert run(["bench", "envs", "--out", str(tmp_path / "envs.png")]) == 2
     assert "is written as .md" in capsys.readouterr().err

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from silverball.benchmarks.peers import play, tables
+from silverball.benchmarks.peers import common_tables, random_play
 from silverball.benchmarks.peers.penetration import PenetrationMonitor, do_cross, play_monitored
 from silverball.benchmarks.peers.playfield import Playfield, Stepping
 from silverball.benchmarks.peers.silverball_table import SilverballPlayfield
@@ -21,7 +21,7 @@ class ScriptedPlayfield(Playfield):
     """A playfield whose ball and left paddle jump to given places in each frame."""
 
     def __init__(self, ways, angles=(REST, REST)):
-        super().__init__(tables.plain(CLASSIC), Stepping(1))
+        super().__init__(common_tables.plain(CLASSIC), Stepping(1))
         self.ways, self.turns = list(ways), list(angles)
         self.here, self.angle, self.taken = self.ways.pop(0), self.turns.pop(0), []
 
@@ -50,7 +50,7 @@ class ScriptedPlayfield(Playfield):
 
 def measured(*ways, angles=(REST, REST)):
     field = ScriptedPlayfield(ways, angles)
-    game = play.Game(field, np.zeros((1, 2), bool), [(0.0, 0.0)])
+    game = random_play.Game(field, np.zeros((1, 2), bool), [(0.0, 0.0)])
     monitor = PenetrationMonitor(field.table)
     escapes = play_monitored(game, len(ways) - 1, monitor)
     return escapes, monitor.depth, field.taken
@@ -102,11 +102,13 @@ def test_ways_cross_only_where_both_do():
 
 
 def test_silverball_lets_no_ball_in_and_none_out():
-    table = tables.board(load_table("random"), 3)
-    game = play.Game(
-        SilverballPlayfield(table, Stepping(1)), play.random_presses(600, 3), play.free_places(table, 3)
+    table = common_tables.board(load_table("random"), 3)
+    game = random_play.Game(
+        SilverballPlayfield(table, Stepping(1)),
+        random_play.random_presses(600, 3),
+        random_play.free_places(table, 3),
     )
     monitor = PenetrationMonitor(table)
     assert play_monitored(game, 600, monitor) == 0
     assert monitor.depth <= 1e-9
-    assert game.field.ball_count == play.BALLS
+    assert game.field.ball_count == random_play.BALLS

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from silverball.benchmarks.peers import accuracy, play, tables
+from silverball.benchmarks.peers import accuracy, common_tables, random_play
 from silverball.benchmarks.peers.engines import FINE, OWN, PEERS, Entry
 from silverball.benchmarks.peers.penetration import PenetrationMonitor, play_monitored
 from silverball.benchmarks.peers.playfield import Stepping
@@ -32,8 +32,9 @@ def stepped_finely(entry: Entry) -> Entry:
 
 
 def test_ten_seconds_of_random_play_keep_two_balls_on_the_board(entry):
-    table = tables.board(RANDOM, 1)
-    game = play.Game(entry.build(table), play.random_presses(600, 1), play.free_places(table, 1))
+    table = common_tables.board(RANDOM, 1)
+    press, places = random_play.random_presses(600, 1), random_play.free_places(table, 1)
+    game = random_play.Game(entry.build(table), press, places)
     game.run(600)
     assert game.field.ball_count == 2
     for x, z, vx, vz in game.field.balls():
@@ -43,11 +44,11 @@ def test_ten_seconds_of_random_play_keep_two_balls_on_the_board(entry):
 
 
 def test_watching_changes_nothing_in_play(entry):
-    table = tables.board(RANDOM, 2)
-    press, places = play.random_presses(120, 2), play.free_places(table, 2)
-    played = play.Game(entry.build(table), press, places)
+    table = common_tables.board(RANDOM, 2)
+    press, places = random_play.random_presses(120, 2), random_play.free_places(table, 2)
+    played = random_play.Game(entry.build(table), press, places)
     played.run(120)
-    watched = play.Game(entry.build(table), press, places)
+    watched = random_play.Game(entry.build(table), press, places)
     assert play_monitored(watched, 120, PenetrationMonitor(table)) == 0
     assert watched.field.balls() == played.field.balls()
     assert watched.field.angles() == played.field.angles()
@@ -68,7 +69,7 @@ def test_a_free_ball_falls_by_the_law_of_free_fall(entry):
 
 
 def test_a_ball_comes_back_from_the_side_with_the_share_of_the_restitution(entry):
-    field = stepped_finely(entry).build(tables.plain(Table(board=Board(wall_restitution=0.6))))
+    field = stepped_finely(entry).build(common_tables.plain(Table(board=Board(wall_restitution=0.6))))
     field.add_ball(5.0, 3.65, 0.0, 10.0)  # a unit before the right border
     for _ in range(12):
         field.frame(False, False)
@@ -76,7 +77,7 @@ def test_a_ball_comes_back_from_the_side_with_the_share_of_the_restitution(entry
 
 
 def test_two_balls_that_meet_head_on_leave_with_the_share_of_the_restitution(entry):
-    table = tables.plain(Table(board=Board(wall_restitution=0.6)))
+    table = common_tables.plain(Table(board=Board(wall_restitution=0.6)))
     assert table.board.ball_restitution == 0.6
     field = stepped_finely(entry).build(table)
     field.add_ball(5.0, -1.0, 0.0, 5.0)
@@ -89,7 +90,7 @@ def test_two_balls_that_meet_head_on_leave_with_the_share_of_the_restitution(ent
 
 
 def test_paddles_rise_in_the_time_of_a_stroke_and_stop_there_mirrored(entry):
-    table = tables.board(RANDOM, 0)
+    table = common_tables.board(RANDOM, 0)
     field = stepped_finely(entry).build(table)
     rest, up = math.radians(table.paddle[0].rest_angle), math.radians(table.paddle[0].up_angle)
     assert field.angles() == pytest.approx((rest, rest), abs=1e-6)
@@ -105,7 +106,7 @@ def test_paddles_rise_in_the_time_of_a_stroke_and_stop_there_mirrored(entry):
 
 
 def test_a_paddle_whose_stroke_is_no_whole_number_of_steps_ends_at_its_stop_all_the_same(entry):
-    table = tables.board(RANDOM, 0)
+    table = common_tables.board(RANDOM, 0)
     odd = tuple(paddle.model_copy(update={"stroke": 0.0731}) for paddle in table.paddle)
     field = entry.build(table.model_copy(update={"paddle": odd}))
     up = math.radians(odd[0].up_angle)
@@ -116,7 +117,7 @@ def test_a_paddle_whose_stroke_is_no_whole_number_of_steps_ends_at_its_stop_all_
 
 
 def test_a_rising_paddle_throws_a_ball_up_on_either_side(entry):
-    table = tables.board(RANDOM, 0)
+    table = common_tables.board(RANDOM, 0)
     for side in (-1.0, 1.0):
         field = stepped_finely(entry).build(table)
         field.add_ball(-6.9, side * 1.2)
@@ -145,15 +146,15 @@ def test_a_ball_that_is_taken_is_gone_and_the_other_stays(entry):
 
 
 def test_silverball_keeps_its_energy_on_the_elastic_table():
-    table = tables.board(RANDOM, 0)
-    closed = tables.elastic(table)
-    assert tables.min_restitution(closed) == 1.0
+    table = common_tables.board(RANDOM, 0)
+    closed = common_tables.elastic(table)
+    assert common_tables.min_restitution(closed) == 1.0
     assert accuracy.drift(OWN_ENTRY.build(closed), accuracy.drift_start(table), 60) < 1e-13
 
 
 def test_drift_is_the_share_of_energy_that_is_missing():
     # On an elastic table whose walls return half of the speed, energy must go.
-    table = tables.board(RANDOM, 0)
-    closed = tables.elastic(table)
+    table = common_tables.board(RANDOM, 0)
+    closed = common_tables.elastic(table)
     dull = closed.model_copy(update={"board": closed.board.model_copy(update={"wall_restitution": 0.5})})
     assert 0.05 < accuracy.drift(OWN_ENTRY.build(dull), accuracy.drift_start(table), 60) < 1.0

@@ -1,7 +1,7 @@
-"""How the tests call the command line.
+"""Fixtures that run the command line.
 
-In their own process, which saves a second each time; in one of its own what depends on that: another
-environment, or a run that is to share nothing with the one before.
+`silverball` runs a command in the process of the tests, which saves a second each time; `new_process` runs it
+in a new process, for tests of the environment, of exit codes or of two independent runs.
 """
 
 from __future__ import annotations

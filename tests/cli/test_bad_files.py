@@ -1,4 +1,4 @@
-"""Whatever stands where a file is expected: one sentence, exit code 2, at once, and nothing is lost."""
+"""Anything in place of an expected file: one sentence, exit code 2, at once, and no data is lost."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ READERS: dict[str, Callable[[str], list[str]]] = {
     "again": lambda path: ["soak", "--again", path],
     "progress": lambda path: [*SOAK, "--progress", path],
 }
-"""Every command that reads a file, and how."""
+"""Every command that reads a file: its arguments for a path."""
 
 WRITERS: dict[str, Callable[[str], list[str]]] = {
     "show": lambda path: ["show", "--out", f"{path}.png", "--force"],

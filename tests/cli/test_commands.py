@@ -1,4 +1,4 @@
-"""Every command through the real entry point: what it prints, what it writes, and how a mistake ends."""
+"""Every command: its output, its files, and its error messages."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""`silverball scores --verify` proves what was played, and nothing that was written into the file.
+"""`silverball scores --verify` proves scores that were played, and none that was written into the file.
 
-Every forgery is done to a copy of a file with honest scores on built-in tables and on tables of one's own, by
-a program that can write to it. What is forged must be found, and what is honest must stay proven beside it.
+Every forgery changes a copy of a file with honest scores on built-in tables and on custom tables. The forged
+scores must be found, and the honest ones must stay proven.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A name from a file or the command line is shown by every command, and never obeyed by the terminal."""
+"""Every command escapes names from files and arguments, so that a terminal shows and never executes them."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def told(capfd):
-    """Run a command in this process; its exit code and what it printed."""
+    """Run a command in this process; returns its exit code and output."""
 
     def command(*arguments: str) -> tuple[int, str]:
         code = run(list(arguments))
@@ -69,7 +69,7 @@ def played() -> Replay:
 
 
 def table_called(name: str) -> Path:
-    """A good table of this name."""
+    """A valid table file whose table has this name."""
     path = Path("mine.toml")
     text = dump_table(load_table("classic"))
     path.write_text(text.replace('"Classic"', toml_string(name)), encoding="utf-8")
@@ -193,7 +193,7 @@ def with_lines(lines: list[str]) -> str:
 
 
 def refusal_of(text: str) -> str:
-    """Why the text of a replay is refused; empty if it is not."""
+    """The error message for the text of a replay; empty if it is accepted."""
     try:
         Replay.from_text(text)
     except StateError as error:

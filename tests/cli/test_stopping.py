@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM in a first start, which compiles: the command ends at once and says so."""
+"""Ctrl-C and SIGTERM during a first start, which compiles: the command ends at once and says so."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ COMMANDS = {
 
 
 def stop(tmp_path, name: str, sent: signal.Signals, seconds: float) -> None:
-    """Start a command with an empty cache, stop it so much later, and look at how it ended."""
+    """Start a command with an empty cache, stop it after some seconds, and check how it ends."""
     folders = {"SILVERBALL_CACHE": str(tmp_path / "cache"), "SILVERBALL_DATA": str(tmp_path / "data")}
     process = started(*COMMANDS[name], cwd=tmp_path, env=os.environ | folders)
     limit = time.monotonic() + 60.0
     while not (tmp_path / "cache").exists() and time.monotonic() < limit:
-        time.sleep(0.01)  # now its own code runs
+        time.sleep(0.01)  # its own code runs from now on
     time.sleep(seconds)
     assert process.poll() is None, process.communicate()
     process.send_signal(sent)

@@ -1,4 +1,4 @@
-"""What if standard input, output or error is closed, full, read by nobody, or in a narrow encoding?"""
+"""Standard streams that are closed, full, without a reader, or in a narrow encoding."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_a_mistake_does_not_need_standard_output(arguments: str):
 
 
 def gone() -> int:
-    """The writing end of a pipe that nobody reads."""
+    """The writing end of a pipe without a reader."""
     reading, writing = os.pipe()
     os.close(reading)
     return writing

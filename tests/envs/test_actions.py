@@ -1,4 +1,4 @@
-"""Which actions does a step take, and what do wrappers for Atari and `play` learn of them?"""
+"""Actions of a step, and what Atari wrappers and `play` ask about them."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_floats_are_no_numbers_of_actions(action):
     for actions in ("discrete", "multibinary"):
         envs = gym.make_vec(CLASSIC, 2, actions=actions)
         envs.reset(seed=0)
-        with pytest.raises(ValueError, match="actions must be whole numbers"):
+        with pytest.raises(ValueError, match="actions must be integers"):
             envs.step(action)
 
 

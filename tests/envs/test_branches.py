@@ -1,4 +1,4 @@
-"""Step, go back, step again: is it the same to the bit after every kind of step?
+"""A step, a restore and the same step again give the same bits, after every kind of step.
 
 A state is saved after steps of every kind: a ball in the gutter, a stall, the time limit, the beginning of an
 episode, a ball created by its button, a shove, and plain ones; in all three autoreset modes, with states and
@@ -59,7 +59,7 @@ def actions(seed: int, steps: int, choices: int = 16) -> np.ndarray:
 
 
 def step(envs: PinballVectorEnv, row: np.ndarray) -> list:
-    """A step, and where nobody else does it the resets."""
+    """A step, and the resets of ended episodes if autoreset is disabled."""
     result = envs.step(row)
     told = [plain(result)]
     over = result[2] | result[3]

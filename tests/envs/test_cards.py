@@ -1,24 +1,32 @@
-"""Do the cards of the environments say what holds?"""
+"""The reference in docs/agents.md is what the environments are."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
 import pytest
 
-from silverball.envs import IDS, OPTIONS
-from silverball.envs.cards import HEADINGS, card
+from silverball.envs import GROUPS, IDS, OPTIONS
+from silverball.envs.observations import fields
 
-ROOT = Path(__file__).parents[2]
+
+@pytest.fixture(scope="module")
+def script() -> dict[str, Any]:
+    """The names of docs/make_agents.py, which is not a module of the package."""
+    path = Path(__file__).parents[2] / "docs" / "make_agents.py"
+    names: dict[str, Any] = {"__name__": "agents", "__file__": str(path)}
+    exec(compile(path.read_text(encoding="utf-8"), path.name, "exec"), names)
+    return names
 
 
 @pytest.mark.parametrize("id_", IDS)
-def test_a_card_has_gymnasiums_eight_headings_and_the_spaces_of_the_environment(id_):
-    text = card(id_)
+def test_a_card_has_gymnasiums_eight_headings_and_the_spaces_of_the_environment(id_, script):
+    text = script["card"](id_)
     assert [line.removeprefix("#### ") for line in text.splitlines() if line.startswith("#### ")] == [
-        *HEADINGS
+        *script["HEADINGS"]
     ]
     env = gym.make(id_, **({} if "Classic" in id_ else {"boards": 2}))
     space = env.observation_space
@@ -31,8 +39,10 @@ def test_a_card_has_gymnasiums_eight_headings_and_the_spaces_of_the_environment(
     assert all(f"| `{name}` |" in text for name, *_ in OPTIONS)
 
 
-def test_the_page_for_agents_is_what_the_code_says():
-    script = ROOT / "docs" / "make_agents.py"
-    names: dict = {"__name__": "agents", "__file__": str(script)}
-    exec(compile(script.read_text(encoding="utf-8"), script.name, "exec"), names)
-    assert names["PAGE"].read_text(encoding="utf-8") == names["page"](), "run: python docs/make_agents.py"
+def test_the_table_of_slots_has_a_row_for_every_slot(script):
+    rows = script["slot_table"](fields(4, 3)).splitlines()
+    assert len(rows) == 2 + sum(len(group.slots) for group in GROUPS)
+
+
+def test_the_page_for_agents_is_what_the_code_says(script):
+    assert script["PAGE"].read_text(encoding="utf-8") == script["page"](), "run: python docs/make_agents.py"

@@ -1,4 +1,4 @@
-"""When does an episode end, and what is it worth?"""
+"""How episodes end, and their rewards."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_the_time_limit_truncates():
     assert not info["stalled"]
 
 
-def test_holding_both_paddles_up_for_ever_ends_as_stalled():
+def test_holding_both_paddles_up_forever_ends_as_stalled():
     """On boards where the ball comes to lie on the paddles, it is over after the time to stall."""
     count, wait = 200, 15 * 60
     envs = PinballVectorEnv(count, "Disabled", table="classic", time_limit=None)
@@ -111,7 +111,7 @@ def test_a_button_brings_the_balls_one_after_the_other_and_two_at_once():
     assert (info["created"], info["drained"]) == (3, 3)
 
 
-def test_whoever_never_creates_a_ball_has_stalled():
+def test_never_creating_a_ball_ends_as_stalled():
     env = gym.make(CLASSIC, create="button")
     env.reset(seed=0)
     rewards, terminated, _, info = played(env)

@@ -1,4 +1,4 @@
-"""Do the environments keep Gymnasium's contract?"""
+"""The environments fulfil Gymnasium's contract."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def options_of(id_: str) -> dict:
 
 
 @pytest.mark.parametrize("id_", IDS)
-def test_gymnasiums_checker_has_no_complaint(id_):
+def test_gymnasiums_checker_accepts_the_environment(id_):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(gym.make(id_, **options_of(id_)), skip_render_check=True)
@@ -41,7 +41,7 @@ def test_gymnasiums_checker_has_no_complaint(id_):
     ],
     ids=str,
 )
-def test_gymnasiums_checker_has_no_complaint_about_any_option(options):
+def test_gymnasiums_checker_accepts_every_option(options):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(gym.make(CLASSIC, **options), skip_render_check=True)
@@ -81,7 +81,7 @@ def test_a_step_after_the_end_is_refused():
 
 
 @pytest.mark.parametrize("action", [-1, 4, 1.5, None, "left", [1, 0]])
-def test_an_action_that_is_none_is_refused_in_words(action):
+def test_an_invalid_action_is_refused_with_a_message(action):
     env = gym.make(CLASSIC)
     env.reset(seed=0)
     with pytest.raises(ValueError, match="action must be in"):
@@ -125,17 +125,41 @@ def test_an_unknown_option_is_refused_with_a_hint():
 
 
 @pytest.mark.parametrize(
-    "wrong",
+    ("name", "value", "message"),
     [
-        {"balls": 0}, {"boards": True}, {"stall": 0.0}, {"time_limit": "5"}, {"observation": "ram"},
-        {"reward": "win"}, {"size": 84}, {"size": (84, 2)}, {"stack": 99}, {"tick_rate": 5}, {"jitter": 1},
-        {"render_mode": "ansi"},
+        ("balls", 0, "1 to 1,000, got 0"),
+        ("boards", True, "got (true|True)"),
+        ("boards", 2.0, "got 2.0"),
+        ("stall", 0.0, "None or above 0 s, got 0.0"),
+        ("stall", np.nan, "got nan"),
+        ("time_limit", "5", "got '5'"),
+        ("observation", "ram", "'state', 'dict' or 'pixels', got 'ram'"),
+        ("observation", None, "got None"),
+        ("size", 84, r"\(height, width\), got 84"),
+        ("size", (84, 2), "8 to 1,024, got 2"),
+        ("stack", 99, "got 99"),
+        ("tick_rate", 5, "got 5"),
+        ("jitter", 1, "True or False, got 1"),
+        ("rgb", None, "True or False, got None"),
+        ("render_mode", "ansi", "or None, got 'ansi'"),
     ],
-    ids=str,
-)  # fmt: skip
-def test_an_option_that_cannot_be_is_refused_by_name(wrong):
-    with pytest.raises(ValueError, match=next(iter(wrong))):
-        PinballEnv(table="classic", **wrong)
+)
+def test_an_invalid_value_of_an_option_is_refused_in_one_sentence(name, value, message):
+    with pytest.raises(ValueError, match=f"^{name} must be .*{message}$"):
+        PinballEnv(table="classic", **{name: value})
+
+
+def test_one_error_reports_all_invalid_values():
+    with pytest.raises(ValueError, match=r"^balls must be .*; rgb must be True or False, got 2$"):
+        PinballEnv(balls=0, rgb=2)
+
+
+def test_numbers_of_numpy_are_taken_and_become_pythons_own():
+    options = PinballEnv(
+        boards=np.int64(2), stall=np.float32(2.0), rgb=np.bool_(True), size=[20, np.int8(16)]
+    ).options
+    assert (options.boards, options.stall, options.rgb, options.size) == (2, 2.0, True, (20, 16))
+    assert [type(value) for value in (options.boards, options.stall, options.rgb)] == [int, float, bool]
 
 
 def test_dict_observations_are_the_columns_of_the_row():

@@ -1,4 +1,4 @@
-"""How does an environment show itself in a window?"""
+"""The window of `render_mode="human"`."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def _blind(monkeypatch):
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("mode", [None, "human", "rgb_array"])
 @pytest.mark.parametrize("id_", IDS)
-def test_gymnasiums_checker_has_no_complaint_in_any_render_mode(id_, mode):
+def test_gymnasiums_checker_accepts_every_render_mode(id_, mode):
     env = gym.make(id_, render_mode=mode, tick_rate=10_000, **options_of(id_))
     assert isinstance(env, PinballEnv), "no wrapper shows it"
     check_env(env)
@@ -55,7 +55,7 @@ def test_in_the_human_mode_a_window_shows_every_step_and_nothing_else_differs():
 
 
 @pytest.mark.usefixtures("_blind")
-def test_of_two_windows_the_one_closes_that_somebody_closes_and_keys_are_left_for_others():
+def test_closing_one_of_two_windows_keeps_the_other_open_and_key_events_unread():
     import pygame
 
     first, second = (gym.make(CLASSIC, render_mode="human", tick_rate=10_000) for _ in range(2))
@@ -71,7 +71,7 @@ def test_of_two_windows_the_one_closes_that_somebody_closes_and_keys_are_left_fo
 
 
 @pytest.mark.usefixtures("_blind")
-def test_an_environment_goes_on_without_the_window_that_somebody_closes():
+def test_an_environment_goes_on_after_its_window_was_closed():
     import pygame
 
     env = gym.make(CLASSIC, render_mode="human", tick_rate=10_000)
@@ -85,7 +85,7 @@ def test_an_environment_goes_on_without_the_window_that_somebody_closes():
 
 
 @pytest.mark.usefixtures("_blind")
-def test_whoever_quits_pygame_ends_a_window_and_no_picture():
+def test_quitting_pygame_closes_windows_but_does_not_break_pictures():
     import pygame
 
     shown, drawn = (gym.make(CLASSIC, render_mode=mode) for mode in ("human", "rgb_array"))

@@ -1,4 +1,4 @@
-"""Does what a step has returned stay as it is, and is memory used again that nobody sees?"""
+"""What a step has returned does not change, and memory that is no longer referenced is reused."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def home(array: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("options", KINDS, ids=str)
-def test_nothing_that_somebody_holds_changes(options):
+def test_results_that_are_referenced_never_change(options):
     envs = PinballVectorEnv(COUNT, boards=2, time_limit=1.0, **options)
     envs.reset(seed=0)
     results, copies = [], []
@@ -59,7 +59,7 @@ def test_nothing_that_somebody_holds_changes(options):
     ids=["part", "memory", "rewards", "terminated", "score", "hits"],
 )
 @pytest.mark.parametrize("options", KINDS, ids=str)
-def test_holding_a_part_is_enough(options, hold):
+def test_a_reference_to_a_part_is_enough(options, hold):
     envs = PinballVectorEnv(COUNT, boards=2, stall=1.0, **options)
     envs.reset(seed=0)
     held = hold(stepped(envs, 1))
@@ -74,7 +74,7 @@ def test_holding_a_part_is_enough(options, hold):
 
 
 @pytest.mark.parametrize("options", KINDS, ids=str)
-def test_memory_that_nobody_holds_is_used_again(options):
+def test_memory_that_is_not_referenced_is_reused(options):
     envs = PinballVectorEnv(COUNT, boards=2, **options)
     envs.reset(seed=0)
     places = {home(first_part(stepped(envs, number)[0])).ctypes.data for number in range(20)}

@@ -1,4 +1,4 @@
-"""Does PufferLib take the environments, and do they write into its buffers?"""
+"""The adapter for PufferLib, and that it writes into PufferLib's buffers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,14 @@ OPTIONS = {"table": "classic", "time_limit": 1.0}
 
 
 @pytest.mark.parametrize(
-    "more", [{}, {"observation": "pixels", "stack": 1}, {"observation": "pixels", "stack": 2}], ids=str
+    "more",
+    [
+        {},
+        {"reward": {"seconds": 2.0, "drained": -1.0}},
+        {"observation": "pixels", "stack": 1},
+        {"observation": "pixels", "stack": 2},
+    ],
+    ids=str,
 )
 def test_steps_are_those_of_the_vector_environment(more):
     envs = SilverballPufferEnv(3, seed=5, **OPTIONS, **more)

@@ -1,4 +1,4 @@
-"""Which board and which dice does a reset take?"""
+"""Boards, seeds and generators of a reset."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_a_table_of_a_list_can_be_chosen_by_its_number():
 
 
 @pytest.mark.parametrize("board", [4, -1, 1.0, "1", True, None, [1], 2**70])
-def test_a_board_that_is_not_there_is_refused(board):
+def test_an_unknown_board_is_refused(board):
     env, envs = gym.make(RANDOM, **FEW), gym.make_vec(RANDOM, 2, **FEW)
     env.reset(seed=0), envs.reset(seed=0)
     before = env.unwrapped.save_state()
@@ -136,7 +136,7 @@ def test_the_same_seed_and_board_give_the_same_episode_every_time():
     assert options == {"board": np.array(2)}, "what is given stays as it is"
 
 
-def test_a_name_of_a_table_is_shown_and_not_obeyed():
+def test_control_characters_in_a_table_name_are_escaped():
     tables = [Table(name="a\u202e\x1b[2J")]
     with pytest.raises(ValueError, match="is the only table") as raised:
         gym.make(RANDOM, table=tables[0]).reset(options={"board": 0})
@@ -144,7 +144,7 @@ def test_a_name_of_a_table_is_shown_and_not_obeyed():
 
 
 @pytest.mark.parametrize("wrong", [5, None, np.random.RandomState(0), "default"])
-def test_what_is_no_generator_is_refused(wrong):
+def test_an_invalid_generator_is_refused(wrong):
     for env in (gym.make(CLASSIC), gym.make_vec(CLASSIC, 2)):
         with pytest.raises(TypeError, match=r"np_random must be a numpy\.random\.Generator"):
             env.unwrapped.np_random = wrong

@@ -1,4 +1,4 @@
-"""Does Stable-Baselines3 take the environments as they are?"""
+"""The adapter for Stable-Baselines3."""
 
 from __future__ import annotations
 
@@ -24,14 +24,18 @@ OPTIONS = {"table": "classic", "time_limit": 6.0}
 
 
 @pytest.mark.parametrize("id_", IDS)
-def test_its_checker_has_no_complaint(id_):
+def test_its_checker_accepts_the_environment(id_):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         check_env(gym.make(id_, **({} if "Classic" in id_ else {"boards": 2})))
 
 
-def test_a_step_is_that_of_the_vector_environment_with_the_ends_told():
-    envs, plain = SilverballVecEnv(5, seed=3, **OPTIONS), PinballVectorEnv(5, "SameStep", **OPTIONS)
+@pytest.mark.parametrize(
+    "reward", ["score", {"points": 0.5, "drained": -2.0}, lambda terms: terms["touches"] - 1.0]
+)
+def test_a_step_equals_that_of_the_vector_environment_with_infos_of_ended_episodes(reward):
+    options = {**OPTIONS, "reward": reward}
+    envs, plain = SilverballVecEnv(5, seed=3, **options), PinballVectorEnv(5, "SameStep", **options)
     assert envs.reset().tolist() == plain.reset(seed=3)[0].tolist()
     random, lengths, returns = np.random.default_rng(0), np.zeros(5, int), np.zeros(5)
     truncated_ones = ended_ones = 0

@@ -1,4 +1,4 @@
-"""What does an environment say of how it was made, and what options does it take?"""
+"""The spec of an environment, and the options it accepts."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_the_spec_says_after_how_many_steps_an_episode_is_truncated(id_, options
 @pytest.mark.parametrize(
     ("options", "steps"), [({"time_limit": 0.5}, 30), ({"time_limit": 0.5, "frame_skip": 4}, 8)]
 )
-def test_an_episode_that_is_not_over_before_is_truncated_in_that_very_step(options, steps):
+def test_an_episode_is_truncated_in_exactly_that_step(options, steps):
     env = gym.make(CLASSIC, **options)
     for _ in range(2):
         env.reset(seed=0)
@@ -92,7 +92,7 @@ def test_a_spec_makes_the_same_environment_again(id_):
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", ["table", "list", "recipe", "path", "vector"])
-def test_a_spec_with_tables_of_ones_own_goes_through_json(kind, seed, tmp_path):
+def test_a_spec_with_custom_tables_goes_through_json(kind, seed, tmp_path):
     one, other = sb.generate_table(seed=seed), sb.generate_table(seed=seed + 100)
     path = tmp_path / "mine.toml"
     sb.save_table(one, path)
@@ -113,7 +113,7 @@ def test_a_table_can_be_given_by_the_keys_of_its_file():
     assert PinballEnv(table=table)._engine.pool.tables == (expected,)
     with pytest.raises(sb.TableError, match="did you mean `cylinder`"):
         PinballEnv(table={"cylindre": []})
-    with pytest.raises(TypeError, match="table must hold"):
+    with pytest.raises(TypeError, match="that a table file cannot hold"):
         PinballEnv(table={"name": None})
     with pytest.raises(TypeError, match="table must be"):
         PinballEnv(table=7)
@@ -132,7 +132,7 @@ def test_no_limit_of_gymnasiums_own_leaves_that_of_the_environment(steps, mode):
 
 
 @pytest.mark.parametrize("steps", [0, -2, 1.5, True, "7"])
-def test_a_limit_that_cannot_be_is_refused(steps):
+def test_an_invalid_limit_is_refused(steps):
     with pytest.raises(ValueError, match="max_episode_steps must be"):
         gym.make_vec(CLASSIC, 2, max_episode_steps=steps)
 
@@ -145,7 +145,7 @@ def test_a_limit_that_cannot_be_is_refused(steps):
     [
         ("frameskip", "frame_skip"),
         ("rewards", "reward"),
-        ("xyzzy", "options are"),
+        ("xyzzy", "expected one of"),
         ("\u202eboards", "boards"),
     ],
 )
@@ -206,7 +206,7 @@ def test_a_gymnasium_that_is_too_old_is_named_with_the_remedy(version, is_refuse
 
 
 @pytest.mark.parametrize("context", ["spawn", "forkserver"])
-def test_a_process_that_knows_nothing_imports_by_the_long_name(context):
+def test_a_spawned_process_imports_by_the_long_name(context):
     """Such a process begins with an empty registry."""
     id_ = f"silverball.envs:{CLASSIC}"
     envs = gym.vector.AsyncVectorEnv([lambda: gym.make(id_)] * 2, context=context)
@@ -223,7 +223,7 @@ def test_the_first_environment_says_once_that_it_is_compiled(is_there, folder, m
     monkeypatch.setattr(engine.SETTINGS, "DISABLE_JIT", 0)
     monkeypatch.setattr(engine, "is_compiled", lambda name, packages: is_there)
     monkeypatch.setattr(engine, "cache_folder", lambda packages: folder)
-    engine._tell_of_compiling.cache_clear()
+    engine._announce_compilation.cache_clear()
     for _ in range(2):
         PinballEnv(table="classic")
     said = capsys.readouterr()

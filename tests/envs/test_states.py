@@ -1,4 +1,4 @@
-"""Does a saved state go on exactly as if nothing had happened?"""
+"""A restored state continues exactly as the original did."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from silverball.envs import PinballEnv, PinballVectorEnv
-from silverball.envs.engine import MARK
-from silverball.envs.state import SCENE
+from silverball.envs.engine import SIGNATURE_SIZE
+from silverball.envs.state import PICTURE_STATE
 from silverball.errors import StateError
 
 OPTIONS = [
@@ -116,7 +116,7 @@ def test_a_vector_goes_back_and_on_bit_for_bit():
     ("state", "message"),
     [(b"abc", "bytes, as save_state made it"), ("text", "got str"), (None, "got NoneType")],
 )
-def test_what_is_no_state_is_refused(state, message):
+def test_an_invalid_state_is_refused(state, message):
     env = PinballEnv(table="classic")
     env.reset(seed=0)
     before = env.save_state()
@@ -137,12 +137,12 @@ def test_a_state_of_other_boards_or_another_rate_is_refused():
 
 @pytest.mark.parametrize("options", [{"table": "classic"}, OPTIONS[1], OPTIONS[2]], ids=str)
 @pytest.mark.parametrize("number", [-1, 3, 10**9])
-def test_a_state_on_a_board_that_is_not_there_is_refused(options, number):
+def test_a_state_with_an_unknown_board_is_refused(options, number):
     env, envs = PinballEnv(**options), PinballVectorEnv(2, **options)
     env.reset(seed=0), envs.reset(seed=0)
-    places = [MARK]
+    places = [SIGNATURE_SIZE]
     if "observation" in options:
-        places.append(len(env.save_state()) - 3 * SCENE.itemsize)  # the board of the first scene
+        places.append(len(env.save_state()) - 3 * PICTURE_STATE.itemsize)  # the board of the first scene
     for place in places:
         state = bytearray(env.save_state())
         state[place : place + 8] = np.int64(number).tobytes()
@@ -166,8 +166,8 @@ def test_a_state_from_before_the_first_reset_has_no_seed_yet():
     assert starts[1] == starts[3]
 
 
-def test_a_vector_refuses_as_many_states_as_it_has_no_place_for():
+def test_a_wrong_number_of_states_is_refused():
     envs = PinballVectorEnv(3, table="classic")
     envs.reset(seed=0)
-    with pytest.raises(ValueError, match="2 states for 3"):
+    with pytest.raises(ValueError, match=r"one state or 3 of them.*got 2"):
         envs.restore_state(envs.save_state([0, 1]))

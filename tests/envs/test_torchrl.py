@@ -1,4 +1,4 @@
-"""Does TorchRL make the environments by their names?"""
+"""TorchRL makes the environments by their names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from silverball.envs import IDS
     "options", [{}, {"frame_skip": 4}, {"actions": "multibinary"}, {"observation": "dict"}], ids=str
 )
 @pytest.mark.parametrize("id_", IDS)
-def test_its_checker_has_no_complaint(id_, options):
+def test_its_checker_accepts_the_environment(id_, options):
     env = GymEnv(id_, **options, **({} if "Classic" in id_ else {"boards": 2}))
     check_env_specs(env)
     assert env.rollout(20).batch_size == (20,)

@@ -1,4 +1,4 @@
-"""Is the vector environment nothing but many single ones?"""
+"""The vector environment equals many single environments."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_gymnasiums_make_vec_gives_the_native_one(id_):
     assert envs.single_observation_space == single.observation_space
 
 
-def test_an_episode_that_is_over_must_be_reset_when_nobody_else_does():
+def test_with_disabled_autoreset_an_ended_episode_must_be_reset():
     envs = gym.make_vec(CLASSIC, 2, autoreset_mode=AutoresetMode.DISABLED, time_limit=1 / 60)
     envs.reset(seed=0)
     envs.step(np.zeros(2, int))
@@ -128,8 +128,8 @@ def test_a_mask_begins_these_episodes_alone():
 @pytest.mark.parametrize(
     ("mask", "message"),
     [
-        ([True, False], "array of bool"),
-        (np.array([1, 0]), "array of bool"),
+        ([True, False], "boolean array"),
+        (np.array([1, 0]), "boolean array"),
         (np.array([True]), "shape"),
         (np.array([False, False]), "at least one"),
     ],
@@ -164,7 +164,7 @@ def test_steps_return_new_arrays_or_with_zero_copy_always_the_same():
 )
 @pytest.mark.parametrize("zero_copy", [False, True])
 def test_any_number_of_threads_gives_the_same_bits(options, zero_copy, monkeypatch):
-    monkeypatch.setattr(engine, "LEAST_SLICE", 1)
+    monkeypatch.setattr(engine, "MIN_SLICE_WORK", 1)
     calls = []
     monkeypatch.setattr(engine, "thread_pool", lambda threads: calls.append(threads) or thread_pool(threads))
 
@@ -223,7 +223,7 @@ def test_an_engine_is_not_copied():
 @pytest.mark.parametrize(
     "options", [{"table": "classic"}, {"table": "classic", "observation": "pixels", "stack": 1}], ids=str
 )
-def test_arrays_of_ones_own_are_written_to(options):
+def test_steps_write_to_given_arrays(options):
     envs, plain = (PinballVectorEnv(3, "Disabled", zero_copy, **options) for zero_copy in (True, False))
     shape = envs.observation_space.shape
     arrays = (np.zeros(shape, envs.observation_space.dtype), np.zeros(3, bool), np.zeros(3, bool))
@@ -260,7 +260,7 @@ def test_arrays_that_cannot_be_written_to_are_not():
     assert not named.write_to(*arrays())
 
 
-def test_a_picture_that_somebody_has_written_to_is_whole_again_after_a_reset():
+def test_a_picture_that_was_written_to_is_complete_again_after_a_reset():
     options = {"boards": 1, "observation": "pixels", "size": (20, 12), "stack": 2, "zero_copy": True}
     envs, other = PinballVectorEnv(2, "Disabled", **options), PinballVectorEnv(2, "Disabled", **options)
     envs.reset(seed=0)
@@ -272,22 +272,22 @@ def test_a_picture_that_somebody_has_written_to_is_whole_again_after_a_reset():
 
 
 @pytest.mark.parametrize("seed", [1.5, "xy", -1, [0, 1.5], [0, -1]])
-def test_what_is_no_seed_is_refused_in_words(seed):
-    with pytest.raises(ValueError, match="seed must be a whole number from 0"):
+def test_an_invalid_seed_is_refused_with_a_message(seed):
+    with pytest.raises(ValueError, match="seed must be an integer ≥ 0"):
         PinballVectorEnv(2, table="classic").reset(seed=seed)
     if not isinstance(seed, list):
-        with pytest.raises(ValueError, match="seed must be a whole number from 0"):
+        with pytest.raises(ValueError, match="seed must be an integer ≥ 0"):
             PinballEnv(table="classic").reset(seed=seed)
 
 
-def test_options_that_are_none_are_refused_in_words():
+def test_invalid_actions_and_options_are_refused_with_a_message():
     with pytest.raises(TypeError, match="options must be a dict"):
         PinballVectorEnv(2, table="classic").reset(options=[1])
     envs = PinballVectorEnv(2, table="classic")
     envs.reset(seed=0)
     for actions, words in (
-        ([[1], [1, 2]], "actions must be whole numbers, got object"),
-        ([0.0, 1.0], "actions must be whole numbers, got float64"),
+        ([[1], [1, 2]], "actions must be integers, got object"),
+        ([0.0, 1.0], "actions must be integers, got float64"),
         ([[0, 1], [1, 0]], r"actions must have the shape \(2,\), got \(2, 2\)"),
     ):
         with pytest.raises(ValueError, match=words):
@@ -399,11 +399,11 @@ def test_tables_can_be_given_one_by_one():
     assert full.sum() > empty.sum()
 
 
-def test_what_only_a_vector_can_have_is_refused_in_words():
-    with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: say boards=5"):
+def test_options_of_vectors_are_refused_for_single_environments():
+    with pytest.raises(ValueError, match="for each of the 5 environments, and there are 3: pass boards=5"):
         PinballVectorEnv(5, own_boards=True, boards=3)
     for name in ("own_boards", "zero_copy", "autoreset_mode", "threads"):
-        with pytest.raises(TypeError, match=f"'{name}': it is for many environments, gymnasium.make_vec"):
+        with pytest.raises(TypeError, match=f"'{name}': only vector environments take it"):
             PinballEnv(table="classic", **{name: 1})
 
 

@@ -1,4 +1,4 @@
-"""Do the wrappers of Gymnasium go around the environments?"""
+"""Gymnasium's wrappers work with every environment."""
 
 from __future__ import annotations
 

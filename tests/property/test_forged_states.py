@@ -8,9 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import event as hypothesis_event
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import event as hypothesis_event, given, settings, strategies as st
 
 from boards import edited, full_table, launched
 from silverball.errors import FaultError, StateError

@@ -6,9 +6,7 @@ import copy
 import math
 
 import numpy as np
-from hypothesis import event as hypothesis_event
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import event as hypothesis_event, given, settings, strategies as st
 
 from boards import edited, full_table
 from silverball.errors import FaultError, StateError

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import math
 
-from hypothesis import assume, event, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, event, given, settings, strategies as st
 
 from boards import CONTACTS, full_table, moment, place
 from oracle import Twin

@@ -10,8 +10,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from boards import CONTACTS, edited, full_table, launched, mirrored, moment, place, speed_of
 from silverball.physics.tolerances import HOP, HOP_SHARE

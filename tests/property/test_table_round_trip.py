@@ -5,8 +5,7 @@ from __future__ import annotations
 import tomllib
 
 import numpy as np
-from hypothesis import assume, given, settings
-from hypothesis import strategies as st
+from hypothesis import assume, given, settings, strategies as st
 
 from silverball.errors import TableError
 from silverball.table import (

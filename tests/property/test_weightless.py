@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from boards import CLASSIC, edited, full_table, launched, place, speed_of, table_of
 from silverball.physics.audit import deepest

@@ -1,4 +1,4 @@
-"""A window on SDL's dummy driver, moved frame by frame, with keys that come through SDL's own queue."""
+"""A window on SDL's dummy driver, advanced frame by frame, with keys through SDL's own queue."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Player:
 
     @property
     def game(self):
-        return self.window.program.stage.game
+        return self.window.program.session.game
 
     @property
     def world(self):
@@ -77,7 +77,7 @@ class Player:
 
     @property
     def says(self) -> str:
-        return self.window.messages.text if self.window.messages.strength > 0 else ""
+        return self.window.messages.text if self.window.messages.opacity > 0 else ""
 
 
 @pytest.fixture(autouse=True)
@@ -94,10 +94,10 @@ def sketches(request, monkeypatch) -> None:
 
 
 @pytest.fixture(autouse=True)
-def no_rehearsal(request, monkeypatch) -> None:
+def no_player_warmup(request, monkeypatch) -> None:
     """Only tests marked `rehearsed` wait for players that need compiled code of their own."""
     if "rehearsed" not in request.keywords:
-        monkeypatch.setattr("silverball.app.player_warmup.Rehearsal._work", lambda self: None)
+        monkeypatch.setattr("silverball.app.player_warmup.PlayerWarmup._work", lambda self: None)
 
 
 @pytest.fixture

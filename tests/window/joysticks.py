@@ -1,4 +1,4 @@
-"""Gamepads and joysticks that are plugged in: SDL's virtual ones."""
+"""Virtual gamepads and joysticks of SDL."""
 
 from __future__ import annotations
 

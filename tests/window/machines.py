@@ -1,4 +1,4 @@
-"""Tables on which a game is soon over."""
+"""Tables on which a game ends soon."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def test_a_game_from_the_menu_to_the_score_table(open_window, tmp_path, hands):
         do["right"]()
     do["start"]()  # scores
     assert player.menus.page == "scores"
-    shown = player.program._library.scores(player.program.settings.table, Mode.ARCADE)
+    shown = player.program._catalog.scores(player.program.settings.current.table, Mode.ARCADE)
     assert [(row.initials, row.score) for row in shown] == [("BAC", score)]
     with Store(tmp_path / "data") as other:
         (row,) = other.scores()
@@ -97,10 +97,10 @@ def test_a_game_is_watched_again_from_its_last_page(open_window):
     for _ in range(3):
         player.tap(pygame.K_d)
     assert player.program.speed == 16.0
-    player.until(lambda: player.program.stage.has_ended)
+    player.until(lambda: player.program.session.has_ended)
     assert player.game.score == score
     player.tap(pygame.K_a)  # at its end the paddles jump
-    assert not player.program.stage.has_ended
+    assert not player.program.session.has_ended
     player.tap(pygame.K_ESCAPE)
     assert player.menus.page == "over"
 
@@ -122,7 +122,7 @@ def test_a_replay_stands_still_and_goes_on_tick_by_tick(open_window):
     player.tap(pygame.K_n)
     assert player.world.tick == tick + 1
     player.tap(pygame.K_SPACE)
-    player.until(lambda: player.program.stage.has_ended)
+    player.until(lambda: player.program.session.has_ended)
     assert player.game.digest() == replay.digest
 
 
@@ -142,7 +142,7 @@ def test_a_remapped_key_works_at_once_and_at_the_next_start(open_window):
     player.until(lambda: player.menus.wants_key or not player.tap(pygame.K_SPACE), 5.0)
     player.tap(pygame.K_q)
     player.frames(2)
-    assert "q" in player.program.settings.keys["left"]
+    assert "q" in player.program.settings.current.keys["left"]
     player.window.close()
     again = open_window()
     rest = again.world.paddles[0].angle
@@ -170,20 +170,20 @@ def test_attract_mode_plays_by_itself_after_half_a_minute_and_any_button_ends_it
 @pytest.mark.rehearsed
 def test_the_planner_takes_over_the_show_and_can_be_watched_until_a_key_is_pressed(open_window):
     player = open_window(mode=None)
-    player.window.rehearsal.wait(300.0)
+    player.window.player_warmup.wait(300.0)
     player.seconds(31.0)
     assert player.menus.page == "attract"
-    assert player.program.stage.player.name == "planner"
+    assert player.program.session.player.name == "planner"
     player.tap(pygame.K_z)
     assert player.menus.page == "main"
     for key in (pygame.K_d, pygame.K_d, pygame.K_d, pygame.K_SPACE, pygame.K_d, pygame.K_SPACE):
         player.tap(key)
     assert player.menus.page == ""
-    assert player.program.stage.player.name == "trained"
+    assert player.program.session.player.name == "trained"
     player.tap(pygame.K_a)
     player.tap(pygame.K_a)
     player.tap(pygame.K_SPACE)
-    assert player.program.stage.player.name == "planner"
+    assert player.program.session.player.name == "planner"
     tick = player.world.tick
     player.seconds(1.0)
     assert player.world.tick > tick
@@ -236,7 +236,7 @@ def test_initials_are_typed_and_letters_that_are_keys_of_the_game_do_nothing_els
     player = open_window(leaky(), seed=3, mode=Mode.ARCADE)
     play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
     player.until(lambda: player.menus.page == "initials")
-    before = player.program.settings
+    before = player.program.settings.current
     for letter in "mpr":  # mute, pause, new board
         key(player, ord(letter), letter if writes else "")
     assert player.menus.page == "initials"
@@ -245,7 +245,7 @@ def test_initials_are_typed_and_letters_that_are_keys_of_the_game_do_nothing_els
         key(player, ord(letter), letter if writes else "")
     key(player, done, "")
     assert player.menus.page == "over"
-    assert player.program.settings == before.changed(initials="MPD")
+    assert player.program.settings.current == before.changed(initials="MPD")
     with Store(tmp_path / "data") as other:
         assert [row.initials for row in other.scores()] == ["MPD"]
 
@@ -257,7 +257,7 @@ def test_initials_that_nobody_enters_are_taken_as_offered_and_the_show_begins(op
     player.tap(pygame.K_F1)  # help that was left open is closed too
     player.seconds(32.0)
     assert player.menus.page == "attract"
-    assert not player.window.listener.shows_help
+    assert not player.window.input_handler.shows_help
     tick = player.world.tick
     player.seconds(1.0)
     assert player.world.tick > tick
@@ -284,7 +284,7 @@ def test_going_back_in_a_replay_leaves_no_ball_behind_that_is_not_lost_yet(open_
     play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
     replay = player.game.replay
     again = open_window(replay=replay, table=None, mode=None)
-    again.until(lambda: again.program.stage.has_ended)
+    again.until(lambda: again.program.session.has_ended)
     effects = again.window._picture.renderer.effects
     assert effects._dives
     again.program.jump(-0.5 * replay.ticks / replay.tick_rate)

@@ -1,15 +1,15 @@
-"""What keys and gamepad buttons ask for, without a window."""
+"""Actions of keys and gamepad buttons, without a window."""
 
 from __future__ import annotations
 
 import pygame
 import pytest
 
-from silverball.app.clock import TickClock
-from silverball.app.controls import Action, Buttons, Controls
+from silverball.app.bindings import ACTIONS
+from silverball.app.controls import Action, Controls, PaddleButtons
 from silverball.app.gamepad import BUTTON_NAMES, TRIGGER_DOWN, TRIGGER_UP, Gamepads
-from silverball.app.menus import ACTIONS
 from silverball.app.settings import Settings
+from silverball.app.timing import TickClock
 
 
 @pytest.fixture(autouse=True)
@@ -46,23 +46,23 @@ def test_no_key_and_no_button_asks_for_two_things():
 
 def test_a_key_that_was_given_to_another_action_leaves_the_old_one():
     controls = Controls(Settings(keys={"jitter": ("a",)}))
-    assert controls.of_key("a") is Action.JITTER
-    assert controls.of_key("z") is None
-    assert controls.of_key("left") is Action.LEFT
+    assert controls.action_of_key("a") is Action.JITTER
+    assert controls.action_of_key("z") is None
+    assert controls.action_of_key("left") is Action.LEFT
 
 
 def test_escape_always_goes_back():
-    assert Controls(Settings(keys={"left": ("escape",)})).of_key("escape") is Action.BACK
+    assert Controls(Settings(keys={"left": ("escape",)})).action_of_key("escape") is Action.BACK
 
 
 def test_a_shortcut_of_the_desktop_moves_no_more_than_paddles():
     controls = Controls(Settings())
-    assert controls.of_key("r", pygame.KMOD_LCTRL) is None
-    assert controls.of_key("a", pygame.KMOD_LCTRL) is Action.LEFT
+    assert controls.action_of_key("r", pygame.KMOD_LCTRL) is None
+    assert controls.action_of_key("a", pygame.KMOD_LCTRL) is Action.LEFT
 
 
 def test_a_paddle_is_held_while_one_of_two_sources_holds_it():
-    buttons = Buttons()
+    buttons = PaddleButtons()
     buttons.press("key a", Action.LEFT)
     buttons.press("pad 0 leftshoulder", Action.LEFT)
     buttons.release("key a")
@@ -72,12 +72,12 @@ def test_a_paddle_is_held_while_one_of_two_sources_holds_it():
 
 
 def test_a_tap_counts_in_the_first_tick_only():
-    buttons = Buttons()
+    buttons = PaddleButtons()
     buttons.press("key d", Action.RIGHT)
     buttons.release("key d")
-    held = buttons.take()
+    held = buttons.poll()
     assert held == ((False, True), (False, False))
-    assert buttons.take().first == (False, False)
+    assert buttons.poll().first == (False, False)
 
 
 def axis(value: int) -> pygame.Event:
@@ -108,4 +108,4 @@ def test_the_clock_gives_ticks_by_its_speed_and_never_too_many_at_once(speed):
     ticks = [clock.advance(1 / 60) for _ in range(600)]
     assert sum(ticks) == pytest.approx(2400 * speed, abs=1)
     assert clock.advance(10.0) <= max(12, 12 * speed)
-    assert 0.0 <= clock.share < 1.0
+    assert 0.0 <= clock.fraction < 1.0

@@ -1,4 +1,4 @@
-"""Gamepads and joysticks: those that SDL has no names for, and those that come and go."""
+"""Gamepads and joysticks: devices without a mapping in SDL, and devices that come and go."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import pytest
 from joysticks import GAMEPAD, UNKNOWN, VirtualJoystick
 
 from reading import reads
-from silverball.app.menus import ACTIONS
+from silverball.app.bindings import ACTIONS
 from silverball.app.settings import Settings
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 from silverball.game.view import Mode
@@ -41,7 +41,7 @@ def tap(player, device, button):
 
 
 def held(player):
-    return player.window.listener.buttons.held
+    return player.window.input_handler.buttons.held
 
 
 def gamepad_page(player) -> None:
@@ -68,7 +68,9 @@ def choose(player, label: str) -> None:
 @pytest.mark.parametrize("line", [line for line in ACTIONS if line.joystick], ids=lambda line: line.action)
 def test_the_buttons_of_an_unknown_joystick_have_a_use_at_first(player, plug_in, monkeypatch, line):
     asked = []
-    monkeypatch.setattr(player.window.listener, "_press", lambda source, action, **_: asked.append(action))
+    monkeypatch.setattr(
+        player.window.input_handler, "_press", lambda source, action, **_: asked.append(action)
+    )
     device = plug_in()
     numbers = [int(name.split()[1]) for name in line.joystick if name.startswith("button")]
     for number in numbers:
@@ -101,7 +103,9 @@ def test_the_paddles_follow_the_buttons_the_lever_and_the_hat_of_an_unknown_joys
 
 def test_a_lever_that_trembles_on_the_threshold_presses_once(player, plug_in, monkeypatch):
     asked = []
-    monkeypatch.setattr(player.window.listener, "_press", lambda source, action, **_: asked.append(action))
+    monkeypatch.setattr(
+        player.window.input_handler, "_press", lambda source, action, **_: asked.append(action)
+    )
     device = plug_in()
     for value in (0, 20000, 19000, 20000, 18000, 20500, 0):
         device.axis(0, value)
@@ -129,8 +133,10 @@ def test_any_button_of_an_unknown_joystick_can_be_chosen_and_is_kept_for_this_ma
     choose(player, "JITTER")
     choose(player, "NEW BUTTON")
     tap(player, one, 98)
-    settings = player.program.settings
-    guid = next(entry.guid for entry in player.window.listener.pads.joysticks if entry.title == "One make")
+    settings = player.program.settings.current
+    guid = next(
+        entry.guid for entry in player.window.input_handler.gamepads.joysticks if entry.title == "One make"
+    )
     assert settings.joysticks == {guid: {"jitter": ("button 99",)}}
     assert settings.pad == settings.keys == {}
     while player.menus.is_open:
@@ -162,7 +168,7 @@ def test_an_axis_or_a_hat_can_be_chosen_too(player, plug_in, name, move, back):
     for do in (move, back):
         do(device)
         player.frames(2)
-    assert [*player.program.settings.joysticks.values()] == [{"jitter": (name,)}]
+    assert [*player.program.settings.current.joysticks.values()] == [{"jitter": (name,)}]
 
 
 @pytest.mark.parametrize(
@@ -175,7 +181,7 @@ def test_an_axis_or_a_hat_can_be_chosen_too(player, plug_in, name, move, back):
 )
 def test_the_page_names_the_joystick_and_obeys_nothing_in_its_name(player, plug_in, title, read):
     plug_in(buttons=1, title=title)
-    (entry,) = player.window.listener.pads.joysticks
+    (entry,) = player.window.input_handler.gamepads.joysticks
     assert entry.title.upper() == read
     assert entry.title.isprintable()
     gamepad_page(player)
@@ -191,12 +197,12 @@ def test_the_page_names_the_joystick_and_obeys_nothing_in_its_name(player, plug_
 def test_joysticks_of_any_size_come_and_go(player, plug_in, buttons):
     for _ in range(3):
         device = plug_in(buttons=buttons, hats=0, axes=0)
-        assert [entry.buttons for entry in player.window.listener.pads.joysticks] == [buttons]
+        assert [entry.buttons for entry in player.window.input_handler.gamepads.joysticks] == [buttons]
         for button in range(buttons):
             tap(player, device, button)
         device.pull_out()
         player.frames(2)
-        assert player.window.listener.pads.joysticks == ()
+        assert player.window.input_handler.gamepads.joysticks == ()
         assert held(player) == (False, False)
         if player.menus.is_open:
             player.tap(pygame.K_ESCAPE)

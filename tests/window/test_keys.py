@@ -28,7 +28,7 @@ def angles(player):
     ],
 )
 def test_a_paddle_key_lifts_its_paddle_within_the_stroke_and_release_brings_it_back(player, key, side):
-    paddle = player.program.table.paddle[side]
+    paddle = player.program.board.table.paddle[side]
     rest, up = paddle.rest_angle, paddle.up_angle
     assert angles(player) == pytest.approx([rest, rest])
     player.press(key)
@@ -41,7 +41,7 @@ def test_a_paddle_key_lifts_its_paddle_within_the_stroke_and_release_brings_it_b
 
 
 def test_a_paddle_stays_up_while_one_of_its_two_pressed_keys_is_held(player):
-    up = player.program.table.paddle[0].up_angle
+    up = player.program.board.table.paddle[0].up_angle
     player.press(pygame.K_a)
     player.press(pygame.K_LEFT)
     player.seconds(0.2)
@@ -51,7 +51,7 @@ def test_a_paddle_stays_up_while_one_of_its_two_pressed_keys_is_held(player):
 
 
 def test_a_tap_between_two_frames_lifts_the_paddle_for_one_tick(player):
-    paddle = player.program.table.paddle[0]
+    paddle = player.program.board.table.paddle[0]
     per_tick = (paddle.up_angle - paddle.rest_angle) / paddle.stroke * TICK
     player.press(pygame.K_a)
     player.release(pygame.K_a)
@@ -60,12 +60,12 @@ def test_a_tap_between_two_frames_lifts_the_paddle_for_one_tick(player):
 
 
 def test_a_tap_is_not_lost_in_a_beat_too_short_for_a_tick(player):
-    rest = player.program.table.paddle[0].rest_angle
+    rest = player.program.board.table.paddle[0].rest_angle
     player.press(pygame.K_a)
     player.release(pygame.K_a)
-    player.window.beat(0.1 * TICK)
+    player.window.poll_input(0.1 * TICK)
     assert angles(player)[0] == pytest.approx(rest)
-    player.window.beat(TICK)
+    player.window.poll_input(TICK)
     assert angles(player)[0] > rest
 
 
@@ -73,7 +73,7 @@ def test_a_button_reaches_the_simulation_at_the_next_tick_not_at_the_next_pictur
     player.frames(10)
     tick = player.world.tick
     player.press(pygame.K_a)
-    player.window.beat(TICK)
+    player.window.poll_input(TICK)
     assert player.world.tick == tick + 1
     assert player.world.paddles[0].angular_velocity > 0.0
     assert len(player.window.latency.to_tick) == 1
@@ -96,7 +96,9 @@ def test_losing_focus_pauses_the_game_and_releases_the_keys(player):
     player.tap(pygame.K_SPACE)  # "go on"
     assert not player.program.is_paused
     player.seconds(0.3)
-    assert angles(player) == pytest.approx([paddle.rest_angle for paddle in player.program.table.paddle])
+    assert angles(player) == pytest.approx(
+        [paddle.rest_angle for paddle in player.program.board.table.paddle]
+    )
 
 
 def test_space_brings_two_balls_at_most_and_says_why_no_third(player):
@@ -106,7 +108,7 @@ def test_space_brings_two_balls_at_most_and_says_why_no_third(player):
         assert not player.says
     player.tap(pygame.K_SPACE)
     assert len(player.world.balls) == 2
-    assert player.says == "2 balls are the most."
+    assert player.says == "At most 2 balls at a time."
 
 
 def test_z_changes_the_velocity_of_the_ball_and_without_a_ball_says_why_not(player):
@@ -140,8 +142,8 @@ def test_no_input_method_has_the_letters_whatever_is_done_to_the_window(player):
     assert not is_typing()
     screen = player.window._screen
     for do in (
-        screen.toggle_full,
-        screen.toggle_full,
+        screen.toggle_fullscreen,
+        screen.toggle_fullscreen,
         lambda: screen.resize((300, 500)),
         lambda: pygame.event.post(pygame.Event(pygame.WINDOWFOCUSGAINED)),
         lambda: pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED, x=300, y=500)),
@@ -158,20 +160,20 @@ def test_a_key_that_comes_up_as_another_letter_lets_go_of_what_it_held(player):
         pygame.Event(pygame.KEYDOWN, key=pygame.K_a, mod=0, unicode="", scancode=pygame.KSCAN_A)
     )
     player.frames(1)
-    assert player.window.listener.buttons.held == (True, False)
+    assert player.window.input_handler.buttons.held == (True, False)
     pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_q, mod=0, unicode="", scancode=pygame.KSCAN_A))
     player.frames(1)
-    assert player.window.listener.buttons.held == (False, False)
+    assert player.window.input_handler.buttons.held == (False, False)
 
 
 def test_a_key_that_loses_its_use_while_it_is_held_lets_go(player):
     player.press(pygame.K_a)
     player.frames(1)
-    player.program.set(keys={"left": ("left",)})
+    player.program.settings.change(keys={"left": ("left",)})
     player.frames(1)
     player.release(pygame.K_a)
     player.frames(1)
-    assert player.window.listener.buttons.held == (False, False)
+    assert player.window.input_handler.buttons.held == (False, False)
 
 
 def test_the_help_stops_the_time_while_it_is_shown(player):
@@ -180,7 +182,7 @@ def test_the_help_stops_the_time_while_it_is_shown(player):
     player.seconds(0.2)
     assert player.world.tick == tick
     player.tap(pygame.K_SPACE)
-    assert "F1 goes on" in player.says
+    assert "F1 continues" in player.says
     player.tap(pygame.K_F1)
     player.seconds(0.2)
     assert player.world.tick > tick
@@ -194,11 +196,11 @@ def test_the_help_has_two_pages_that_paddles_space_and_arrows_turn(open_window, 
     player.tap(pygame.K_F1)
     for expected in (1, 0, 1):
         player.tap(pygame.key.key_code(name))
-        assert player.window.listener.help_page == expected
+        assert player.window.input_handler.help_page == expected
     assert player.menus.signature == page  # nothing was chosen behind it
     player.tap(pygame.K_F1)
     player.tap(pygame.K_F1)
-    assert player.window.listener.help_page == 0
+    assert player.window.input_handler.help_page == 0
 
 
 def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window, monkeypatch):
@@ -212,7 +214,7 @@ def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window
     player.tap(pygame.K_F1)
     player.tap(pygame.K_d)
     text = " ".join(written)
-    arcade = player.program.table.arcade
+    arcade = player.program.board.table.arcade
     for word in ("HOW TO SCORE", f"×{arcade.double}", f"{arcade.ball_save:g} s", "paddles are dead"):
         assert word in text
 
@@ -227,8 +229,10 @@ def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
 
     placed = []
     monkeypatch.setattr(overlay, "_place", lambda target, image, *rest: placed.append(image.get_size()))
-    rules = how_to_score(player.program.table, Mode.ARCADE)
-    overlay.draw_help(pygame.Surface(size), size[0] / 11.0, 7, player.window.listener.controls, page, rules)
+    rules = how_to_score(player.program.board.table, Mode.ARCADE)
+    overlay.draw_help(
+        pygame.Surface(size), size[0] / 11.0, 7, player.window.input_handler.controls, page, rules
+    )
     ((width, height),) = placed
     assert width <= size[0]
     assert height <= size[1]
@@ -236,14 +240,18 @@ def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
 
 def test_r_makes_a_new_board_and_shift_r_the_same_again(open_window):
     player = open_window("random", seed=11)
-    first = player.program.table
+    first = player.program.board.table
     player.tap(pygame.K_SPACE)
     player.tap(pygame.K_r, pygame.KMOD_LSHIFT)
-    assert (player.program.seed, player.program.table, player.world.tick > 4) == (11, first, False)
+    assert (player.program.board.seed, player.program.board.table, player.world.tick > 4) == (
+        11,
+        first,
+        False,
+    )
     player.tap(pygame.K_r)
-    assert player.program.seed != 11
-    assert player.program.table != first
-    assert player.world.seed == player.program.seed
+    assert player.program.board.seed != 11
+    assert player.program.board.table != first
+    assert player.world.seed == player.program.board.seed
     assert not player.world.balls
 
 
@@ -254,7 +262,9 @@ def test_shift_r_lifts_no_paddle(open_window):
     player.press(pygame.K_r, pygame.KMOD_LSHIFT)
     player.frames(1)
     player.seconds(0.3)
-    assert angles(player) == pytest.approx([paddle.rest_angle for paddle in player.program.table.paddle])
+    assert angles(player) == pytest.approx(
+        [paddle.rest_angle for paddle in player.program.board.table.paddle]
+    )
 
 
 def test_the_same_seed_and_keys_give_the_same_game(open_window):
@@ -264,7 +274,7 @@ def test_the_same_seed_and_keys_give_the_same_game(open_window):
         player.tap(pygame.K_SPACE)
         player.press(pygame.K_d)
         player.seconds(1.0)
-        digests.append((player.world.digest(), player.program.table))
+        digests.append((player.world.digest(), player.program.board.table))
         player.release(pygame.K_d)
         player.frames(1)
     assert digests[0] == digests[1]
@@ -301,7 +311,7 @@ def test_a_message_goes_away(player):
 def test_shortcuts_of_the_desktop_are_left_alone(player):
     player.tap(pygame.K_r, pygame.KMOD_LCTRL)
     player.tap(pygame.K_g, pygame.KMOD_LALT)
-    assert (player.program.seed, player.says) == (7, "")
+    assert (player.program.board.seed, player.says) == (7, "")
 
 
 @pytest.mark.parametrize("event", [pygame.QUIT, pygame.WINDOWCLOSE])
@@ -314,7 +324,7 @@ def test_closing_the_window_ends_the_program(player, event):
 def test_escape_goes_back_step_by_step_and_never_ends_a_game_at_once(player):
     player.tap(pygame.K_F1)
     player.tap(pygame.K_ESCAPE)
-    assert not player.window.listener.shows_help
+    assert not player.window.input_handler.shows_help
     player.tap(pygame.K_ESCAPE)
     assert player.menus.page == "pause"
     player.tap(pygame.K_ESCAPE)
@@ -324,7 +334,7 @@ def test_escape_goes_back_step_by_step_and_never_ends_a_game_at_once(player):
 
 @pytest.mark.parametrize("key", [pygame.K_p, pygame.K_F1])
 def test_taps_on_a_paddle_while_the_game_waits_are_forgotten_but_a_held_key_counts(player, key):
-    rest = player.program.table.paddle[0].rest_angle
+    rest = player.program.board.table.paddle[0].rest_angle
     player.tap(key)
     player.tap(pygame.K_a)
     player.tap(pygame.K_LEFT)
@@ -353,7 +363,7 @@ def test_the_same_message_again_and_again_does_not_stay_for_ever(player):
     for _ in range(30):
         player.tap(pygame.K_SPACE)
         player.seconds(0.1)
-        gone |= player.window.messages.strength < 0.5
+        gone |= player.window.messages.opacity < 0.5
     assert gone
 
 

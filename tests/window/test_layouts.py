@@ -17,8 +17,8 @@ import pytest
 from xserver import all_layouts, choose_layout, signs, x_server
 
 from silverball.app import sdl
+from silverball.app.bindings import ACTIONS
 from silverball.app.controls import Action
-from silverball.app.menus import ACTIONS
 from silverball.app.window import Window
 from silverball.drawing.text import can_show
 from silverball.game.view import Mode
@@ -50,8 +50,8 @@ class Typist:
         self.asked: list[Action] = []
 
     @property
-    def listener(self):
-        return self.window.listener
+    def input_handler(self):
+        return self.window.input_handler
 
     def use(self, layout: str) -> None:
         """Another keyboard is plugged in."""
@@ -69,7 +69,7 @@ class Typist:
         start = time.monotonic()
         while time.monotonic() - start < 0.05 or not is_reached():
             assert time.monotonic() - start < seconds, "nothing happened"
-            self.window.beat(0.001)
+            self.window.poll_input(0.001)
             time.sleep(0.002)
 
     def press(self, *keys: int) -> list[Action]:
@@ -87,7 +87,7 @@ def typist(tmp_path_factory) -> Iterator[Typist]:
         patch.setenv("SDL_AUDIODRIVER", "dummy")
         patch.setenv("DISPLAY", display)
         patch.setattr("silverball.drawing.background.Background._work", lambda self: None)
-        patch.setattr("silverball.app.player_warmup.Rehearsal._work", lambda self: None)
+        patch.setattr("silverball.app.player_warmup.PlayerWarmup._work", lambda self: None)
         window = Window("classic", 7, height=400, mode=Mode.FREE, folder=tmp_path_factory.mktemp("data"))
         typist = Typist(window, display)
         typist.until(lambda: window.is_ready, 300.0)
@@ -104,7 +104,7 @@ def asked(typist, monkeypatch) -> list[Action]:
     def note(source: str, action: Action, *, again: bool = False) -> None:
         typist.asked.append(action)
 
-    monkeypatch.setattr(typist.listener, "_press", note)
+    monkeypatch.setattr(typist.input_handler, "_press", note)
     typist.asked.clear()
     return typist.asked
 
@@ -112,10 +112,10 @@ def asked(typist, monkeypatch) -> list[Action]:
 def keys_that_the_help_names(typist: Typist) -> list[tuple[int, Action]]:
     """The keys that bear what the help page writes, by X's numbers, and what they do."""
     bears = signs(typist.display)
-    controls = typist.listener.controls
+    controls = typist.input_handler.controls
     found = []
     for action in (Action(line.action) for line in ACTIONS):
-        for name, label in zip(controls.keys(action), controls.shown_keys(action), strict=True):
+        for name, label in zip(controls.keys(action), controls.key_labels(action), strict=True):
             keys = [key for key, sign in bears.items() if sign == label]
             if name in SPECIAL:
                 keys = [SPECIAL[name]]
@@ -172,22 +172,22 @@ def test_a_sign_that_is_nowhere_else_may_be_typed_with_shift(typist, asked, layo
 def test_a_key_that_is_held_while_the_layout_changes_is_let_go(typist, after):
     typist.use("us")
     typist.do("keydown", A)
-    assert typist.listener.buttons.held == (True, False)
+    assert typist.input_handler.buttons.held == (True, False)
     typist.use(after)
     typist.do("keyup", A)
-    assert typist.listener.buttons.held == (False, False)
+    assert typist.input_handler.buttons.held == (False, False)
 
 
 def test_help_and_settings_follow_the_layout_without_a_key_being_pressed(typist):
     for layout, sign in (("ru", "ф"), ("gr", "α"), ("us", "a")):
         typist.use(layout)
-        typist.until(lambda sign=sign: typist.listener.controls.shown_keys(Action.LEFT)[0] == sign)
-        assert typist.window.program.menus.key("left") == sign.upper()
+        typist.until(lambda sign=sign: typist.input_handler.controls.key_labels(Action.LEFT)[0] == sign)
+        assert typist.window.program.menus.context.key_label("left") == sign.upper()
 
 
 def test_no_input_method_gets_the_letters_whatever_is_done_to_the_window(typist):
     screen = typist.window._screen
-    for do in (screen.toggle_full, screen.toggle_full, lambda: screen.resize((300, 500))):
+    for do in (screen.toggle_fullscreen, screen.toggle_fullscreen, lambda: screen.resize((300, 500))):
         do()
         typist.until(lambda: True)
         assert sdl._function("SDL_IsTextInputActive")() == 0

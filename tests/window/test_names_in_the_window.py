@@ -7,8 +7,7 @@ import os
 import pytest
 
 from hostile_text import NAMES, NO_TEXT, obeyed_in, toml_string
-from silverball.app.messages import Messages
-from silverball.app.overlay import draw_message
+from silverball.app.overlay import Messages, draw_message
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.text import line, wrapped
 from silverball.game.scores.store import Store
@@ -22,7 +21,7 @@ MANY = "\0\x1b[31m\u202e\x9b\ufeff\U000e0001\u2028[red]"
 def test_a_message_shows_what_it_repeats():
     for name in NAMES.values():
         messages = Messages()
-        messages.say(f"table {name}")
+        messages.show(f"table {name}")
         assert obeyed_in(messages.text) == set()
         assert messages.text == f"Table {plain(name, keep=chr(10))}."
 
@@ -54,13 +53,13 @@ def test_a_table_of_a_hostile_name_can_be_chosen_and_played_from_any_file(open_w
     with Store(folder) as store:
         store.add_score("ABC", 700, Mode.ARCADE, MANY, table_digest(load_table(path)), 1, "replay")
     player = open_window(path, mode=None, folder=folder)
-    assert player.program.table.name == MANY
-    player.program.use(player.program.settings.changed(table=path))
+    assert player.program.board.table.name == MANY
+    player.program.settings.change(table=path)
     player.seconds(60)  # of attract mode: the title, the table and its scores
     player.window.close()
     again = open_window(None, mode=Mode.FREE, folder=folder)
-    assert again.program.table.name == MANY  # as it was chosen last
+    assert again.program.board.table.name == MANY  # as it was chosen last
     again.frames(10)
-    again.window.messages.say(f"{again.program.table.name} is there")
+    again.window.messages.show(f"{again.program.board.table.name} is there")
     again.frames(2)
     assert again.says == f"{plain(MANY)} is there."

@@ -1,4 +1,4 @@
-"""The real window on a real X server, worked with real keys: Xvfb shows it, xdotool presses.
+"""The real window on a real X server, operated with real keys: Xvfb shows it, xdotool presses.
 
 Needs Debian's packages xvfb and xdotool, which `.ci/run` installs; without them these tests are skipped.
 """
@@ -18,7 +18,7 @@ import pytest
 from machines import leaky
 from xserver import x_server
 
-from silverball.app.program import OVER_SECONDS
+from silverball.app.program import GAME_OVER_SECONDS
 from silverball.game.replay.format import Replay
 from silverball.game.replay.verify import verify
 from silverball.game.scores.store import Store
@@ -126,7 +126,7 @@ def test_a_whole_arcade_game_with_real_keys_from_the_menu_to_the_score_table(sta
     (score,) = scores(machine.data)
     assert score.score > 0
     assert score.initials == "AAA"
-    time.sleep(OVER_SECONDS + 1.0)  # the end is looked at first
+    time.sleep(GAME_OVER_SECONDS + 1.0)  # the end is looked at first
     machine.tap("d")  # A → B
     for _ in range(4):
         machine.tap("space")

@@ -8,9 +8,8 @@ import pygame
 import pytest
 
 from silverball.app import sdl
-from silverball.app.picture import GREATEST_DRAWN, SETTLED, Picture, fitted
-from silverball.app.pointer import REST
-from silverball.app.screen import DECORATION, FRAME_RATES, LEAST_SIZE, TITLE_BAR, Screen
+from silverball.app.picture import MAX_DRAWN, SETTLE_TIME, Picture, fitted
+from silverball.app.screen import DECORATION, FRAME_RATES, HIDE_AFTER, MIN_SIZE, TITLE_BAR, Screen
 from silverball.app.settings import Settings
 from silverball.drawing import Moment
 from silverball.table import Board, load_table
@@ -43,7 +42,7 @@ def test_a_window_survives_every_shape_with_all_that_can_be_shown_on_it(player, 
         player.tap(extra)
     for shape in SHAPES:
         screen.resize(shape)
-        player.window.messages.say(f"a message on a window of {shape}")
+        player.window.messages.show(f"a message on a window of {shape}")
         player.frames(2)
         assert player.window.size == shape
         assert pygame.Rect((0, 0), shape).contains(player.window._picture.area)
@@ -64,7 +63,7 @@ def test_a_tiny_window_is_drawn_anew_when_its_size_has_stood_and_comes_back_well
         player.frames(1)
         while player.window._picture.renderer.camera.size != player.window._picture.area.size:
             assert time.monotonic() < limit
-            time.sleep(SETTLED / 5)
+            time.sleep(SETTLE_TIME / 5)
             player.frames(1, 0.0)
     player.tap(pygame.K_p)
     player.tap(pygame.K_p)
@@ -86,7 +85,7 @@ def test_a_gigantic_window_takes_no_gigabyte():
     table = load_table("classic")
     picture = Picture((16384, 16384))
     picture.show(table, None, Settings())
-    assert picture.renderer.camera.size[1] <= GREATEST_DRAWN < picture.area.height
+    assert picture.renderer.camera.size[1] <= MAX_DRAWN < picture.area.height
     assert picture.renderer.camera.size[0] * picture.renderer.camera.size[1] < 16e6
     window = pygame.Surface((6000, 6000))
     picture.draw(Moment.before(table), window)
@@ -96,12 +95,12 @@ def test_a_gigantic_window_takes_no_gigabyte():
 @pytest.mark.parametrize("size", SCREENS)
 def test_the_first_window_fits_every_screen(open_window, monkeypatch, size):
     monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [size])
-    monkeypatch.setattr(sdl, "screen_area", lambda screen: pygame.Rect((0, 0), size))
+    monkeypatch.setattr(sdl, "display_bounds", lambda screen: pygame.Rect((0, 0), size))
     for bars in ((0, 0), (0, 60), (80, 0), (70, 140)):
         usable = pygame.Rect(bars, (size[0] - bars[0], size[1] - bars[1]))
-        monkeypatch.setattr(sdl, "usable_area", lambda screen, usable=usable: usable)
+        monkeypatch.setattr(sdl, "usable_bounds", lambda screen, usable=usable: usable)
         screen = Screen("a test", without_display=True)
-        room = screen.first_room
+        room = screen.max_initial_size
         assert room[0] <= usable.width
         assert room[1] <= usable.height - TITLE_BAR
         assert room[1] <= size[1] - DECORATION
@@ -109,14 +108,14 @@ def test_the_first_window_fits_every_screen(open_window, monkeypatch, size):
         screen.open(area.size)
         assert screen.surface.get_size() == area.size
         least = screen._window.minimum_size
-        assert all(one <= min(most) for one, *most in zip(least, LEAST_SIZE, area.size, strict=True))
+        assert all(one <= min(most) for one, *most in zip(least, MIN_SIZE, area.size, strict=True))
         screen.close()
 
 
 def test_the_first_window_of_a_wide_table_is_not_wider_than_the_screen(monkeypatch):
     monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: [(1080, 1920)])
     screen = Screen("a test", without_display=True)
-    assert fitted(Board(length=8.0, width=40.0), screen.first_room).width <= 1080
+    assert fitted(Board(length=8.0, width=40.0), screen.max_initial_size).width <= 1080
     screen.close()
 
 
@@ -124,7 +123,7 @@ def monitors(monkeypatch, rates, sizes) -> None:
     """Pretend monitors side by side; SDL's dummy driver has but one."""
     monkeypatch.setattr(pygame.display, "get_desktop_refresh_rates", lambda: list(rates))
     monkeypatch.setattr(pygame.display, "get_desktop_sizes", lambda: list(sizes))
-    monkeypatch.setattr(sdl, "screen_of", lambda window: None)
+    monkeypatch.setattr(sdl, "display_index", lambda window: None)
 
 
 @pytest.mark.parametrize("rates", [(60, 144), (144, 60), (75, 240), (60, 0), (0, 120), (30, 500)])
@@ -149,9 +148,9 @@ def test_a_monitor_that_is_unplugged_leaves_a_rate(player, monkeypatch):
 
 def test_where_sdl_knows_the_monitor_it_is_believed(player, monkeypatch):
     monitors(monkeypatch, (60, 144), [(1920, 1080), (2560, 1440)])
-    monkeypatch.setattr(sdl, "screen_area", lambda screen: pygame.Rect(0, 0, 1, 1))
+    monkeypatch.setattr(sdl, "display_bounds", lambda screen: pygame.Rect(0, 0, 1, 1))
     for number, rate in ((1, 144), (0, 60), (2, FRAME_RATES[0])):
-        monkeypatch.setattr(sdl, "screen_of", lambda window, number=number: number)
+        monkeypatch.setattr(sdl, "display_index", lambda window, number=number: number)
         assert player.window.frame_rate == rate
 
 
@@ -163,7 +162,7 @@ def move(player) -> None:
 def test_the_pointer_hides_after_two_seconds_and_comes_back_when_it_is_moved(player):
     move(player)
     for _ in range(2):
-        player.frames(round(10 * (REST - 0.2)), 0.1)
+        player.frames(round(10 * (HIDE_AFTER - 0.2)), 0.1)
         assert pygame.mouse.get_visible()
         player.frames(4, 0.1)
         assert not pygame.mouse.get_visible()
@@ -175,22 +174,22 @@ def test_the_pointer_hides_after_two_seconds_and_comes_back_when_it_is_moved(pla
 def test_the_pointer_comes_back_for_a_pause_and_stays_while_the_window_has_no_focus(player, full):
     if full:
         player.tap(pygame.K_F11)
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     assert not pygame.mouse.get_visible()
     player.tap(pygame.K_p)
     assert pygame.mouse.get_visible()
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     assert not pygame.mouse.get_visible()
     pygame.event.post(pygame.Event(pygame.WINDOWFOCUSLOST))
-    player.seconds(REST + 1.0)
+    player.seconds(HIDE_AFTER + 1.0)
     assert pygame.mouse.get_visible()
     pygame.event.post(pygame.Event(pygame.WINDOWFOCUSGAINED))
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     assert not pygame.mouse.get_visible()
 
 
 def test_keys_alone_do_not_bring_the_pointer_back(player):
-    player.seconds(REST + 0.2)
+    player.seconds(HIDE_AFTER + 0.2)
     player.tap(pygame.K_a)
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=(5, 5), rel=(0, 0), buttons=(0, 0, 0)))
     player.frames(2)

@@ -1,4 +1,4 @@
-"""The window itself: time, size, what it draws, and what it leaves behind."""
+"""The window itself: time, size, drawing, and what remains after it closes."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def test_a_message_hides_no_play(player):
     player.tap(pygame.K_p)
     player.frames(1, 0.0)
     before = pixels(player).astype(int)
-    player.window.messages.say("two balls are the most")
+    player.window.messages.show("two balls are the most")
     player.frames(1, 0.0)
     changed = (pixels(player).astype(int) != before).any(axis=2)
     apron = player.window._picture.apron.top + player.window._picture.area.top
@@ -134,24 +134,23 @@ def test_a_long_seed_can_be_read_in_full_with_the_keys(open_window, monkeypatch)
 
 
 def test_compiling_without_a_cache_is_said_to_come_at_every_start(monkeypatch):
-    from silverball.app.startup import compiling_words
-    from silverball.physics import code_cache as codecache
-    from silverball.physics import kernel
+    from silverball.app.startup import compiling_message
+    from silverball.physics import code_cache as codecache, kernel
 
-    assert "once" in compiling_words()
+    assert "once" in compiling_message()
     with monkeypatch.context() as patch:
         patch.setattr(codecache.Damage, "message", "damaged")
-        assert "damaged" in compiling_words()
+        assert "damaged" in compiling_message()
     monkeypatch.setattr(kernel, "cache_folder", lambda *_: None)
-    assert "every start" in compiling_words()
-    assert "once" not in compiling_words()
+    assert "every start" in compiling_message()
+    assert "once" not in compiling_message()
 
 
 def test_the_first_window_fits_a_screen_of_768_pixels(player):
     screen = player.window._screen
     screen.desktop = (1366, 768)
     title_and_task_bar = 60  # [pixel] of the common desktops together
-    assert 600 < screen.first_height <= 768 - title_and_task_bar
+    assert 600 < screen.max_initial_size[1] <= 768 - title_and_task_bar
 
 
 def test_a_dummy_display_is_no_display_and_the_message_names_the_demo():
@@ -196,7 +195,7 @@ def test_a_folder_that_cannot_be_written_is_told_and_the_game_goes_on(open_windo
 def test_without_an_audio_device_there_is_silence_and_no_error(open_window, monkeypatch):
     monkeypatch.setenv("SDL_AUDIODRIVER", "no such driver")
     player = open_window()
-    assert player.window.sounds.trouble.startswith("no sound")
+    assert player.window.sounds.warning.startswith("no sound")
     player.tap(pygame.K_SPACE)
     player.press(pygame.K_a)
     player.seconds(1.0)
@@ -249,20 +248,20 @@ def test_a_table_chosen_long_ago_that_is_gone_gives_way_to_the_default(tmp_path,
     with Store(tmp_path / "data") as store:
         store.save_settings({"table": str(tmp_path / "gone.toml")})
     player = open_window(None, None, mode=None)
-    assert player.program.recipe.name == "Classic"
+    assert player.program.board.recipe.name == "Classic"
 
 
 @pytest.mark.parametrize(("mode", "name"), [(Mode.FREE, "Original"), (Mode.ARCADE, "Classic")])
 def test_each_game_begins_on_its_own_table(open_window, mode, name):
     player = open_window(None, None, mode=mode)
-    assert player.program.recipe.name == name
+    assert player.program.board.recipe.name == name
     assert player.program.is_playing
 
 
 def test_a_table_that_is_named_is_that_of_every_game_the_player_may_choose(open_window):
     player = open_window("rolling", None, mode=None)
-    settings = player.program.settings
+    settings = player.program.settings.current
     assert {settings.changed(mode=mode).table for mode in Mode} == {"rolling"}
-    named_with_a_game = open_window("rolling", None, mode=Mode.FREE).program.settings
+    named_with_a_game = open_window("rolling", None, mode=Mode.FREE).program.settings.current
     assert named_with_a_game.table == "rolling"
     assert named_with_a_game.changed(mode=Mode.ARCADE).table == "classic"

@@ -1,4 +1,4 @@
-"""An X server of one's own, and what it says about its keyboard."""
+"""A private X server, and its keyboard layout."""
 
 from __future__ import annotations
 

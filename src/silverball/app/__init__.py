@@ -1,25 +1,25 @@
-"""The window: the same world as everywhere, drawn as often as the screen shows it, and moved by buttons.
+"""The game in a window: keys and gamepads in; table, score display and sounds out.
 
-settings.py  what a player can choose
-controls.py  which key and which gamepad button (gamepad.py) asks for what, and what is held
-keyboard.py  which key that is on the layout in use
-program.py   what is going on, and what a button means: games begin, pause, end
-             sessions.py   play, a replay, or the program playing by itself
-             command_handlers.py   what the commands of the menus bring about
-             game_archive.py  what is kept of a game, and when
-             catalog.py  which tables and scores can be chosen
-menus/       the pages of the score display; score_display.py what it shows during a game
-sound/       from recipes to what is heard
-clock.py     real time into ticks; latency.py, framerate.py what is measured of it
-startup.py   loading the physics while the table is already on screen
-listener.py  what an event of the window asks for
-screen.py    the window of the operating system (pointer.py, sdl.py); picture.py the table in it
-overlay.py   what is written on top (layout.py, messages.py); debug.py what the physics sees
-window.py    all of it together, in beats and frames
+window.py           the main loop: input polls and frames
+program.py          the state of the program: board, session, menus
+    sessions.py         a game, a replay, or a demo
+    board.py            the board on screen
+    button_handlers.py  what buttons do; command_handlers.py what commands of the menus do
+    catalog.py          tables and scores to choose from; table_files.py reads the user's tables
+    game_archive.py     saves games, scores and replay files
+    demo_players.py     players of a demo; player_warmup.py compiles them in the background
+settings.py         the player's settings and their one owner
+input_handler.py    events of the window: keyboard.py, gamepad.py, bindings.py, controls.py
+menus/              the pages on the score display; score_display.py is the display during a game
+sound/              synthesised sounds
+startup.py          loads the physics while the table is already on screen
+timing.py           real time into ticks, frame times, latency
+screen.py           the window of the operating system (sdl.py); picture.py the table in it
+overlay.py          text on top of it (widgets.py, scoring.py); debug.py the debug view
 """
 
 from __future__ import annotations
 
 import os
 
-os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # pygame greets on the terminal otherwise
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")  # pygame prints a greeting otherwise

@@ -1,8 +1,8 @@
-"""Which actions have keys and buttons of gamepads and joysticks, and which ones are they now?
+"""Key and button bindings: all actions, their default keys and buttons, and the player's changes.
 
-Keys go by the names of `keyboard.py`, gamepad buttons by those of SDL, joystick buttons by those of
-`gamepad.py`. The settings hold only what differs from the defaults here; an empty tuple there means that the
-player took the last key away.
+Keys have the names of `keyboard.py`, gamepad buttons those of SDL, joystick buttons those of `gamepad.py`.
+The settings hold only what differs from the defaults here; an empty tuple there means that the player removed
+the last key.
 """
 
 from __future__ import annotations
@@ -13,39 +13,39 @@ from typing import NamedTuple, TypeAlias
 
 from silverball.app.settings import Settings
 
-Kind: TypeAlias = str
-"""Whose names are meant: "keys", "pad" (all gamepads), or the GUID of a joystick."""
+DeviceKind: TypeAlias = str
+"""The kind of device that a name belongs to: "keys", "pad" (all gamepads), or the GUID of a joystick."""
 
-RESERVED: dict[Kind, tuple[str, ...]] = {"keys": ("escape",), "pad": ("guide",)}
-"""What cannot be chosen: Esc always goes back, and the guide button belongs to the system."""
+RESERVED: dict[DeviceKind, tuple[str, ...]] = {"keys": ("escape",), "pad": ("guide",)}
+"""Names that cannot be bound: Esc always goes back, and the guide button belongs to the system."""
 
 
-class ActionLine(NamedTuple):
-    """One action.
+class ActionBinding(NamedTuple):
+    """An action and its default bindings.
 
     Attributes:
         action: Its name in the settings.
-        label: What the player reads.
-        keys: Its keys if nothing else was chosen.
-        pad: Its gamepad buttons if nothing else was chosen.
-        needed: Whether the menus could not be worked without it.
-        joystick: Its buttons on a joystick if nothing else was chosen: those of most old pads and encoders.
+        label: Its displayed name.
+        keys: Its default keys.
+        pad: Its default gamepad buttons.
+        is_required: Whether the menus cannot be operated without it.
+        joystick: Its default joystick buttons: those of most old pads and arcade encoders.
     """
 
     action: str
     label: str
     keys: tuple[str, ...] = ()
     pad: tuple[str, ...] = ()
-    needed: bool = False
+    is_required: bool = False
     joystick: tuple[str, ...] = ()
 
-    def defaults(self, kind: Kind) -> tuple[str, ...]:
-        """Its keys or its buttons if nothing else was chosen."""
+    def defaults(self, kind: DeviceKind) -> tuple[str, ...]:
+        """Return its default keys or buttons."""
         return self.keys if kind == "keys" else self.pad if kind == "pad" else self.joystick
 
 
 ACTIONS = (
-    ActionLine(
+    ActionBinding(
         "left",
         "LEFT PADDLE",
         ("a", "left", "left shift"),
@@ -53,7 +53,7 @@ ACTIONS = (
         True,
         ("button 3", "button 5", "button 7", "hat 1 left", "axis 1 -"),
     ),
-    ActionLine(
+    ActionBinding(
         "right",
         "RIGHT PADDLE",
         ("d", "right", "right shift"),
@@ -61,20 +61,20 @@ ACTIONS = (
         True,
         ("button 2", "button 6", "button 8", "hat 1 right", "axis 1 +"),
     ),
-    ActionLine("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
-    ActionLine("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
-    ActionLine("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
-    ActionLine("new_board", "NEW BOARD", ("r",)),
-    ActionLine("mute", "MUTE", ("m",)),
-    ActionLine("help", "HELP", ("f1",)),
-    ActionLine("debug", "DEBUG VIEW", ("f3",)),
-    ActionLine("full_screen", "FULL SCREEN", ("f11",)),
-    ActionLine("slower", "SLOWER", (",",)),
-    ActionLine("faster", "FASTER", (".",)),
-    ActionLine("single_tick", "SINGLE TICK", ("n",)),
-    ActionLine("back", "BACK", (), ("back",), joystick=("button 9",)),
+    ActionBinding("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
+    ActionBinding("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
+    ActionBinding("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
+    ActionBinding("new_board", "NEW BOARD", ("r",)),
+    ActionBinding("mute", "MUTE", ("m",)),
+    ActionBinding("help", "HELP", ("f1",)),
+    ActionBinding("debug", "DEBUG VIEW", ("f3",)),
+    ActionBinding("full_screen", "FULL SCREEN", ("f11",)),
+    ActionBinding("slower", "SLOWER", (",",)),
+    ActionBinding("faster", "FASTER", (".",)),
+    ActionBinding("single_tick", "SINGLE TICK", ("n",)),
+    ActionBinding("back", "BACK", (), ("back",), joystick=("button 9",)),
 )
-"""All actions that can be given other keys. Esc is always "back" and is not among them."""
+"""All actions that can be remapped. Esc is always "back" and is not among them."""
 
 _SHORT = {
     "left": "←",
@@ -104,95 +104,99 @@ _SHORT = {
 }
 
 
-def shown(name: str, labels: Mapping[str, str] = MappingProxyType({})) -> str:
-    """A key or button as the display writes it.
+def display_name(name: str, labels: Mapping[str, str] = MappingProxyType({})) -> str:
+    """Return a key or button as the display writes it.
 
     Args:
         name: Its name.
-        labels: What stands on keys on the layout in use, where it is not their name.
+        labels: Labels of keys on the current layout, by name, where they differ from the name.
     """
     label = labels.get(name, name)
-    return _SHORT.get(label, capital(label))
+    return _SHORT.get(label, upper_label(label))
 
 
-def capital(label: str) -> str:
-    """What stands on a key, in capitals; a letter whose capital would be two, as ß, stays as it is."""
+def upper_label(label: str) -> str:
+    """Return a key label in capitals; a letter whose capital has two characters, as ß, stays as it is."""
     return label if len(label.upper()) > len(label) else label.upper()
 
 
-def chosen(settings: Settings, kind: Kind) -> Mapping[str, tuple[str, ...]]:
-    """What a player has chosen, by action."""
+def custom_bindings(settings: Settings, kind: DeviceKind) -> Mapping[str, tuple[str, ...]]:
+    """Return the player's own bindings, by action."""
     if kind == "keys":
         return settings.keys
     return settings.pad if kind == "pad" else settings.joysticks.get(kind, {})
 
 
-def with_chosen(settings: Settings, kind: Kind, names: Mapping[str, tuple[str, ...]]) -> Settings:
-    """The settings with this choice instead; without any names, as it was at first."""
+def with_bindings(settings: Settings, kind: DeviceKind, names: Mapping[str, tuple[str, ...]]) -> Settings:
+    """Return settings with these bindings for a kind of device; empty ones restore the defaults."""
     if kind in ("keys", "pad"):
         return settings.changed(**{kind: dict(names)})
     others = {guid: its for guid, its in settings.joysticks.items() if guid != kind}
     return settings.changed(joysticks=others | ({kind: dict(names)} if names else {}))
 
 
-def keys_of(settings: Settings, line: ActionLine) -> tuple[str, ...]:
-    """The keys of an action."""
-    return names_of(settings, line, "keys")
+def keys_for(settings: Settings, binding: ActionBinding) -> tuple[str, ...]:
+    """Return the keys of an action."""
+    return names_for(settings, binding, "keys")
 
 
-def pad_of(settings: Settings, line: ActionLine) -> tuple[str, ...]:
-    """The gamepad buttons of an action."""
-    return names_of(settings, line, "pad")
+def pad_buttons_for(settings: Settings, binding: ActionBinding) -> tuple[str, ...]:
+    """Return the gamepad buttons of an action."""
+    return names_for(settings, binding, "pad")
 
 
-def names_of(settings: Settings, line: ActionLine, kind: Kind) -> tuple[str, ...]:
-    """The keys or the buttons of an action."""
-    return chosen(settings, kind).get(line.action, line.defaults(kind))
+def names_for(settings: Settings, binding: ActionBinding, kind: DeviceKind) -> tuple[str, ...]:
+    """Return the keys or buttons of an action."""
+    return custom_bindings(settings, kind).get(binding.action, binding.defaults(kind))
 
 
-def action_by_key(settings: Settings, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
-    """What every key does: actions by names of keys."""
+def action_by_key(settings: Settings, actions: Sequence[ActionBinding] = ACTIONS) -> dict[str, str]:
+    """Return the action of every key, by key name."""
     return action_by_name(settings, "keys", actions)
 
 
-def action_by_pad(settings: Settings, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
-    """What every gamepad button does: actions by names of buttons."""
+def action_by_pad(settings: Settings, actions: Sequence[ActionBinding] = ACTIONS) -> dict[str, str]:
+    """Return the action of every gamepad button, by button name."""
     return action_by_name(settings, "pad", actions)
 
 
-def action_by_name(settings: Settings, kind: Kind, actions: Sequence[ActionLine] = ACTIONS) -> dict[str, str]:
-    """What every key or button does: actions by their names."""
+def action_by_name(
+    settings: Settings, kind: DeviceKind, actions: Sequence[ActionBinding] = ACTIONS
+) -> dict[str, str]:
+    """Return the action of every key or button, by name."""
     by_name: dict[str, str] = {}
-    mine = chosen(settings, kind)
-    # What a player chose counts more than a default, whichever stands first.
-    for line in sorted(actions, key=lambda line: line.action not in mine):
-        for name in names_of(settings, line, kind):
-            by_name.setdefault(name, line.action)
+    custom = custom_bindings(settings, kind)
+    # The player's bindings take precedence over defaults of other actions.
+    for binding in sorted(actions, key=lambda binding: binding.action not in custom):
+        for name in names_for(settings, binding, kind):
+            by_name.setdefault(name, binding.action)
     return by_name
 
 
-def owner(settings: Settings, actions: Sequence[ActionLine], kind: Kind, name: str) -> ActionLine | None:
-    """The action to which a key or button belongs; None if it is free."""
+def find_owner(
+    settings: Settings, actions: Sequence[ActionBinding], kind: DeviceKind, name: str
+) -> ActionBinding | None:
+    """Return the action to which a key or button is bound; None if it is free."""
     found = action_by_name(settings, kind, actions)
-    return next((line for line in actions if line.action == found.get(name)), None)
+    return next((binding for binding in actions if binding.action == found.get(name)), None)
 
 
-def assigned(
-    settings: Settings, actions: Sequence[ActionLine], kind: Kind, action: str, names: Sequence[str]
+def with_assignment(
+    settings: Settings, actions: Sequence[ActionBinding], kind: DeviceKind, action: str, names: Sequence[str]
 ) -> Settings:
-    """The settings in which an action has these keys or buttons, and no other action has any of them.
+    """Return settings in which an action has these keys or buttons, and no other action has any of them.
 
     Args:
-        settings: As they are.
+        settings: The current settings.
         actions: All actions.
-        kind: Whose names are meant.
+        kind: The kind of device that the names belong to.
         action: The name of the action.
-        names: What it gets.
+        names: Its keys or buttons from now on.
     """
-    differing: dict[str, tuple[str, ...]] = {}
-    for line in actions:
-        kept = names_of(settings, line, kind)
-        mine = tuple(names) if line.action == action else tuple(n for n in kept if n not in names)
-        if mine != line.defaults(kind):
-            differing[line.action] = mine
-    return with_chosen(settings, kind, differing)
+    changes: dict[str, tuple[str, ...]] = {}
+    for binding in actions:
+        before = names_for(settings, binding, kind)
+        after = tuple(names) if binding.action == action else tuple(n for n in before if n not in names)
+        if after != binding.defaults(kind):
+            changes[binding.action] = after
+    return with_bindings(settings, kind, changes)

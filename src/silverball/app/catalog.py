@@ -1,7 +1,7 @@
-"""Which tables and scores can be chosen? Built-in tables, those in the user's folder, and who is best.
+"""The catalog of tables and scores: built-in tables, those in the user's folder, and their high scores.
 
-The menus ask while they draw, so everything is answered from memory; the store is read again only when a
-score has come in, and the files only when they have changed (`table_files.py`).
+The menus ask while they draw, so everything is answered from memory. The store is read again only after a new
+score, and table files only when they have changed (`table_files.py`).
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.menus import ScoreRow, TableEntry
 from silverball.app.table_files import (
-    FIRST_GLANCE,
-    GLANCE,
-    Reading,
-    Stamp,
+    FIRST_REFRESH_WAIT,
+    REFRESH_WAIT,
+    Fingerprints,
+    LoadedFile,
     TableFiles,
     first_problem,
     is_path,
@@ -32,69 +32,69 @@ from silverball.table import Table, generate_table, load_table, table_digest, ta
 if TYPE_CHECKING:
     from silverball.game.scores.store import Store
 
-TABLES = "tables"  # the folder, in the data folder, for tables of one's own
-REPLAYS = "replays"  # the same for replays that are kept as files
-PLACES = 10
+TABLES = "tables"  # subfolder of the data folder for the user's tables
+REPLAYS = "replays"  # subfolder of the data folder for replay files
+MAX_SCORES = 10
 
 
-class Key(NamedTuple):
-    """What a table's scores are listed under: what people read, and the digest that decides."""
+class ScoreKey(NamedTuple):
+    """Identifies the score list of a table: a title for people, and the digest that decides."""
 
     title: str
     digest: str
 
 
 class Catalog:
-    """The tables and their scores.
+    """All tables to choose from, and their scores.
 
     Args:
-        store: Where the scores are.
+        store: Holds the scores.
         folder: The data folder.
-        given: Tables by name that were made in Python.
+        given: Tables made in Python, by name.
     """
 
     def __init__(self, store: Store, folder: Path, given: dict[str, Table] | None = None) -> None:
         self._store, self._folder = store, folder
         self._given = dict(given or {})
         self._files = TableFiles(folder / TABLES)
-        self._seen = -1  # the version of the files that was told last
+        self._listed_version = -1  # of the files, in the last result of `entries`
         self._chosen = ""
-        self._told: Stamp = ()  # of the chosen file when it was asked for or told of last
-        self._doubted: Stamp = ()  # of that file when it was first found broken
+        self._reported: Fingerprints = ()  # of the chosen file when it was last read or reported
+        self._suspected: Fingerprints = ()  # of the chosen file when a problem was first found
         self._rows: dict[tuple[str, Mode], list[ScoreRow]] = {}
-        self._lists: set[tuple[str, str]] | None = None  # digests and modes that have scores
+        self._lists: set[tuple[str, str]] | None = None  # digest and mode of every list that has scores
 
-    def choose(self, name: str) -> None:
-        """Watch the file of the chosen table, if it has one, wherever it lies."""
+    def watch_file(self, name: str) -> None:
+        """Watch the file of the chosen table, if it has one, in whatever folder."""
         self._chosen = name
-        self._files.choose(name)
+        self._files.watch(name)
 
-    def look(self, *, whole: bool) -> bool:
-        """Whether there is something else to choose from than when `entries` was asked last.
+    def refresh(self, *, whole: bool) -> bool:
+        """Check the files; return whether `entries` has changed since its last call.
 
         Args:
-            whole: Whether the folder is looked through; else only the file that was chosen.
+            whole: Whether to check the whole folder, or only the chosen file.
         """
-        self._files.look(whole=whole)
-        return self._files.version != self._seen
+        self._files.refresh(whole=whole)
+        return self._files.version != self._listed_version
 
     def entries(self) -> list[TableEntry]:
-        """All tables that can be chosen, and the files that cannot be used, with their first problem."""
-        self._files.look(FIRST_GLANCE if self._seen < 0 else GLANCE)
-        self._seen = self._files.version
+        """Return all tables, and the files that cannot be used with their first problem."""
+        self._files.refresh(FIRST_REFRESH_WAIT if self._listed_version < 0 else REFRESH_WAIT)
+        self._listed_version = self._files.version
         built_in = [name for name in table_names() if name not in self._given]
         entries = [
-            TableEntry(name, plain(table.name), _about(table), table.random is not None)
+            TableEntry(name, plain(table.name), _description(table), table.random is not None)
             for name, table in [*self._given.items(), *((name, load_table(name)) for name in built_in)]
         ]
-        entries += [_of_file(name, self._files.reading(name)) for name in self._files.names]
-        return _told_apart(entries)
+        entries += [_file_entry(name, self._files.loaded(name)) for name in self._files.names]
+        return _with_unique_titles(entries)
 
     def recipe(self, name: str) -> Table:
-        """The table of a name, or of a path as the file is now.
+        """Return the table of a name, or read it from the file of a path.
 
         Raises:
-            TableError: There is none, or it has problems.
+            TableError: There is no such table, or it has problems.
         """
         if name in self._given:
             return self._given[name]
@@ -103,47 +103,48 @@ class Catalog:
         try:
             return self._files.read(name)
         finally:
-            reading = self._files.reading(name)
-            if name == self._chosen and reading is not None:
-                self._told = reading.stamp
+            loaded = self._files.loaded(name)
+            if name == self._chosen and loaded is not None:
+                self._reported = loaded.fingerprints
 
-    def news(self) -> Reading | None:
-        """What the chosen file says now, once after every change; None if there is nothing new.
+    def chosen_file_change(self) -> LoadedFile | None:
+        """Return what the chosen file contains, once after every change; None if it has not changed.
 
-        A file that cannot be used is told of only at the second look: perhaps it was being written.
+        A file with a problem is reported only if it is still the same at the next check: it may have been
+        half-written.
         """
-        reading = self._files.reading(self._chosen)
-        if self._chosen in self._given or reading is None or reading.stamp == self._told:
+        loaded = self._files.loaded(self._chosen)
+        if self._chosen in self._given or loaded is None or loaded.fingerprints == self._reported:
             return None
-        if reading.problem and reading.stamp != self._doubted:
-            self._doubted = reading.stamp
+        if loaded.problem and loaded.fingerprints != self._suspected:
+            self._suspected = loaded.fingerprints
             return None
-        self._told = reading.stamp
-        return reading
+        self._reported = loaded.fingerprints
+        return loaded
 
-    def finished(self, recipe: Table, seed: int) -> Table:
-        """The board that a seed makes of a table."""
+    def make_board(self, recipe: Table, seed: int) -> Table:
+        """Return the board that a seed makes of a table."""
         return recipe if recipe.random is None else generate_table(seed, recipe)
 
-    def key(self, recipe: Table) -> Key:
-        """What a table's scores are listed under."""
-        return Key(recipe.name, _digest(recipe))
+    def score_key(self, recipe: Table) -> ScoreKey:
+        """Return the key of a table's score list."""
+        return ScoreKey(recipe.name, _digest(recipe))
 
     def scores(self, name: str, mode: Mode) -> list[ScoreRow]:
-        """The best scores of a table as it is now, best first."""
+        """Return the high scores of a table in its current version, best first."""
         digest = self._digest_of(name)
         return self._best(digest, mode) if digest else []
 
-    def best(self, key: Key, mode: Mode) -> int:
-        """The best score in a list; 0 if there is none."""
+    def best(self, key: ScoreKey, mode: Mode) -> int:
+        """Return the best score of a list; 0 if it is empty."""
         rows = self._best(key.digest, mode)
         return rows[0].score if rows else 0
 
     def _digest_of(self, name: str) -> str:
-        """The digest of a table; empty if it cannot be used or was not read yet."""
+        """Return the digest of a table; empty if it cannot be used or has not been read yet."""
         if is_path(name) and name not in self._given:
-            reading = self._files.reading(name)
-            return reading.digest if reading is not None else ""
+            loaded = self._files.loaded(name)
+            return loaded.digest if loaded is not None else ""
         try:
             return _digest(self.recipe(name))
         except SilverballError:
@@ -152,7 +153,10 @@ class Catalog:
     def _best(self, digest: str, mode: Mode) -> list[ScoreRow]:
         if self._lists is None:
             self._lists = {(one.table_digest, one.mode) for one in self._store.lists()}
-        if (digest, str(mode)) not in self._lists and not self._store.has_pending:  # else one may be waiting
+        if (
+            digest,
+            str(mode),
+        ) not in self._lists and not self._store.has_pending:  # otherwise a score may be pending
             return []
         if (digest, mode) not in self._rows:
             self._rows[digest, mode] = [
@@ -162,59 +166,59 @@ class Catalog:
                     score.played("%d.%m.%y"),
                     str(score.id) if score.has_replay else "",
                 )
-                for score in self._store.scores(mode, digest, limit=PLACES)
+                for score in self._store.scores(mode, digest, limit=MAX_SCORES)
             ]
         return self._rows[digest, mode]
 
-    def forget_scores(self) -> None:
-        """A score has come in or was changed."""
+    def clear_score_cache(self) -> None:
+        """Read the scores again: one was added or changed."""
         self._rows.clear()
         self._lists = None
 
-    def keep_file(self, text: str, what: str, score: int) -> Path | None:
-        """Keep a replay as a file of its own; where it is, or None where nothing can be written."""
-        name = f"{what}-{time.strftime('%Y-%m-%d-%H%M%S')}-{score}.replay"
+    def save_replay_file(self, text: str, prefix: str, score: int) -> Path | None:
+        """Save a replay as a file and return its path; None if it cannot be written."""
+        name = f"{prefix}-{time.strftime('%Y-%m-%d-%H%M%S')}-{score}.replay"
         return write_user_file(text, name, self._folder / REPLAYS)
 
 
 def file_name(name: str) -> str:
-    """The file of a table as a player is to read it."""
+    """Return the displayed file name of a table."""
     return plain(Path(name).name)
 
 
-def file_in_words(name: str) -> str:
-    """The same in a sentence."""
+def quoted_file_name(name: str) -> str:
+    """Return the file name for a sentence, in quotes if it has spaces."""
     file = file_name(name)
     return f"'{file}'" if " " in file else file
 
 
-def trouble_words(name: str, problem: str) -> str:
-    """What is wrong with a table that cannot be played, and how to learn all of it, as one sentence."""
-    told = plain(problem)
+def table_problem_text(name: str, problem: str) -> str:
+    """Return one sentence that says why a table cannot be played, and how to see all problems."""
+    text = plain(problem)
     if not is_path(name):
-        return told
+        return text
     command = f"silverball check {plain(shlex.quote(name))}"
-    return f"{file_in_words(name)} cannot be played: {told} (all of it: {command})"
+    return f"{quoted_file_name(name)} cannot be played: {text} (all of it: {command})"
 
 
-def trouble_of(name: str, error: SilverballError) -> str:
-    """The same from the error that reading the table has raised."""
-    return trouble_words(name, first_problem(error))
+def table_error_text(name: str, error: SilverballError) -> str:
+    """Return the same sentence for the error that reading the table raised."""
+    return table_problem_text(name, first_problem(error))
 
 
-def _of_file(name: str, reading: Reading | None) -> TableEntry:
-    """A file in the list; one that cannot be used goes by its name on the disk."""
-    if reading is None:
+def _file_entry(name: str, loaded: LoadedFile | None) -> TableEntry:
+    """Return the entry of a file; one that cannot be used has its file name as title."""
+    if loaded is None:
         return TableEntry(name, file_name(name), "is being read")
-    if reading.table is None:
-        return TableEntry(name, file_name(name), problem=plain(reading.problem))
-    table = reading.table
+    if loaded.table is None:
+        return TableEntry(name, file_name(name), problem=plain(loaded.problem))
+    table = loaded.table
     title = plain(table.name).strip() or file_name(name)
-    return TableEntry(name, title, _about(table), table.random is not None)
+    return TableEntry(name, title, _description(table), table.random is not None)
 
 
-def _told_apart(entries: list[TableEntry]) -> list[TableEntry]:
-    """The entries, those of equal titles with the names of their files as well."""
+def _with_unique_titles(entries: list[TableEntry]) -> list[TableEntry]:
+    """Return the entries with file names appended to titles that are not unique."""
     count = Counter(entry.title.upper() for entry in entries)
     return [
         entry._replace(title=f"{entry.title} ({file_name(entry.name)})")
@@ -229,7 +233,7 @@ def _digest(table: Table) -> str:
     return table_digest(table)
 
 
-def _about(table: Table) -> str:
+def _description(table: Table) -> str:
     if table.random is not None:
         return "another board every game"
     if table.board.rolling:

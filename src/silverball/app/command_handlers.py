@@ -1,13 +1,14 @@
-"""What does a command of the menus bring about? One function for each kind of command."""
+"""Handlers for the commands of the menus: one function per kind of command."""
 
 from __future__ import annotations
 
 from functools import singledispatch
 from typing import TYPE_CHECKING
 
-from silverball.app.catalog import trouble_words
+from silverball.app.catalog import table_problem_text
 from silverball.app.menus import commands
 from silverball.app.sessions import GameSession
+from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
     from silverball.app.program import Program
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 @singledispatch
 def execute(command: object, program: Program) -> None:
-    """Do what a command says; None says nothing."""
+    """Execute a command; None does nothing."""
     if command is not None:
         raise TypeError(f"expected a command of the menus, got {command!r}")
 
@@ -27,38 +28,39 @@ def _(command: commands.Play, program: Program) -> None:
 
 @execute.register(commands.WatchLast)
 def _(command: commands.WatchLast, program: Program) -> None:
-    program.watch_text(program.store.last_game() or "", "the last game")
+    watch_text(program, program.store.last_game() or "", "the last game")
 
 
 @execute.register(commands.WatchScore)
 def _(command: commands.WatchScore, program: Program) -> None:
-    program.watch_score(int(command.key))
+    number = int(command.key)
+    try:
+        text = program.store.replay(number)
+    except SilverballError as error:
+        _reject_replay(program, error)
+    else:
+        watch_text(program, text, f"score {number}")
 
 
-@execute.register(commands.WatchMachine)
-def _(command: commands.WatchMachine, program: Program) -> None:
-    program.show_off(command.player)
+@execute.register(commands.WatchDemo)
+def _(command: commands.WatchDemo, program: Program) -> None:
+    program.start_demo(command.player)
 
 
 @execute.register(commands.Attract)
 def _(command: commands.Attract, program: Program) -> None:
     if command.on and program.is_ready and not program.has_game:
-        program.show_off(nobody_there=True)
+        program.start_demo(is_attract=True)
 
 
-@execute.register(commands.Change)
-def _(command: commands.Change, program: Program) -> None:
-    program.use(command.settings)
+@execute.register(commands.ShowBoard)
+def _(command: commands.ShowBoard, program: Program) -> None:
+    program.show_board(command.seed)
 
 
-@execute.register(commands.SeeBoard)
-def _(command: commands.SeeBoard, program: Program) -> None:
-    program.see_board(command.seed)
-
-
-@execute.register(commands.TellTrouble)
-def _(command: commands.TellTrouble, program: Program) -> None:
-    program.say(trouble_words(command.table, command.problem))
+@execute.register(commands.ShowTableProblem)
+def _(command: commands.ShowTableProblem, program: Program) -> None:
+    program.show_message(table_problem_text(command.table, command.problem))
 
 
 @execute.register(commands.Quit)
@@ -68,33 +70,30 @@ def _(command: commands.Quit, program: Program) -> None:
 
 @execute.register(commands.Resume)
 def _(command: commands.Resume, program: Program) -> None:
-    """The menu has closed: the game goes on."""
+    """Nothing to do: the menu has closed itself, so the game continues."""
 
 
 @execute.register(commands.Restart)
 def _(command: commands.Restart, program: Program) -> None:
-    if isinstance(program.stage, GameSession):
-        program.begin(program.stage.game.mode)
+    if isinstance(program.session, GameSession):
+        program.begin(program.session.game.mode)
 
 
 @execute.register(commands.EndGame)
 def _(command: commands.EndGame, program: Program) -> None:
-    if isinstance(program.stage, GameSession) and not program.stage.has_ended:
-        program.give_up(program.stage)
-    program.stage = None
+    program.end_game()
 
 
 @execute.register(commands.SaveReplay)
 def _(command: commands.SaveReplay, program: Program) -> None:
-    path = program.keep_file("game")
-    program.menus.say("saved" if path else "could not be saved")
-    program.say(f"the replay is at {path}" if path else "the data folder cannot be written")
+    path = program.save_replay_file("game")
+    program.menus.show_message("saved" if path else "could not be saved")
+    program.show_message(f"the replay is at {path}" if path else "the data folder cannot be written")
 
 
 @execute.register(commands.Initials)
 def _(command: commands.Initials, program: Program) -> None:
-    program.keeper.rename(program.ended, command.text)
-    program.use(program.settings.changed(initials=command.text))
+    program.archive.rename(program.result, command.text)
 
 
 @execute.register(commands.ReplaySpeed)
@@ -115,3 +114,18 @@ def _(command: commands.ReplayJump, program: Program) -> None:
 @execute.register(commands.EndReplay)
 def _(command: commands.EndReplay, program: Program) -> None:
     program.end_watching()
+
+
+def watch_text(program: Program, text: str, source: str) -> None:
+    """Show a replay given as text, or tell why it cannot be played."""
+    from silverball.game.replay.format import Replay
+
+    try:
+        program.watch(Replay.from_text(text, source))
+    except SilverballError as error:
+        _reject_replay(program, error)
+
+
+def _reject_replay(program: Program, error: SilverballError) -> None:
+    program.show_message(str(error))
+    program.menus.reopen()

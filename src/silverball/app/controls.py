@@ -1,7 +1,7 @@
-"""Which key or gamepad button asks for what, and which paddles are held?
+"""The player's actions, the current key bindings, and which paddle buttons are held.
 
-The table of all actions, with the keys they have at first, is `menus/actions.py`; the settings hold what a
-player has changed. Which key a name means on the layout in use is told by `keyboard.py`.
+All actions and their default keys are in `bindings.py`; the settings hold the player's changes; `keyboard.py`
+resolves key names on the current layout.
 """
 
 from __future__ import annotations
@@ -13,12 +13,13 @@ from typing import NamedTuple
 
 import pygame
 
-from silverball.app.menus import ACTIONS, ActionLine, Button, action_by_key, action_by_name, keys_of
+from silverball.app.bindings import ACTIONS, ActionBinding, action_by_key, action_by_name, keys_for
+from silverball.app.menus import Button
 from silverball.app.settings import Settings
 
 
 class Action(StrEnum):
-    """What a key or a gamepad button can ask for."""
+    """The actions of keys and gamepad buttons."""
 
     LEFT = "left"
     RIGHT = "right"
@@ -44,65 +45,65 @@ MENU_BUTTONS = {
     Action.BACK: Button.BACK,
     Action.PAUSE: Button.BACK,
 }
-"""What the actions mean while a menu is open."""
+"""The menu button of an action while a menu is open."""
 MENU_KEYS = {"up": Button.LEFT, "down": Button.RIGHT, "return": Button.START, "enter": Button.START}
-"""What else works a menu, for hands that are used to it, where the key has nothing else to do."""
+"""Further keys for the menus, where the key has no other action."""
 
-_COMMANDS = pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META
+_SHORTCUT_MODIFIERS = pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META
 
 
 class Controls:
-    """The keys and buttons as a player has chosen them."""
+    """The current bindings of keys and buttons."""
 
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        self._of_key = action_by_key(settings) | {"escape": "back"}
-        self._of_button: dict[str, dict[str, str]] = {}  # by the kind of device
-        self.labels: Mapping[str, str] = {}  # of keys on the layout in use
+        self._action_by_key = action_by_key(settings) | {"escape": "back"}
+        self._action_by_button: dict[str, dict[str, str]] = {}  # by kind of device
+        self.labels: Mapping[str, str] = {}  # of keys on the current layout, by name
 
-    def shown_keys(self, action: Action) -> tuple[str, ...]:
-        """What stands on the keys that ask for something, on the layout in use."""
+    def key_labels(self, action: Action) -> tuple[str, ...]:
+        """Return the labels of the keys of an action on the current layout."""
         return tuple(self.labels.get(name, name) for name in self.keys(action))
 
     def keys(self, action: Action) -> tuple[str, ...]:
-        """The names of the keys that ask for something."""
-        return keys_of(self._settings, _LINES[action])
+        """Return the names of the keys of an action."""
+        return keys_for(self._settings, _BINDINGS[action])
 
     @property
     def key_names(self) -> frozenset[str]:
-        """The names of all keys that ask for something."""
-        return frozenset(self._of_key)
+        """The names of all bound keys."""
+        return frozenset(self._action_by_key)
 
-    def of_key(self, name: str, modifiers: int = 0) -> Action | None:
-        """What a key asks for; None if nothing, or if it is a shortcut of the desktop (Ctrl, Alt, Meta)."""
-        action = self._of_key.get(name)
-        if action is None or (modifiers & _COMMANDS and action not in PADDLES):
+    def action_of_key(self, name: str, modifiers: int = 0) -> Action | None:
+        """Return the action of a key; None without one, and for desktop shortcuts (Ctrl, Alt, Meta)."""
+        action = self._action_by_key.get(name)
+        if action is None or (modifiers & _SHORTCUT_MODIFIERS and action not in PADDLES):
             return None
         return Action(action)
 
-    def of_pad(self, name: str, kind: str = "pad") -> Action | None:
-        """What a button asks for; the kind is "pad" or the GUID of a joystick."""
-        if kind not in self._of_button:
-            self._of_button[kind] = action_by_name(self._settings, kind)
-        action = self._of_button[kind].get(name)
+    def action_of_button(self, name: str, kind: str = "pad") -> Action | None:
+        """Return the action of a button; the kind is "pad" or the GUID of a joystick."""
+        if kind not in self._action_by_button:
+            self._action_by_button[kind] = action_by_name(self._settings, kind)
+        action = self._action_by_button[kind].get(name)
         return None if action is None else Action(action)
 
 
-def is_command(modifiers: int) -> bool:
-    """Whether a key is a shortcut of the desktop."""
-    return bool(modifiers & _COMMANDS)
+def is_shortcut(modifiers: int) -> bool:
+    """Return whether the modifiers make a key a shortcut of the desktop."""
+    return bool(modifiers & _SHORTCUT_MODIFIERS)
 
 
-def says_something(key: int) -> bool:
-    """Whether an unused key deserves an answer: a letter or a digit does, Caps Lock does not."""
+def is_printable(key: int) -> bool:
+    """Return whether a key types a character, as letters and digits do and Caps Lock does not."""
     return pygame.K_SPACE < key <= sys.maxunicode and key != pygame.K_DELETE
 
 
 class Held(NamedTuple):
-    """The paddle buttons over the ticks of one beat: left and right.
+    """The paddle buttons (left, right) over the ticks of one input poll.
 
     Attributes:
-        first: In the first tick, in which also counts what was tapped since the last beat.
+        first: In the first tick, which includes taps since the last poll.
         rest: In all later ticks.
     """
 
@@ -110,10 +111,11 @@ class Held(NamedTuple):
     rest: tuple[bool, bool]
 
 
-class Buttons:
-    """The paddle buttons that are down, and those that were down since the last tick, however briefly.
+class PaddleButtons:
+    """The paddle buttons that are down, and those that were tapped since the last tick, however briefly.
 
-    A button is told by its source, for example "key a" or "pad 0 leftshoulder": two keys may hold one paddle.
+    A button is identified by its source, for example "key a" or "pad 0 leftshoulder": two keys may hold one
+    paddle.
     """
 
     def __init__(self) -> None:
@@ -121,35 +123,35 @@ class Buttons:
         self._tapped: set[Action] = set()
 
     def press(self, source: str, side: Action) -> None:
-        """A button for a paddle went down."""
+        """Handle a paddle button that went down."""
         self._down[source] = side
         self._tapped.add(side)
 
     def release(self, source: str) -> None:
-        """A button came up."""
+        """Handle a button that came up."""
         self._down.pop(source, None)
 
     def release_all(self) -> None:
-        """The window no longer hears the buttons."""
+        """Release all buttons: the window has lost the focus."""
         self._down.clear()
         self._tapped.clear()
 
     def forget_taps(self) -> None:
-        """No play is going on: only what is held when it goes on will count."""
+        """Drop taps while no game is running."""
         self._tapped.clear()
 
     @property
     def held(self) -> tuple[bool, bool]:
-        """Left and right, as they are held now."""
+        """Whether the left and the right paddle button are held."""
         down = self._down.values()
         return Action.LEFT in down, Action.RIGHT in down
 
-    def take(self) -> Held:
-        """What is held now; taps count once."""
+    def poll(self) -> Held:
+        """Return what is held now, and consume the taps."""
         left, right = self.held
         first = (left or Action.LEFT in self._tapped, right or Action.RIGHT in self._tapped)
         self._tapped.clear()
         return Held(first, (left, right))
 
 
-_LINES: dict[str, ActionLine] = {line.action: line for line in ACTIONS}
+_BINDINGS: dict[str, ActionBinding] = {binding.action: binding for binding in ACTIONS}

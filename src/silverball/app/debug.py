@@ -1,7 +1,7 @@
-"""What does the physics see? Velocities, contact points and normals on the table, and the figures beside it.
+"""The debug view: velocities, contact points and normals on the table, and figures beside it.
 
-Drawn over a picture through the same camera, at the board's own height: an arrow stands where the solver has
-it, even where a wall hides the ball from the eye.
+Drawn over a picture through the same camera, at the height of the board: an arrow is where the solver has it,
+even where a wall hides the ball.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
 
-from silverball.app.framerate import FrameTimes
-from silverball.app.latency import LatencyMeter, middle
+from silverball.app.timing import FrameTimes, LatencyMeter, median
 from silverball.drawing import themes
 from silverball.drawing.text import line
 
@@ -22,45 +21,45 @@ if TYPE_CHECKING:
     from silverball.drawing import Camera
     from silverball.world import Event, World
 
-VELOCITY_SECONDS = 0.12  # an arrow shows where the ball would be after so long
+VELOCITY_SECONDS = 0.12  # [s] of motion that an arrow shows
 NORMAL_LENGTH = 0.9  # [u]
-CONTACT_SECONDS = 1.0  # for which a contact stays visible
+CONTACT_SECONDS = 1.0  # for which a contact is shown
 LOG_LINES = 10
 VELOCITY = (120, 255, 160)
 NORMAL = (255, 210, 80)
 TOUCH = (150, 160, 190)
 OUTLINE = (255, 90, 150)
-_QUIET = ("touch", "ball_touch")
+_TOUCH_KINDS = ("touch", "ball_touch")
 
 
-class _Seen(NamedTuple):
+class _TimedEvent(NamedTuple):
     time: float
     event: Event
 
 
 class DebugView:
-    """Remembers what happened lately and draws it when asked."""
+    """Remembers recent events and draws them on request."""
 
     def __init__(self) -> None:
-        self._contacts: deque[_Seen] = deque(maxlen=64)
+        self._contacts: deque[_TimedEvent] = deque(maxlen=64)
         self._log: deque[str] = deque(maxlen=LOG_LINES)
 
-    def forget(self) -> None:
-        """Another game begins."""
+    def reset(self) -> None:
+        """Drop all events: another session begins."""
         self._contacts.clear()
         self._log.clear()
 
-    def note(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Remember what happened since the last call."""
+    def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
+        """Add the events since the last call."""
         for event in events:
             time = event.tick / tick_rate + event.offset
-            self._contacts.append(_Seen(time, event))
-            if event.kind not in _QUIET:
+            self._contacts.append(_TimedEvent(time, event))
+            if event.kind not in _TOUCH_KINDS:
                 what = f"{event.kind} {event.part}" if event.part else event.kind
                 self._log.append(f"{time:8.4f} s  ball {event.ball}  {what}  {event.speed:.2f} u/s")
 
     def draw(self, target: pygame.Surface, camera: Camera, world: World) -> None:
-        """Draw velocities and contacts onto a picture that the camera has seen."""
+        """Draw velocities and contacts onto a picture through its camera."""
         radius = world.table.board.ball_radius
         for paddle, moving in zip(("left", "right"), world.paddles, strict=True):
             for part in world.table.paddle:
@@ -74,7 +73,7 @@ class DebugView:
             nx, _, nz = event.normal
             foot = camera.to_pixel(x - nx * radius, z - nz * radius)
             tip = camera.to_pixel(x + nx * (NORMAL_LENGTH - radius), z + nz * (NORMAL_LENGTH - radius))
-            color = TOUCH if event.kind in _QUIET else NORMAL
+            color = TOUCH if event.kind in _TOUCH_KINDS else NORMAL
             pygame.draw.aaline(target, color, foot, tip)
             pygame.draw.aacircle(target, color, foot, 3)
         for ball in world.balls:
@@ -97,22 +96,22 @@ class DebugView:
         area: pygame.Rect,
         size: int,
     ) -> None:
-        """Write the figures into an area: frames, latency, the world's counts, the last events.
+        """Draw figures into an area: frames, latency, counters of the world, the last events.
 
         Args:
             target: The picture.
-            world: The world that is seen.
-            frames: Of the window.
-            latency: Of the window.
-            speed: Seconds of play per second.
-            area: Where to write [pixel].
+            world: The world on screen.
+            frames: Statistics of the frames.
+            latency: Of the buttons.
+            speed: Seconds of play per second of real time.
+            area: Where to draw [pixel].
             size: Of the text [pixel].
         """
         lines = [
             f"{frames.per_second:.0f} frames/s, slowest {1e3 * frames.slowest:.1f} ms, "
             f"{world.tick_rate} ticks/s, speed {speed:g}",
-            f"button to tick {1e3 * middle(latency.to_tick):.1f} ms, "
-            f"to picture {1e3 * middle(latency.to_picture):.1f} ms (medians of {len(latency.to_tick)})",
+            f"button to tick {1e3 * median(latency.to_tick):.1f} ms, "
+            f"to picture {1e3 * median(latency.to_picture):.1f} ms (medians of {len(latency.to_tick)})",
             f"seed {world.seed}  tick {world.tick}  {world.time:.2f} s  jams {world.jams}",
             *(
                 f"ball {ball.id}  x {ball.position[0]:+.4f}  z {ball.position[2]:+.4f}  "

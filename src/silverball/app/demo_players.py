@@ -1,7 +1,7 @@
-"""Who can be watched while the program plays by itself, and who plays until that one is ready?
+"""The players of a demo, and the one that stands in until the requested one is compiled.
 
-`PERFORMERS` are the built-in ones: the window makes them ready (`player_warmup.py`), and the first of them
-plays when nobody is there. `performers` lists these and the registered players; the menu offers them.
+`DEMO_PLAYERS` are the built-in ones: `player_warmup.py` compiles them, and the first one plays in the attract
+mode. `demo_players` lists these and the registered players; the menu offers them.
 """
 
 from __future__ import annotations
@@ -14,70 +14,70 @@ if TYPE_CHECKING:
     from silverball.players import Player
 
 
-class Performer(NamedTuple):
-    """A player that can be watched.
+class DemoPlayer(NamedTuple):
+    """A player for demos.
 
     Attributes:
         name: For `make_player`.
-        label: As the score display writes it.
-        hint: What it does, as the score display writes it.
-        kernel: What must be compiled for it besides the physics; empty if nothing.
-        fastest: At most so many seconds of play for a second of real time, since it has to think.
+        label: Its name on the score display.
+        hint: A short description on the score display.
+        kernel: The kernel that must be compiled for it in addition to the physics; empty if none.
+        max_speed: Seconds of play per second of real time that it can compute.
     """
 
     name: str
     label: str
     hint: str
     kernel: str = ""
-    fastest: float = 16.0
+    max_speed: float = 16.0
 
 
-PERFORMERS = (
-    Performer("planner", "PLANNER", "LOOKS AHEAD", "plan_worlds", 2.0),
-    Performer("trained", "TRAINED", "LEARNT BY TRIAL"),
-    Performer("reflex", "REFLEX", "HITS WHAT COMES"),
+DEMO_PLAYERS = (
+    DemoPlayer("planner", "PLANNER", "LOOKS AHEAD", "plan_worlds", 2.0),
+    DemoPlayer("trained", "TRAINED", "LEARNT BY TRIAL"),
+    DemoPlayer("reflex", "REFLEX", "HITS WHAT COMES"),
 )
-HINT = "YOUR OWN"  # what a registered player does, as the score display writes it
-BEST = PERFORMERS[0]
-STAND_IN = next(performer for performer in PERFORMERS if performer.name == "reflex")  # ready with the physics
+HINT = "YOUR OWN"  # the description of a registered player on the score display
+BEST_PLAYER = DEMO_PLAYERS[0]
+STAND_IN = next(one for one in DEMO_PLAYERS if one.name == "reflex")  # needs no kernel of its own
 
 
-def performers() -> tuple[Performer, ...]:
-    """Everyone who can be watched: `PERFORMERS`, then the players registered so far."""
+def demo_players() -> tuple[DemoPlayer, ...]:
+    """All players for demos: `DEMO_PLAYERS`, then the players registered so far."""
     from silverball.players import registered_names
 
-    return *PERFORMERS, *(Performer(name, name.upper(), HINT) for name in registered_names())
+    return *DEMO_PLAYERS, *(DemoPlayer(name, name.upper(), HINT) for name in registered_names())
 
 
-class DemoPlayers:
-    """Who plays: whoever was asked for, or the stand-in until that one is ready.
+class DemoPlayerSelector:
+    """Selects who plays: the requested player, or the stand-in until that one is ready.
 
     Args:
-        is_ready: Whether the player of a name can play without a wait.
+        is_ready: Returns whether a player, by name, can play without a delay.
 
     Attributes:
-        asked: Who was asked for.
-        playing: Who plays.
+        requested: The requested player.
+        playing: The current player.
     """
 
     def __init__(self, is_ready: Callable[[str], bool] = lambda name: name == STAND_IN.name) -> None:
         self.is_ready = is_ready
-        self.asked = self.playing = STAND_IN
+        self.requested = self.playing = STAND_IN
 
-    def begin(self, name: str) -> Player:
-        """Ask for a player, and have one that plays at once."""
-        self.asked = next(performer for performer in performers() if performer.name == name)
-        return self._enter()
+    def select(self, name: str) -> Player:
+        """Request a player; return it, or the stand-in if it is not ready."""
+        self.requested = next(one for one in demo_players() if one.name == name)
+        return self._make()
 
-    def follow(self, stage: DemoSession) -> bool:
-        """Let the one who was asked for take over as soon as it is ready; whether it has just done so."""
-        if self.playing is self.asked or not self.is_ready(self.asked.name):
+    def switch_when_ready(self, session: DemoSession) -> bool:
+        """Let the requested player take over once it is ready; return whether it has just done so."""
+        if self.playing is self.requested or not self.is_ready(self.requested.name):
             return False
-        stage.player = self._enter()
+        session.player = self._make()
         return True
 
-    def _enter(self) -> Player:
+    def _make(self) -> Player:
         from silverball.players import make_player
 
-        self.playing = self.asked if self.is_ready(self.asked.name) else STAND_IN
+        self.playing = self.requested if self.is_ready(self.requested.name) else STAND_IN
         return make_player(self.playing.name)

@@ -1,10 +1,10 @@
-"""Which buttons of gamepads and joysticks go down and come up?
+"""Gamepads and joysticks: which of their buttons go down and come up.
 
-SDL knows the layout of hundreds of gamepads and gives their buttons common names, whatever the maker printed
-on them. A trigger is an axis; it counts as a button that is down while it is pulled more than a third. What
-SDL does not know (arcade encoders, boards of pinball cabinets, old pads) is a joystick: its buttons have
-numbers from 1, as "button 5", and each direction of a hat or an axis is a button too, as "hat 1 left" and
-"axis 2 +". Both kinds may come and go at any time.
+SDL knows the layout of hundreds of gamepads and gives their buttons common names. A trigger is an axis; it
+counts as a button that is down while it is pulled more than a third. Devices without a mapping in SDL (arcade
+encoders, boards of pinball cabinets, old pads) are joysticks: their buttons have numbers from 1, as "button
+5", and each direction of a hat or an axis is a button too, as "hat 1 left" and "axis 2 +". Both kinds may be
+connected and removed at any time.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from silverball.app.menus import JoystickEntry
 from silverball.plain import plain
 
 TRIGGER_DOWN = 11_000  # of 32,767
-TRIGGER_UP = 8_000  # lower, so that a trembling finger does not chatter
-AXIS_DOWN = 0.6  # of the way from where it rests to its end
+TRIGGER_UP = 8_000  # hysteresis against chatter
+AXIS_DOWN = 0.6  # of the way from its rest position to its end
 AXIS_UP = 0.4
 
 BUTTON_NAMES = {
@@ -52,10 +52,10 @@ class PadButton(NamedTuple):
     """A button of a gamepad or joystick that went down or came up.
 
     Attributes:
-        pad: Which gamepad or joystick.
-        name: Which button, for example "leftshoulder" or "button 5".
+        pad: Instance id of the device.
+        name: Of the button, for example "leftshoulder" or "button 5".
         down: Whether it went down.
-        kind: Whose names these are: "pad", or the GUID of a joystick, as in the settings.
+        kind: The kind of device: "pad", or the GUID of a joystick, as in the settings.
     """
 
     pad: int
@@ -65,12 +65,12 @@ class PadButton(NamedTuple):
 
     @property
     def source(self) -> str:
-        """What tells this button from all others."""
+        """Identifies this button among those of all devices."""
         return f"pad {self.pad} {self.name}"
 
 
 class _Joystick:
-    """A joystick that is plugged in, and where its axes rest."""
+    """A connected joystick, and the rest positions of its axes."""
 
     def __init__(self, device: Any) -> None:
         self.device = device
@@ -80,37 +80,37 @@ class _Joystick:
         self._rests: dict[int, int] = {}
 
     def directions(self, axis: int, value: float) -> Iterator[tuple[str, bool | None]]:
-        """The buttons that an axis is, and whether they are down; None: as they were."""
-        if axis not in self._rests:  # SDL tells first where an axis rests, also where a pedal does
+        """Yield the buttons of an axis, and whether they are down; None: unchanged."""
+        if axis not in self._rests:  # the first event gives the rest position, also that of a pedal
             self._rests[axis] = round(value)
-        for sign, way in (("-", -1), ("+", 1)):
-            if self._rests[axis] == way:
+        for sign, direction in (("-", -1), ("+", 1)):
+            if self._rests[axis] == direction:
                 continue
-            share = way * (value - self._rests[axis]) / (1 + abs(self._rests[axis]))
+            fraction = direction * (value - self._rests[axis]) / (1 + abs(self._rests[axis]))
             yield (
                 f"axis {axis + 1} {sign}",
-                True if share >= AXIS_DOWN else False if share <= AXIS_UP else None,
+                True if fraction >= AXIS_DOWN else False if fraction <= AXIS_UP else None,
             )
 
 
 class Gamepads:
-    """All gamepads and joysticks that are plugged in."""
+    """All connected gamepads and joysticks."""
 
     def __init__(self) -> None:
         self._pads: dict[int, Any] = {}
         self._joysticks: dict[int, _Joystick] = {}
         self._down: dict[tuple[int, str], PadButton] = {}
-        with contextlib.suppress(pygame.error):  # a game without gamepads is a game too
+        with contextlib.suppress(pygame.error):  # the game also works without gamepads
             controller.init()
             pygame.joystick.init()
 
     @property
     def joysticks(self) -> tuple[JoystickEntry, ...]:
-        """The joysticks that are plugged in, those of one make once."""
+        """The connected joysticks, one per make."""
         return tuple({stick.entry.guid: stick.entry for stick in self._joysticks.values()}.values())
 
     def read(self, event: pygame.Event) -> Iterator[PadButton]:
-        """The buttons that an event of SDL is about; most are about none."""
+        """Yield the buttons that an event of SDL changes; most events change none."""
         for button in self._read(event):
             place = (button.pad, button.name)
             if button.down:
@@ -130,9 +130,9 @@ class Gamepads:
         elif event.type == pygame.CONTROLLERAXISMOTION:
             yield from self._read_trigger(event)
         elif event.type == pygame.CONTROLLERDEVICEADDED:
-            self._plug_in(event.device_index)
+            self._connect(event.device_index)
         elif event.type == pygame.JOYDEVICEADDED:
-            self._plug_in_joystick(event.device_index)
+            self._connect_joystick(event.device_index)
         elif event.type in REMOVED:
             held = [button for button in self._down.values() if button.pad == event.instance_id]
             yield from (button._replace(down=False) for button in held)
@@ -140,13 +140,13 @@ class Gamepads:
             yield from self._read_joystick(event, self._joysticks[event.instance_id])
 
     def rumble(self, strength: float, seconds: float) -> None:
-        """Let all gamepads rumble, 0 to 1; those that cannot do not."""
+        """Let all gamepads rumble that can, with a strength of 0 to 1."""
         for pad in self._pads.values():
             with contextlib.suppress(pygame.error, AttributeError):
                 pad.rumble(strength, strength, round(1000 * seconds))
 
     def close(self) -> None:
-        """Forget all gamepads and joysticks."""
+        """Close all gamepads and joysticks."""
         self._pads.clear()
         self._joysticks.clear()
         with contextlib.suppress(pygame.error):
@@ -170,20 +170,20 @@ class Gamepads:
             states = ((f"button {event.button + 1}", event.type == pygame.JOYBUTTONDOWN),)
         elif event.type == pygame.JOYHATMOTION:
             x, y = event.value
-            ways = {"left": x < 0, "right": x > 0, "up": y > 0, "down": y < 0}
-            states = ((f"hat {event.hat + 1} {way}", down) for way, down in ways.items())
+            directions = {"left": x < 0, "right": x > 0, "up": y > 0, "down": y < 0}
+            states = ((f"hat {event.hat + 1} {direction}", down) for direction, down in directions.items())
         elif event.type == pygame.JOYAXISMOTION:
             states = joystick.directions(event.axis, event.value)
         for name, down in states:
             if down is not None and down is not ((pad, name) in self._down):
                 yield PadButton(pad, name, down, kind)
 
-    def _plug_in(self, index: int) -> None:
+    def _connect(self, index: int) -> None:
         with contextlib.suppress(pygame.error):
             pad = controller.Controller(index)
             self._pads[pad.as_joystick().get_instance_id()] = pad
 
-    def _plug_in_joystick(self, index: int) -> None:
+    def _connect_joystick(self, index: int) -> None:
         with contextlib.suppress(pygame.error):
             if not controller.is_controller(index):
                 device = pygame.joystick.Joystick(index)

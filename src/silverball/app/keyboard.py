@@ -1,9 +1,10 @@
-"""Which key of the keyboard is meant by a name, on whatever layout is in use?
+"""Resolves key presses to the key names of the settings, on any keyboard layout.
 
-Settings name keys by what a US keyboard prints on them ("a", ",", "left shift"; those that it lacks by their
-own character, as "é"). A name means the key that bears it without Shift on the layout in use. Where no key
-bears it, as "." on a French keyboard or "a" on a Russian one, it means the key at its place on a US keyboard.
-Shift is a paddle, so it changes nothing; only a sign that the layout has nowhere else may be typed with it.
+Settings name keys by the labels of a US keyboard ("a", ",", "left shift"; other characters by themselves, as
+"é"). A name means the key with that label on the current layout, without Shift. If no key has the label, as
+"." on a French keyboard or "a" on a Russian one, it means the key in the same scancode on a US keyboard.
+Shift is a paddle button, so it changes nothing; only a character that the layout has nowhere else may be
+typed with it.
 """
 
 from __future__ import annotations
@@ -18,34 +19,34 @@ import pygame
 from silverball.app import sdl
 from silverball.drawing.text import can_show
 
-US_PLACES: dict[str, int] = {
-    character: first + place
+US_SCANCODES: dict[str, int] = {
+    character: first + scancode
     for first, characters in (
         (pygame.KSCAN_A, "abcdefghijklmnopqrstuvwxyz1234567890"),
         (pygame.KSCAN_MINUS, "-=[]\\"),
         (pygame.KSCAN_SEMICOLON, ";'`,./"),
     )
-    for place, character in enumerate(characters)
+    for scancode, character in enumerate(characters)
 } | {"space": pygame.KSCAN_SPACE}
-"""Where a US keyboard has its signs, as SDL numbers places."""
-US_SIGNS = {place: character for character, place in US_PLACES.items()}
+"""The scancodes of characters on a US keyboard."""
+US_LABELS = {scancode: character for character, scancode in US_SCANCODES.items()}
 
 WITH_SHIFT = {";": ".", ".": ","}
-"""What keys bear with Shift if the layout has it nowhere else: "." on AZERTY, "," on Cyrillic ones.
+"""Characters with Shift, where the layout has them nowhere else: "." on AZERTY, "," on Cyrillic ones.
 
 Source: the layouts of xkeyboard-config 2.35.
 """
 
-_LETTERS = frozenset(
+_INITIALS_KEYS = frozenset(
     (*string.ascii_lowercase, *string.digits, ".", "-", "space", *map("[{}]".format, range(10)))
 )
-"""Initials are made of them; those in brackets are on the keypad."""
+"""Keys for initials; names in brackets are on the keypad."""
 
-_PLACES = range(pygame.KSCAN_A, 232)  # up to the right Meta key, the last one that has a place
+_SCANCODES = range(pygame.KSCAN_A, 232)  # up to the right Meta key, the last key of a keyboard
 
 
 class KeyEvent(Protocol):
-    """What is needed of pygame's KEYDOWN."""
+    """The attributes of KEYDOWN that are used."""
 
     key: int
     scancode: int
@@ -53,93 +54,96 @@ class KeyEvent(Protocol):
 
 
 class Keyboard:
-    """The keyboard with the layout that is in use; SDL is asked for it."""
+    """The keyboard with its current layout, which is read from SDL."""
 
     def __init__(self) -> None:
-        self._bears: dict[int, str] = {}  # what a key bears, by its place
-        self.read()
+        self._labels: dict[int, str] = {}  # key labels by scancode
+        self.read_layout()
 
-    def read(self) -> None:
-        """The layout may be another one now."""
-        keys = {place: sdl.key_at(place) for place in _PLACES}
-        self._bears = {place: name for place, key in keys.items() if key and (name := bears(key, place))}
+    def read_layout(self) -> None:
+        """Read the current layout."""
+        keys = {scancode: sdl.keycode_at(scancode) for scancode in _SCANCODES}
+        self._labels = {
+            scancode: name for scancode, key in keys.items() if key and (name := key_label(key, scancode))
+        }
 
-    def hear(self, event: KeyEvent) -> bool:
-        """Learn from a key press; returns whether the layout is another one than it was."""
-        name = bears(event.key, event.scancode)
-        if not self._bears or not event.scancode or self._bears.get(event.scancode) == name:
+    def learn(self, event: KeyEvent) -> bool:
+        """Learn from a key press; return whether the layout has changed."""
+        name = key_label(event.key, event.scancode)
+        if not self._labels or not event.scancode or self._labels.get(event.scancode) == name:
             return False
-        self.read()
-        self._bears[event.scancode] = name  # an event is never out of date
+        self.read_layout()
+        self._labels[event.scancode] = name  # SDL may be out of date, an event is not
         return True
 
-    def meant(self, event: KeyEvent, names: Iterable[str]) -> str:
-        """Which one of some names a key press means; empty if none."""
+    def resolve(self, event: KeyEvent, names: Iterable[str]) -> str:
+        """Return which one of some names a key press means; empty if none."""
         names = set(names)
-        name = bears(event.key, event.scancode)
+        name = key_label(event.key, event.scancode)
         if event.mod & pygame.KMOD_SHIFT:
             typed = WITH_SHIFT.get(name, "")
-            if typed in names and typed not in self._bears.values():
+            if typed in names and typed not in self._labels.values():
                 return typed
-        if event.scancode in self._bears:
-            return self._meanings(names).get(event.scancode, "")
-        # A program made the press up, as an on-screen keyboard does, or SDL cannot be asked.
+        if event.scancode in self._labels:
+            return self._names_by_scancode(names).get(event.scancode, "")
+        # A program generated the press, as an on-screen keyboard does, or SDL is not available.
         if name not in names and not name.isascii():
-            name = US_SIGNS.get(event.scancode, "")
+            name = US_LABELS.get(event.scancode, "")
         return name if name in names else ""
 
     def letter(self, event: KeyEvent) -> str:
-        """The capital, digit, full stop, hyphen or space that a key press types; empty if none of these."""
-        name = self.meant(event, _LETTERS).strip("[]")
+        """Return the capital, digit, full stop, hyphen or space that a key press types; otherwise empty."""
+        name = self.resolve(event, _INITIALS_KEYS).strip("[]")
         return " " if name == "space" else name.upper()
 
-    def name_of(self, event: KeyEvent) -> str:
-        """The name to keep for a key that has none yet; empty if there is nothing to tell it by."""
-        name, sign = bears(event.key, event.scancode), US_SIGNS.get(event.scancode, "")
-        if len(name) > 1 or name in US_PLACES or sign in self._bears.values():
+    def new_name(self, event: KeyEvent) -> str:
+        """Return a name for a key that is not bound yet; empty if it cannot be identified."""
+        name, us_label = key_label(event.key, event.scancode), US_LABELS.get(event.scancode, "")
+        if len(name) > 1 or name in US_SCANCODES or us_label in self._labels.values():
             return name
-        return sign or name
+        return us_label or name
 
     def labels(self, names: Iterable[str]) -> dict[str, str]:
-        """What stands on the keys that are meant by some names, where that is something else.
+        """Return the labels of the keys that some names mean, where they differ from the names.
 
-        Where there is no font for it, it is the sign of a US keyboard: such keyboards bear that too, unless
-        it stands on another key.
+        A label that the fonts lack is replaced by that of a US keyboard, which such keyboards show as well,
+        unless another key has it.
         """
         labels = {}
-        for place, name in self._meanings(set(names)).items():
-            label = self._bears.get(place, name)
+        for scancode, name in self._names_by_scancode(set(names)).items():
+            label = self._labels.get(scancode, name)
             if not can_show(label):
-                sign = US_SIGNS.get(place, name)
-                label = name if sign in self._bears.values() else sign
+                us_label = US_LABELS.get(scancode, name)
+                label = name if us_label in self._labels.values() else us_label
             if name not in (label, "space"):
                 labels[name] = label
         return labels
 
-    def _meanings(self, names: set[str]) -> dict[int, str]:
-        """The names that keys have, by their places."""
-        meanings = {place: name for place, name in self._bears.items() if name in names}
-        for name in sorted(names - set(meanings.values())):
-            place = US_PLACES.get(name, 0)
-            for _ in US_PLACES:  # a place whose own sign is meant gives way to that sign's place
-                if place not in meanings:
+    def _names_by_scancode(self, names: set[str]) -> dict[int, str]:
+        """Return which key each name means: names by scancode."""
+        found = {scancode: name for scancode, name in self._labels.items() if name in names}
+        for name in sorted(names - set(found.values())):
+            scancode = US_SCANCODES.get(name, 0)
+            # A key that is taken by its own label cannot have the name: try the US place of that label.
+            for _ in US_SCANCODES:
+                if scancode not in found:
                     break
-                place = US_PLACES.get(self._bears.get(place, ""), 0)
-            if place and place not in meanings:
-                sign = self._bears.get(place)
-                meanings |= {other: name for other in self._bears if self._bears[other] == sign}
-                meanings[place] = name
-        return meanings
+                scancode = US_SCANCODES.get(self._labels.get(scancode, ""), 0)
+            if scancode and scancode not in found:
+                us_label = self._labels.get(scancode)
+                found |= {other: name for other in self._labels if self._labels[other] == us_label}
+                found[scancode] = name
+        return found
 
 
-def bears(key: int, scancode: int) -> str:
-    """What stands on a key, as pygame names it; a sign that pygame has no name for names itself.
+def key_label(key: int, scancode: int) -> str:
+    """Return the label of a key: its name in pygame, or else the character itself.
 
     Args:
-        key: What it bears, as pygame's number.
-        scancode: Where it lies. It tells what a key does that only changes the next one, as an accent.
+        key: Its key code.
+        scancode: Its place, for dead keys, which have no character of their own.
     """
     name = pygame.key.name(key)
     if not name and 32 < key <= sys.maxunicode and chr(key).isprintable():
         name = chr(key)
-    return name or US_SIGNS.get(scancode, "")
+    return name or US_LABELS.get(scancode, "")

@@ -1,6 +1,6 @@
-"""What is written on top of the table? Short messages, and the help: all keys, and how to score.
+"""Text on top of the table: short messages, and the help pages with all keys and the scoring rules.
 
-Every panel is put together once for a size and then only placed.
+Every panel is composed once per size and then only blitted.
 """
 
 from __future__ import annotations
@@ -10,75 +10,74 @@ from functools import lru_cache
 
 import pygame
 
+from silverball.app.bindings import ACTIONS, upper_label
 from silverball.app.controls import Action, Controls
-from silverball.app.menus import ACTIONS, capital
 from silverball.app.scoring import Rule
 from silverball.app.widgets import column, in_columns, key_cap, panel, plate, row
 from silverball.drawing import themes
 from silverball.drawing.text import line, wrapped
+from silverball.plain import plain
 
 TEXT_SIZE = 0.5  # [u] of ordinary text
-LEAST_TEXT_SIZE = 11  # [pixel]
-LEAST_MESSAGE_SIZE = 8  # [pixel] to which a message shrinks before it grows beyond its place
-LEAST_HELP_SIZE = 7  # [pixel] to which the help shrinks before it is made smaller as a picture
-HELP_SHARE = 0.94  # of the table's area that the help may take
+MIN_TEXT_SIZE = 11  # [pixel]
+MIN_MESSAGE_SIZE = 8  # [pixel] below which a message grows beyond its place instead of shrinking
+MIN_HELP_SIZE = 7  # [pixel] below which the help is scaled down as an image
+HELP_SHARE = 0.94  # of the table's area that the help may cover
 HELP_PAGES = 2
-DIM = (0, 0, 0, 120)  # over the table behind the help and the pause
+DIM = (0, 0, 0, 120)  # over the table behind the help
 
 
 def text_size(scale: float) -> int:
-    """The size of ordinary text [pixel] at so many pixels per table unit."""
-    return max(round(TEXT_SIZE * scale), LEAST_TEXT_SIZE)
+    """Return the size of ordinary text [pixel]; `scale` is in pixels per table unit."""
+    return max(round(TEXT_SIZE * scale), MIN_TEXT_SIZE)
 
 
-def draw_message(
-    target: pygame.Surface, apron: pygame.Rect, scale: float, text: str, strength: float
-) -> None:
-    """A short message on the apron, where no play is; a long one grows upwards from there."""
+def draw_message(target: pygame.Surface, apron: pygame.Rect, scale: float, text: str, opacity: float) -> None:
+    """Draw a short message on the apron, where it hides no play; a long one grows upwards from there."""
     image = _message(text, text_size(scale), target.get_width(), target.get_height() - apron.top)
-    image.set_alpha(round(255 * min(max(strength, 0.0), 1.0)))
+    image.set_alpha(round(255 * min(max(opacity, 0.0), 1.0)))
     target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, target.get_height())))
 
 
 def draw_help(
     target: pygame.Surface, scale: float, seed: int, controls: Controls, page: int, rules: Sequence[Rule]
 ) -> None:
-    """All keys as they are now, and the seed in full; or, on the second page, how to score."""
+    """Draw all keys and the seed; or, on the second page, how to score."""
     _dim(target)
-    room = (round(HELP_SHARE * target.get_width()), round(HELP_SHARE * target.get_height()))
+    available = (round(HELP_SHARE * target.get_width()), round(HELP_SHARE * target.get_height()))
     size = text_size(scale)
-    turn, leave = _first(controls, Action.CREATE), _first(controls, Action.HELP)
+    turn_key, leave_key = _first_key(controls, Action.CREATE), _first_key(controls, Action.HELP)
     if page:
-        _place(target, _rules(size, room, tuple(rules), _foot(turn, "keys", leave)), 0.5)
+        _place(target, _rules(size, available, tuple(rules), _foot(turn_key, "keys", leave_key)), 0.5)
         return
     keys = []
     for one in ACTIONS:
-        names = controls.shown_keys(Action(one.action))
+        names = controls.key_labels(Action(one.action))
         names = ("escape", *names) if one.action == "back" else names
         if names:
-            keys.append((one.label.lower(), tuple(map(_cap, names))))
-    _place(target, _help(size, room, seed, tuple(keys), _foot(turn, "how to score", leave)), 0.5)
+            keys.append((one.label.lower(), tuple(map(_cap_label, names))))
+    _place(target, _help(size, available, seed, tuple(keys), _foot(turn_key, "how to score", leave_key)), 0.5)
 
 
-def _first(controls: Controls, action: Action) -> str:
-    names = controls.shown_keys(action)
-    return _cap(names[0]) if names else "Esc"
+def _first_key(controls: Controls, action: Action) -> str:
+    names = controls.key_labels(action)
+    return _cap_label(names[0]) if names else "Esc"
 
 
-def _foot(turn: str, other: str, leave: str) -> str:
-    """How one comes to the other page, and away."""
-    return f"paddle or {turn}: {other} · {leave}: go on"
+def _foot(turn_key: str, other_page: str, leave_key: str) -> str:
+    """Return how to turn to the other page, and how to leave."""
+    return f"paddle or {turn_key}: {other_page} · {leave_key}: go on"
 
 
 def small_text_size(scale: float) -> int:
-    """The size of figures [pixel] at so many pixels per table unit."""
+    """Return the size of debug figures [pixel]; `scale` is in pixels per table unit."""
     return max(round(0.7 * text_size(scale)), 9)
 
 
-def _cap(name: str) -> str:
-    """What stands on a key; "<" and ">" are the arrow keys."""
+def _cap_label(name: str) -> str:
+    """Return the text on a key cap; "<" and ">" are the arrow keys."""
     short = {"left": "<", "right": ">", "escape": "Esc"}
-    return short.get(name, capital(name) if len(name) < 3 or name[1:].isdigit() else name.capitalize())
+    return short.get(name, upper_label(name) if len(name) < 3 or name[1:].isdigit() else name.capitalize())
 
 
 @lru_cache(maxsize=16)
@@ -86,7 +85,7 @@ def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
     padding = size // 2
     lines = wrapped(text, size, width - 2 * padding)
     words = column([line(text, size, themes.TEXT) for text in lines], 0)
-    if words.get_height() + padding > height and size > LEAST_MESSAGE_SIZE:
+    if words.get_height() + padding > height and size > MIN_MESSAGE_SIZE:
         return _message(text, size - 1, width, height)
     return plate(words, width, max(height, words.get_height() + padding))
 
@@ -94,7 +93,7 @@ def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
 @lru_cache(maxsize=4)
 def _help(
     size: int,
-    room: tuple[int, int],
+    available: tuple[int, int],
     seed: int,
     keys: tuple[tuple[str, tuple[str, ...]], ...],
     foot: str,
@@ -107,17 +106,17 @@ def _help(
         ]
         title = line("KEYS", round(1.2 * size), themes.SCORE)
         listed = column(in_columns(rows, gap), gap // 2, centered=False)
-        ends = (f"seed {seed}", *wrapped(foot, size, max(listed.get_width(), room[0] - 2 * size)))
+        ends = (f"seed {seed}", *wrapped(foot, size, max(listed.get_width(), available[0] - 2 * size)))
         lines = [line(text, size, themes.FAINT_TEXT) for text in ends]
         return panel(column([title, listed, *lines], gap), size)
 
-    return _fitting(build, size, room)
+    return _fitting(build, size, available)
 
 
 @lru_cache(maxsize=4)
-def _rules(size: int, room: tuple[int, int], rules: tuple[Rule, ...], foot: str) -> pygame.Surface:
+def _rules(size: int, available: tuple[int, int], rules: tuple[Rule, ...], foot: str) -> pygame.Surface:
     def build(size: int) -> pygame.Surface:
-        gap, width = size // 2, min(room[0] - 2 * size, 34 * size)
+        gap, width = size // 2, min(available[0] - 2 * size, 34 * size)
         blocks = [
             column(
                 [
@@ -133,16 +132,16 @@ def _rules(size: int, room: tuple[int, int], rules: tuple[Rule, ...], foot: str)
         ends = [line(text, size, themes.FAINT_TEXT) for text in wrapped(foot, size, width)]
         return panel(column([title, column(blocks, gap, centered=False), *ends], gap), size)
 
-    return _fitting(build, size, room)
+    return _fitting(build, size, available)
 
 
-def _fitting(build: Callable[[int], pygame.Surface], size: int, room: tuple[int, int]) -> pygame.Surface:
-    """What is built at the greatest size at which it fits, from this one down."""
+def _fitting(build: Callable[[int], pygame.Surface], size: int, available: tuple[int, int]) -> pygame.Surface:
+    """Build an image at the greatest text size at which it fits, from `size` down."""
     image = build(size)
-    while size > LEAST_HELP_SIZE and (image.get_width() > room[0] or image.get_height() > room[1]):
+    while size > MIN_HELP_SIZE and (image.get_width() > available[0] or image.get_height() > available[1]):
         size -= 1
         image = build(size)
-    share = min(room[0] / image.get_width(), room[1] / image.get_height())
+    share = min(available[0] / image.get_width(), available[1] / image.get_height())
     if share >= 1.0:
         return image
     width, height = (max(round(share * side), 1) for side in image.get_size())
@@ -160,8 +159,47 @@ def _veil(size: tuple[int, int]) -> pygame.Surface:
     return veil
 
 
-def _place(target: pygame.Surface, image: pygame.Surface, height: float, strength: float = 1.0) -> None:
-    """Put an image into the middle, at a height from 0 (top) to 1 (bottom), more or less visible."""
-    image.set_alpha(round(255 * min(max(strength, 0.0), 1.0)))
+def _place(target: pygame.Surface, image: pygame.Surface, height: float, opacity: float = 1.0) -> None:
+    """Draw an image in the middle, at a height from 0 (top) to 1 (bottom)."""
+    image.set_alpha(round(255 * min(max(opacity, 0.0), 1.0)))
     middle = (target.get_width() // 2, round(height * target.get_height()))
     target.blit(image, image.get_rect(center=middle))
+
+
+MIN_SECONDS = 2.2
+MAX_SECONDS_IN_PLAY = 2.5  # [s] while a ball needs the player's attention
+SECONDS_PER_LETTER = 0.045  # [s] for a slow reader
+FADE_SECONDS = 0.4
+
+
+class Messages:
+    """The message on screen: a new one replaces it, and the same one again has no effect."""
+
+    def __init__(self) -> None:
+        self.text = ""
+        self._left = 0.0
+
+    def show(self, text: str) -> None:
+        """Show a message, with a capital (unless it begins with a file name) and a full stop."""
+        text = plain(text, keep="\n")
+        if "." not in text.split(" ", 1)[0]:
+            text = text[:1].upper() + text[1:]
+        text = text if text.endswith((".", "!", "?", "…")) else f"{text}."
+        if text == self.text and self._left > 0.0:
+            return
+        self.text = text
+        self._left = MIN_SECONDS + SECONDS_PER_LETTER * len(text)
+
+    def clear(self) -> None:
+        """Remove the message."""
+        self._left = 0.0
+
+    def update(self, seconds: float, *, in_play: bool = False) -> None:
+        """Let real time pass [s]; while a ball is in play messages are short."""
+        most = MAX_SECONDS_IN_PLAY if in_play else self._left
+        self._left = max(0.0, min(self._left, most) - seconds)
+
+    @property
+    def opacity(self) -> float:
+        """The opacity of the message: 1, fading to 0."""
+        return min(1.0, self._left / FADE_SECONDS)

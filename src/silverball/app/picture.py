@@ -1,7 +1,7 @@
-"""The table in a window of any size: always whole, in the middle, and never a frozen picture.
+"""The table in a window of any size: always whole, in the middle, and never frozen.
 
-The renderer shows a sketch at once and sharpens by itself. While the window is being resized the last picture
-is stretched; a new renderer comes when the size has stood for a moment.
+The renderer shows a sketch at once and sharpens it in the background. While the window is being resized the
+last picture is stretched; a new renderer is made once the size has settled.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from silverball.drawing.dotmatrix.canvas import Dots
     from silverball.world import Event
 
-SETTLED = 0.25  # [s] for which a size has stood
-GREATEST_DRAWN = 2880  # [pixel] of height; what is higher is stretched, for it would take a gigabyte
-GREATEST_HEIGHT = 4320  # [pixel] to which a table grows
+SETTLE_TIME = 0.25  # [s] without a change of size
+MAX_DRAWN = 2880  # [pixel] of height; larger pictures are stretched, since they would take a gigabyte
+MAX_HEIGHT = 4320  # [pixel] of a table
 
 
 class _Shown(NamedTuple):
-    """What a renderer was made for."""
+    """The parameters of a renderer."""
 
     table: Table
     board_seed: int | None
@@ -37,7 +37,7 @@ class _Shown(NamedTuple):
 
 
 class Picture:
-    """Draws tables into windows of changing size. `show` says which table, `draw` draws a moment.
+    """Draws tables into windows of changing size: `show` selects the table, `draw` draws a moment.
 
     Args:
         window_size: Width and height of the window [pixel].
@@ -45,7 +45,7 @@ class Picture:
 
     def __init__(self, window_size: tuple[int, int]) -> None:
         self._window_size = window_size
-        self._resized: float | None = None  # when the window last got another size
+        self._resized: float | None = None  # time of the last change of size
         self._shown: _Shown | None = None
         self._renderer: Renderer | None = None
         self._stretched: pygame.Surface | None = None
@@ -53,29 +53,29 @@ class Picture:
 
     @property
     def renderer(self) -> Renderer:
-        """What draws."""
+        """The renderer of the current table."""
         assert self._renderer is not None, "show() comes first"
         return self._renderer
 
     @property
     def scale(self) -> float:
-        """Pixels per table unit, about: of the width of the picture."""
+        """Pixels per table unit, approximately: across the width of the picture."""
         return self.area.width / (self.renderer.table.board.width + 1.0)
 
     @property
     def apron(self) -> pygame.Rect:
-        """The plate below the gutter [pixel of the table's area]: whatever covers it hides no play."""
+        """The plate below the gutter [pixel of the table's area]: text on it hides no play."""
         return self._fitted(self.renderer.apron)
 
     @property
     def figures_area(self) -> pygame.Rect:
-        """Where figures may be written [pixel of the table's area]: below the score display."""
+        """The area for debug figures [pixel of the table's area]: below the score display."""
         panel = self._fitted(self.renderer.score_panel)
         return pygame.Rect(panel.left, panel.bottom + 4, panel.width, self.area.height - panel.bottom)
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn in full quality at its present size."""
+        """Whether the table is drawn in full quality at its current size."""
         return self.renderer.is_sharp and self.renderer.camera.size == self._drawn_size
 
     def show(self, table: Table, board_seed: int | None, settings: Settings) -> None:
@@ -86,18 +86,18 @@ class Picture:
             self.area = fitted(table.board, self._window_size)
             self._renew()
 
-    def note(self, events: Iterable[Event], tick_rate: int) -> None:
-        """Tell what happened since the last picture."""
+    def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
+        """Pass the events since the last frame on to the renderer."""
         if self._renderer is not None:
             self._renderer.add_events(events, tick_rate)
 
-    def forget(self) -> None:
-        """Another game begins."""
+    def reset(self) -> None:
+        """Reset the effects: another session begins."""
         if self._renderer is not None:
             self._renderer.effects.clear()
 
     def draw(self, moment: Moment, window: pygame.Surface, dots: Dots | None = None) -> pygame.Surface:
-        """Draw a moment into a window of any size; returns the part of it that the table fills."""
+        """Draw a moment into a window of any size; return the part of it that the table fills."""
         self._fit(window.get_size())
         if window.get_size() != self.area.size:
             window.fill(ROOM)
@@ -113,7 +113,7 @@ class Picture:
         return target
 
     def close(self) -> None:
-        """Stop sharpening."""
+        """Stop the background work."""
         if self._renderer is not None:
             self._renderer.close()
 
@@ -122,17 +122,17 @@ class Picture:
         if window_size != self._window_size:
             self._window_size, self._resized = window_size, now
             self.area = fitted(self.renderer.table.board, window_size)
-        elif self._resized is not None and now - self._resized >= SETTLED:
+        elif self._resized is not None and now - self._resized >= SETTLE_TIME:
             self._resized = None
             if self._drawn_size != self.renderer.camera.size:
                 self._renew()
 
     @property
     def _drawn_size(self) -> tuple[int, int]:
-        """The size at which the table is drawn in the end."""
-        if self.area.height <= GREATEST_DRAWN or self._shown is None:
+        """The size of the picture before stretching."""
+        if self.area.height <= MAX_DRAWN or self._shown is None:
             return self.area.size
-        return best_size(self._shown.table.board, GREATEST_DRAWN)
+        return best_size(self._shown.table.board, MAX_DRAWN)
 
     def _renew(self) -> None:
         assert self._shown is not None
@@ -149,7 +149,7 @@ class Picture:
                 self._renderer.effects = before.effects
 
     def _fitted(self, box: pygame.Rect) -> pygame.Rect:
-        """A rectangle of the renderer's picture in the table's area, which may be of another size."""
+        """Scale a rectangle of the renderer's picture to the table's area."""
         wide, high = self.renderer.camera.size
         across, down = self.area.width / wide, self.area.height / high
         return pygame.Rect(
@@ -161,11 +161,11 @@ class Picture:
 
 
 def fitted(board: Board, window_size: tuple[int, int]) -> pygame.Rect:
-    """The largest area in the middle of a window that the whole table fits into."""
+    """Return the largest area in the middle of a window into which the whole table fits."""
     width, height = window_size
-    wide, high = best_size(board, min(max(height, 2), GREATEST_HEIGHT))
+    wide, high = best_size(board, min(max(height, 2), MAX_HEIGHT))
     if wide > width:
         high = max(2, high * width // wide)
         wide = best_size(board, high)[0]
-    wide, high = min(wide, width), min(high, height)  # where even two pixels are too many
+    wide, high = min(wide, width), min(high, height)  # for windows of almost no size
     return pygame.Rect((width - wide) // 2, (height - high) // 2, wide, high)

@@ -1,10 +1,10 @@
-"""How do players with code of their own get ready while the window goes on? Compiled elsewhere, loaded here.
+"""Warms up the players of demos in the background: compiled in another process, loaded in a thread.
 
-    compiled code there? (else: `python -m silverball.app.player_warmup`, a process of low priority, makes it)
-    →  loaded in a thread, by one press  →  ready
+    compiled code on disk? (otherwise `python -m silverball.app.player_warmup`, a process of low priority,
+    makes it) →  loaded in a thread by one decision  →  ready
 
-Compiling holds Python's lock, so it never happens in the game's own process. If it fails, the player does not
-get ready and its stand-in goes on (`demo_players.py`).
+Compiling holds Python's lock, so it never happens in the process of the game. If it fails, the player does
+not become ready and its stand-in plays on (`demo_players.py`).
 """
 
 from __future__ import annotations
@@ -15,41 +15,41 @@ import threading
 import warnings
 from typing import TYPE_CHECKING
 
-from silverball.app.demo_players import PERFORMERS, STAND_IN, Performer, performers
+from silverball.app.demo_players import DEMO_PLAYERS, STAND_IN, DemoPlayer, demo_players
 from silverball.background_process import Compiler
 
 if TYPE_CHECKING:
     from silverball.table import Table
 
-HEAD_START = 2.0  # [s] for the first pictures of a game, which loading would hold up by some 0.15 s
-NICENESS = 10  # behind the game, and behind the drawing, which is seen first
-COMPILE_SECONDS = 1800.0  # after which compiling is given up; 17 s of a processor, if it gets one
+HEAD_START = 2.0  # [s] for the first frames of a game, which loading would delay by about 0.15 s
+NICENESS = 10  # lower priority than the game and the drawing
+COMPILE_TIMEOUT = 1800.0  # [s]; compiling takes 17 s on an idle processor
 
 
-class Rehearsal:
-    """Makes the players ready, one after the other; begun when the physics is loaded.
+class PlayerWarmup:
+    """Warms up the players one after the other, once the physics is loaded.
 
     Args:
-        table: A finished table to try them on.
+        table: A board to try them on.
     """
 
     def __init__(self, table: Table) -> None:
         self._table = table
         self._ready = {STAND_IN.name}
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._work, name="silverball rehearsal", daemon=True)
+        self._thread = threading.Thread(target=self._work, name="silverball player warm-up", daemon=True)
         self._thread.start()
 
     def is_ready(self, name: str) -> bool:
-        """Whether the player of a name can play without a wait."""
+        """Return whether a player, by name, can play without a delay."""
         return name in self._ready
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until all players are ready, or given up."""
+        """Wait until all players are ready or have failed."""
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Stop; what is being compiled is dropped at the program's end."""
+        """Stop; a running compilation ends with the program."""
         self._stop.set()
 
     def _work(self) -> None:
@@ -58,14 +58,14 @@ class Rehearsal:
         from silverball.players import PlayerError, player_names
 
         player_names()  # imports the players of installed packages
-        for performer in performers():
+        for demo_player in demo_players():
             try:
-                if is_there(performer) or (self._compile() and is_there(performer)):
-                    press_once(performer, self._table)
-                    self._ready.add(performer.name)
+                if is_compiled_on_disk(demo_player) or (self._compile() and is_compiled_on_disk(demo_player)):
+                    warm_up_player(demo_player, self._table)
+                    self._ready.add(demo_player.name)
             except PlayerError as error:
                 warnings.warn(f"{error}; the player {STAND_IN.name!r} stands in", stacklevel=1)
-            except Exception:  # the game goes on, and so does the stand-in
+            except Exception:  # the stand-in plays on
                 pass
             if self._stop.is_set():
                 return
@@ -73,35 +73,35 @@ class Rehearsal:
     def _compile(self) -> bool:
         from silverball.physics.kernel import cache_folder
 
-        # Without a folder for it, another process would compile in vain.
-        return cache_folder() is not None and _compiler.finish(self._stop, COMPILE_SECONDS)
+        # Without a cache folder, another process cannot pass on its compiled code.
+        return cache_folder() is not None and _compiler.finish(self._stop, COMPILE_TIMEOUT)
 
 
-def is_there(performer: Performer) -> bool:
-    """Whether all compiled code of a player is on disk."""
+def is_compiled_on_disk(demo_player: DemoPlayer) -> bool:
+    """Return whether all compiled code of a player is on disk."""
     from silverball.physics.kernel import is_compiled
 
-    return not performer.kernel or is_compiled(performer.kernel)
+    return not demo_player.kernel or is_compiled(demo_player.kernel)
 
 
-def press_once(performer: Performer, table: Table) -> None:
-    """Let a player press once before a ball, so that no later press has to load or compile."""
+def warm_up_player(demo_player: DemoPlayer, table: Table) -> None:
+    """Let a player decide once, so that no later decision has to load or compile."""
     from silverball.game.game import Game
     from silverball.players import make_player
 
     game = Game(table, 0)
     game.create_ball()
     game.step(False, False, 1)
-    make_player(performer.name).press(game.world)
+    make_player(demo_player.name).press(game.world)
 
 
 def compile_all() -> None:
-    """Compile what is missing of all players."""
+    """Compile all players that are not on disk."""
     from silverball.table import load_table
 
-    for performer in PERFORMERS:
-        if not is_there(performer):
-            press_once(performer, load_table("classic"))
+    for demo_player in DEMO_PLAYERS:
+        if not is_compiled_on_disk(demo_player):
+            warm_up_player(demo_player, load_table("classic"))
 
 
 _compiler = Compiler("silverball.app.player_warmup")

@@ -1,4 +1,4 @@
-"""How does one score? Sentences with the table's own numbers, for the second page of the help."""
+"""The scoring rules of a table as sentences with its own numbers, for the second page of the help."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from silverball.table import Arcade, Table
 
 KINDS = ("cylinder", "triangular prism", "slant wall", "paddle")
 TIMES = {1: "once", 2: "twice"}
-MOST_SHOVES = 1002  # one more than the greatest limit of a table
+MAX_SHOVES = 1002  # above the greatest limit of a table
 
 
 class Rule(NamedTuple):
-    """One thing to know.
+    """One rule.
 
     Attributes:
-        title: In a word or two.
-        text: As a sentence.
+        title: One or two words.
+        text: A sentence.
     """
 
     title: str
@@ -27,12 +27,12 @@ class Rule(NamedTuple):
 
 
 def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
-    """What a player should know about points, in the order of use.
+    """Return what a player should know about points, most useful first.
 
     Args:
-        table: A finished table.
-        mode: Which game is played on it.
-        shove_key: What shoves the table, as it is to be written; empty if no key does.
+        table: A board.
+        mode: Of the game.
+        shove_key: Label of the key that shoves the table; empty if there is none.
     """
     hits = Rule("Hits", _hits(table))
     most = table.board.max_balls
@@ -68,7 +68,7 @@ def _hits(table: Table) -> str:
     ]
     if not worth:
         return "Nothing on this table gives points"
-    words = _listed(worth)
+    words = _joined(worth)
     return f"{words[0].upper()}{words[1:]} points. A gentle touch is no hit"
 
 
@@ -112,10 +112,10 @@ def _tilt(arcade: Arcade, shove_key: str) -> str:
 
 
 def quick_shoves(arcade: Arcade) -> tuple[int | None, int]:
-    """Which of shoves in quick succession is warned of first, None if none is, and which one tilts."""
+    """Return which one of quick shoves gives the first warning (None: none does), and which one tilts."""
     warns: int | None = None
     warnings = 0
-    for count in range(1, MOST_SHOVES):
+    for count in range(1, MAX_SHOVES):
         swing = count * tilt.SHOVE
         verdict = tilt.shove_result(swing, warnings, arcade.tilt_warning, arcade.tilt_limit, arcade.warnings)
         if verdict is tilt.ShoveResult.TILT:
@@ -123,7 +123,7 @@ def quick_shoves(arcade: Arcade) -> tuple[int | None, int]:
         if verdict is tilt.ShoveResult.WARNING:
             warnings += 1
             warns = warns or count
-    return warns, MOST_SHOVES
+    return warns, MAX_SHOVES
 
 
 def _ordinal(number: int) -> str:
@@ -131,5 +131,5 @@ def _ordinal(number: int) -> str:
     return f"{number}{ending}"
 
 
-def _listed(words: Sequence[str]) -> str:
+def _joined(words: Sequence[str]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else words[0]

@@ -1,6 +1,6 @@
-"""The window of the operating system: how is it opened, how large is it, and is there a display at all?
+"""The window of the operating system, its size, and the mouse pointer over it.
 
-A pixel here is a real pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
+A pixel here is a physical pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
 """
 
 from __future__ import annotations
@@ -8,30 +8,29 @@ from __future__ import annotations
 import pygame
 
 from silverball.app import sdl
-from silverball.app.pointer import Pointer
 from silverball.drawing.sketch import ball_icon
 from silverball.video_driver import open_video
 
-DECORATION = 88  # [pixel] of a screen's height that title bar and task bar may take
-TITLE_BAR = 48  # [pixel] of it that the title bar alone may take
-FRAME = 8  # [pixel] that a frame may add on both sides
-GREATEST_HEIGHT = 1200  # [pixel] of the window at first
+DECORATION = 88  # [pixel] of the screen's height for title bar and task bar
+TITLE_BAR = 48  # [pixel] of it for the title bar alone
+FRAME = 8  # [pixel] that the window frame may add on each side
+MAX_HEIGHT = 1200  # [pixel] of the window when it opens
 ICON_SIDE = 64  # [pixel]
-LEAST_SIZE = (170, 340)  # [pixel] below which nothing can be read
+MIN_SIZE = (170, 340)  # [pixel] below which text is unreadable
 REMEDY = "`silverball demo` makes a film of a game without one, for example: silverball demo --out demo.gif"
-FRAME_RATES = (60, 240)  # [1/s] the least and the greatest that is aimed at, whatever the screen says
+FRAME_RATES = (60, 240)  # [1/s] the smallest and the greatest target
 _TYPING_ENDS = (pygame.WINDOWSHOWN, pygame.WINDOWSIZECHANGED, pygame.WINDOWFOCUSGAINED)
 
 
 class Screen:
-    """The window.
+    """The window of the operating system.
 
     Args:
-        title: In its title bar.
-        without_display: Whether SDL's drivers that show nothing will do, as in tests.
+        title: Of the window.
+        without_display: Whether SDL drivers without output are accepted, as in tests.
 
     Raises:
-        NoDisplay: There is no screen to open a window on.
+        NoDisplay: There is no display.
     """
 
     def __init__(self, title: str, *, without_display: bool = False) -> None:
@@ -40,73 +39,68 @@ class Screen:
         self._title = title
         self._window: pygame.Window | None = None
         self._pointer = Pointer()
-        self.is_full = False
+        self.is_fullscreen = False
 
     @property
-    def first_room(self) -> tuple[int, int]:
-        """Width and height [pixel] within which a whole window, its decorations included, fits the screen."""
+    def max_initial_size(self) -> tuple[int, int]:
+        """Width and height [pixel] up to which the window fits the screen with its decorations."""
         width, height = self.desktop
-        room = [width - 2 * FRAME, height - DECORATION]
-        usable, area = sdl.usable_area(0), sdl.screen_area(0)
+        size = [width - 2 * FRAME, height - DECORATION]
+        usable, area = sdl.usable_bounds(0), sdl.display_bounds(0)
         if usable is not None and area is not None and area.size == self.desktop:
-            room = [min(room[0], usable.width - 2 * FRAME), min(room[1], usable.height - TITLE_BAR)]
-        return max(room[0], 1), min(max(room[1], 1), GREATEST_HEIGHT)
-
-    @property
-    def first_height(self) -> int:
-        """The height [pixel] at which the whole window, its decorations included, fits the screen."""
-        return self.first_room[1]
+            size = [min(size[0], usable.width - 2 * FRAME), min(size[1], usable.height - TITLE_BAR)]
+        return max(size[0], 1), min(max(size[1], 1), MAX_HEIGHT)
 
     @property
     def refresh_rate(self) -> int:
-        """Pictures per second that the screen shows on which the window stands, as far as it says."""
+        """The refresh rate [1/s] of the screen on which the window is, within `FRAME_RATES`."""
         rates = pygame.display.get_desktop_refresh_rates()
-        number = self._number()
+        number = self._display_index()
         return min(max(rates[number] if number < len(rates) else 0, FRAME_RATES[0]), FRAME_RATES[1])
 
     @property
     def surface(self) -> pygame.Surface:
-        """What the window shows after the next `flip`, at its present size."""
+        """The surface that the next `flip` shows, in the current size of the window."""
         return self._opened.get_surface()
 
     def open(self, size: tuple[int, int]) -> None:
-        """Show the window at a size."""
+        """Open the window in a size [pixel]."""
         self._window = pygame.Window(self._title, size, resizable=True, allow_high_dpi=True)
-        self._window.minimum_size = min(LEAST_SIZE[0], size[0]), min(LEAST_SIZE[1], size[1])
+        self._window.minimum_size = min(MIN_SIZE[0], size[0]), min(MIN_SIZE[1], size[1])
         self._window.set_icon(ball_icon(ICON_SIDE))
-        _hear_keys_alone()
+        _disable_text_input()
 
     def owns(self, event: pygame.Event) -> bool:
-        """Whether an event is about this window, and not about another one of this program."""
+        """Return whether an event belongs to this window, and not to another one of this process."""
         return getattr(event, "window", self._window) is self._window
 
     def flip(self) -> None:
-        """Show what has been drawn."""
+        """Show what was drawn."""
         self._opened.flip()
 
-    def toggle_full(self) -> None:
-        """Fill the screen, or go back."""
-        self.is_full = not self.is_full
-        if self.is_full:
+    def toggle_fullscreen(self) -> None:
+        """Switch between full screen and window."""
+        self.is_fullscreen = not self.is_fullscreen
+        if self.is_fullscreen:
             self._opened.set_fullscreen(desktop=True)
         else:
             self._opened.set_windowed()
-        _hear_keys_alone()
+        _disable_text_input()
 
     def resize(self, size: tuple[int, int]) -> None:
-        """Make the window another size."""
+        """Resize the window [pixel]."""
         self._opened.size = size
-        _hear_keys_alone()
+        _disable_text_input()
 
-    def answer(self, event: pygame.Event) -> None:
-        """Follow the pointer, and what the desktop does with the window."""
-        self._pointer.answer(event)
+    def handle(self, event: pygame.Event) -> None:
+        """Handle an event of the pointer or of the desktop."""
+        self._pointer.handle(event)
         if event.type in _TYPING_ENDS:
-            _hear_keys_alone()
+            _disable_text_input()
 
-    def pass_time(self, elapsed: float, *, waits: bool) -> None:
-        """Real time has gone on [s], while a game waits for its player or not."""
-        self._pointer.pass_time(elapsed, waits=waits)
+    def update(self, elapsed: float, *, is_paused: bool) -> None:
+        """Let real time pass [s], while a game is paused or not."""
+        self._pointer.update(elapsed, is_paused=is_paused)
 
     def close(self) -> None:
         """Close the window."""
@@ -115,15 +109,15 @@ class Screen:
             self._window = None
         pygame.display.quit()
 
-    def _number(self) -> int:
-        """On which screen the window stands, counted from 0; before it opens, the first."""
+    def _display_index(self) -> int:
+        """The index of the screen on which the window is; 0 before it opens."""
         if self._window is None:
             return 0
         sizes = pygame.display.get_desktop_sizes()
-        number = sdl.screen_of(self._window.id)
-        if number is not None and all(sdl.screen_area(screen) for screen in range(len(sizes))):
+        number = sdl.display_index(self._window.id)
+        if number is not None and all(sdl.display_bounds(screen) for screen in range(len(sizes))):
             return number
-        # Nobody says where the screens stand: side by side, then, the first one on the left.
+        # The arrangement of the screens is unknown: assume side by side, the first one on the left.
         middle, left = self._window.position[0] + self._window.size[0] // 2, 0
         for number, (width, _) in enumerate(sizes):
             left += width
@@ -137,6 +131,41 @@ class Screen:
         return self._window
 
 
-def _hear_keys_alone() -> None:
-    """End the typing of text with which SDL begins: an input method that composes would keep letters."""
+def _disable_text_input() -> None:
+    """Stop the text input that SDL starts: an input method would swallow letters."""
     pygame.key.stop_text_input()
+
+
+HIDE_AFTER = 2.0  # [s] without motion
+_TOUCHED = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
+
+
+class Pointer:
+    """The mouse pointer: visible while it moves, and when a game is paused or the window has no focus."""
+
+    def __init__(self) -> None:
+        self._still_time = 0.0  # since the last motion [s]
+        self._has_focus = True
+        self._was_paused = False
+
+    def handle(self, event: pygame.Event) -> None:
+        """Handle motion, and changes of the focus."""
+        if event.type in _TOUCHED:
+            if getattr(event, "rel", None) != (0, 0):  # no motion: a window has opened under the pointer
+                self._show()
+        elif event.type in (pygame.WINDOWFOCUSLOST, pygame.WINDOWFOCUSGAINED):
+            self._has_focus = event.type == pygame.WINDOWFOCUSGAINED
+            self._show()
+
+    def update(self, elapsed: float, *, is_paused: bool) -> None:
+        """Let real time pass [s], while a game is paused or not."""
+        if is_paused and not self._was_paused:
+            self._show()
+        self._was_paused = is_paused
+        self._still_time += elapsed
+        if self._still_time >= HIDE_AFTER and self._has_focus and pygame.mouse.get_visible():
+            pygame.mouse.set_visible(False)
+
+    def _show(self) -> None:
+        self._still_time = 0.0
+        pygame.mouse.set_visible(True)

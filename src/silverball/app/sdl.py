@@ -1,7 +1,7 @@
-"""What does SDL know that pygame does not pass on? What each key bears, and where the screens stand.
+"""Functions of SDL that pygame does not expose: the keyboard layout, and the arrangement of the screens.
 
-The functions are SDL's own, called in the library that pygame has loaded. Where that cannot be reached they
-answer None, and whoever asks makes do with what pygame says.
+They are called in the library that pygame has loaded. Where it cannot be reached they return None, and
+callers fall back on pygame.
 """
 
 from __future__ import annotations
@@ -18,33 +18,33 @@ class _Rect(ctypes.Structure):
     _fields_ = (("x", ctypes.c_int), ("y", ctypes.c_int), ("w", ctypes.c_int), ("h", ctypes.c_int))
 
 
-def key_at(scancode: int) -> int | None:
-    """What the key at a place bears on the present layout, as pygame's number; 0 if nothing."""
+def keycode_at(scancode: int) -> int | None:
+    """Return the key code of a scancode on the current layout; 0 if it has none."""
     function = _function("SDL_GetKeyFromScancode")
     return None if function is None else int(function(scancode))
 
 
-def screen_of(window: int) -> int | None:
-    """On which screen, counted from 0, most of a window stands.
+def display_index(window: int) -> int | None:
+    """Return the index of the screen on which most of a window is.
 
     Args:
-        window: Its number, `pygame.Window.id`.
+        window: Its `pygame.Window.id`.
     """
-    find, ask = _function("SDL_GetWindowFromID"), _function("SDL_GetWindowDisplayIndex")
-    if find is None or ask is None:
+    find_window, find_display = _function("SDL_GetWindowFromID"), _function("SDL_GetWindowDisplayIndex")
+    if find_window is None or find_display is None:
         return None
-    find.restype, ask.argtypes = ctypes.c_void_p, (ctypes.c_void_p,)
-    screen = int(ask(find(window)))
+    find_window.restype, find_display.argtypes = ctypes.c_void_p, (ctypes.c_void_p,)
+    screen = int(find_display(find_window(window)))
     return screen if screen >= 0 else None
 
 
-def screen_area(screen: int) -> pygame.Rect | None:
-    """Where a screen stands among the others, and how large it is."""
+def display_bounds(screen: int) -> pygame.Rect | None:
+    """Return the position and size of a screen on the desktop."""
     return _area("SDL_GetDisplayBounds", screen)
 
 
-def usable_area(screen: int) -> pygame.Rect | None:
-    """The part of a screen that no task bar, dock or menu bar takes."""
+def usable_bounds(screen: int) -> pygame.Rect | None:
+    """Return the part of a screen without task bar, dock and menu bar."""
     return _area("SDL_GetDisplayUsableBounds", screen)
 
 
@@ -56,15 +56,15 @@ def _area(name: str, screen: int) -> pygame.Rect | None:
 
 
 def _function(name: str) -> Any:
-    """A function of SDL 2; None if there is none."""
+    """Return a function of SDL 2; None if it is missing."""
     return getattr(_library(), name, None)
 
 
 @lru_cache(maxsize=1)
 def _library() -> ctypes.CDLL | None:
-    if pygame.get_sdl_version()[0] != 2:  # the functions of SDL 3 take other arguments
+    if pygame.get_sdl_version()[0] != 2:  # SDL 3 has other signatures
         return None
-    # Windows knows a loaded library by its name; elsewhere pygame's module leads to what it is linked with.
+    # Windows finds a loaded library by its name; elsewhere pygame's own module leads to it.
     name = "SDL2.dll" if sys.platform == "win32" else str(pygame.base.__file__)
     try:
         return ctypes.CDLL(name)

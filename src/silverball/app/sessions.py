@@ -1,6 +1,6 @@
-"""What is going on on the board: somebody plays, a replay is watched, or the program plays by itself?
+"""Sessions on the board: a game of the player, a replay, or a demo that the program plays by itself.
 
-All three look the same from outside: ticks in, a world to draw, news to tell. No window in here.
+All three have the same interface: ticks in; a game to draw and to take events from out. They know no window.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from silverball.app.controls import Held
 from silverball.errors import BoardFull, NoRoom
-from silverball.game.view import GameEvent, GameView, Mode, Phase
+from silverball.game.view import GameView, Mode, Phase
 
 if TYPE_CHECKING:
     from silverball.game.core import GameCore
@@ -18,83 +18,76 @@ if TYPE_CHECKING:
     from silverball.game.replay.player import ReplayPlayer
     from silverball.players import Player
     from silverball.table import Table
-    from silverball.world import Event
 
-SHOW_SECOND_BALL_AFTER = 4.0  # [s] of a ball alone, until the program brings another
-SURE_AFTER = 1.0  # [s] after a ball has come in arcade, in which no other one can be asked for
-SURE_WITHIN = 3.0  # [s] in which the second press must follow that spends another ball
-SHOW_PAUSE = 1.0  # [s] between two balls that the program brings
+DEMO_SECOND_BALL_DELAY = 4.0  # [s] for which a demo has one ball before it creates another
+DEMO_BALL_DELAY = 1.0  # [s] between two balls of a demo
+NEW_BALL_LOCK = 1.0  # [s] after a new ball in arcade in which another one cannot be requested
+CONFIRM_WITHIN = 3.0  # [s] in which a second press confirms the request for an extra ball
 
 
 class Session(Protocol):
-    """What is going on on the board."""
+    """What runs on the board."""
 
     @property
     def game(self) -> GameCore:
-        """The game that is seen."""
+        """The game on screen."""
 
     @property
     def is_played(self) -> bool:
-        """Whether the buttons move the paddles."""
+        """Whether the player's buttons move the paddles."""
 
     @property
     def has_ended(self) -> bool:
-        """Whether nothing more will happen."""
+        """Whether nothing will happen any more."""
 
     def advance(self, held: Held, ticks: int) -> None:
-        """Move on by a number of ticks."""
-
-    def take_world_events(self) -> list[Event]:
-        """What happened on the board since this was last asked."""
-
-    def take_game_events(self) -> list[GameEvent]:
-        """What happened in the game since this was last asked."""
+        """Advance by a number of ticks."""
 
 
 class GameSession:
-    """Somebody plays a game."""
+    """A game of the player."""
 
     is_played = True
 
     def __init__(self, game: Game) -> None:
         self.game = game
-        self._launched = 0  # the tick at which a ball was brought last
-        self._asked: int | None = None  # the tick of a press that would spend one more ball
+        self._created_at = 0  # the tick of the last new ball
+        self._requested_at: int | None = None  # the tick of a press that awaits confirmation
 
     @property
     def has_ended(self) -> bool:
         """Whether the game is over."""
         return self.game.is_over
 
-    def bring_ball(self, key: str) -> str:
-        """Bring a ball; in arcade one more beside a ball in play only if it is asked for twice.
+    def create_ball(self, key: str) -> str:
+        """Create a ball; in arcade an extra ball beside one in play must be requested twice.
 
-        Such a ball is one of the few of the game, and a press too many must not spend it: the first press is
-        answered by a question, and just after a ball has come nothing is asked. All of that is the window's;
-        the game knows only of balls that were brought.
+        An extra ball is one of the few balls of the game, and an accidental press must not spend it: the
+        first press is answered by a question, and just after a new ball presses are ignored. The game itself
+        knows only the balls that were created.
 
         Args:
-            key: What brings a ball, as the display writes it.
+            key: The key that creates a ball, as the display writes it.
 
         Returns:
-            What the score display must say; empty if a ball has come.
+            A message for the score display; empty if a ball was created.
 
         Raises:
-            SilverballError: There cannot be one more; the message says why.
+            SilverballError: No ball can be created; the message says why.
         """
-        face, tick = self.game.view, self.game.tick
-        if face.phase is Phase.PLAY and _could_come(face):
-            if tick - self._launched < SURE_AFTER * self.game.tick_rate:
-                return f"BALL {face.ball} IS IN PLAY"
-            if self._asked is None or tick - self._asked > SURE_WITHIN * self.game.tick_rate:
-                self._asked = tick
-                return f"{key} AGAIN: BALL {face.ball + 1} OF {face.balls}"
+        view, tick = self.game.view, self.game.tick
+        if view.phase is Phase.PLAY and _allows_extra_ball(view):
+            if tick - self._created_at < NEW_BALL_LOCK * self.game.tick_rate:
+                return f"BALL {view.ball} IS IN PLAY"
+            if self._requested_at is None or tick - self._requested_at > CONFIRM_WITHIN * self.game.tick_rate:
+                self._requested_at = tick
+                return f"{key} AGAIN: BALL {view.ball + 1} OF {view.balls}"
         self.game.create_ball()
-        self._launched, self._asked = tick, None
+        self._created_at, self._requested_at = tick, None
         return ""
 
     def advance(self, held: Held, ticks: int) -> None:
-        """Move on with the paddle buttons held; a tap holds a paddle for one tick."""
+        """Advance with the paddle buttons held; a tap holds a paddle for one tick."""
         if ticks <= 0:
             return
         if held.first != held.rest:
@@ -103,20 +96,12 @@ class GameSession:
         if ticks > 0:
             self.game.step(*held.rest, ticks)
 
-    def take_world_events(self) -> list[Event]:
-        """What happened on the board since this was last asked."""
-        return list(self.game.take_world_events())
-
-    def take_game_events(self) -> list[GameEvent]:
-        """What happened in the game since this was last asked."""
-        return list(self.game.take_game_events())
-
 
 class DemoSession:
-    """The program plays free play, for whoever looks on.
+    """A free-play game that the program plays for spectators.
 
     Attributes:
-        player: Who presses the buttons; another one may take over.
+        player: Presses the paddle buttons; may be replaced at any time.
     """
 
     is_played = False
@@ -127,35 +112,27 @@ class DemoSession:
 
         self.game = Game(table, seed, Mode.FREE)
         self.player = player
-        self._wait = 0.0
+        self._delay = 0.0  # [s] until the next ball may be created
 
     def advance(self, held: Held, ticks: int) -> None:
-        """Move on by a number of ticks; `held` moves nothing."""
+        """Advance by a number of ticks; `held` is ignored."""
         for _ in range(ticks):
-            self._bring_balls()
+            self._create_balls()
             self.game.step(*self.player.press(self.game.world), 1)
 
-    def take_world_events(self) -> list[Event]:
-        """What happened on the board since this was last asked."""
-        return list(self.game.take_world_events())
-
-    def take_game_events(self) -> list[GameEvent]:
-        """What happened in the game since this was last asked."""
-        return list(self.game.take_game_events())
-
-    def _bring_balls(self) -> None:
+    def _create_balls(self) -> None:
         world = self.game.world
-        self._wait = max(0.0, self._wait - 1.0 / world.tick_rate)
+        self._delay = max(0.0, self._delay - 1.0 / world.tick_rate)
         count = len(world.balls)
-        if count >= world.table.board.max_balls or self._wait > 0.0:
+        if count >= world.table.board.max_balls or self._delay > 0.0:
             return
         with contextlib.suppress(BoardFull, NoRoom):
             self.game.create_ball()
-        self._wait = SHOW_PAUSE if count == 0 else SHOW_SECOND_BALL_AFTER
+        self._delay = DEMO_BALL_DELAY if count == 0 else DEMO_SECOND_BALL_DELAY
 
 
 class ReplaySession:
-    """A replay is watched."""
+    """A replay that is watched."""
 
     is_played = False
 
@@ -164,36 +141,28 @@ class ReplaySession:
 
     @property
     def game(self) -> GameCore:
-        """The game as it was at this moment."""
+        """The game at the current moment of the replay."""
         return self.player.game
 
     @property
     def has_ended(self) -> bool:
-        """Whether the replay has been played to its end."""
+        """Whether the replay is at its end."""
         return self.player.at_end
 
     def advance(self, held: Held, ticks: int) -> None:
-        """Move on by a number of ticks; `held` moves nothing."""
+        """Advance by a number of ticks; `held` is ignored."""
         self.player.advance(ticks)
 
-    def take_world_events(self) -> list[Event]:
-        """What happened on the board since this was last asked."""
-        return list(self.game.take_world_events())
 
-    def take_game_events(self) -> list[GameEvent]:
-        """What happened in the game since this was last asked."""
-        return list(self.game.take_game_events())
+def _allows_extra_ball(view: GameView) -> bool:
+    """Whether the player could create one of the remaining balls of a game now."""
+    return 0 < view.ball < view.balls and view.on_board < view.max_balls and not view.tilted
 
 
-def _could_come(face: GameView) -> bool:
-    """Whether one of the balls left in a game of so many could come now."""
-    return 0 < face.ball < face.balls and face.on_board < face.max_balls and not face.tilted
-
-
-def why_no_tick(stage: Session | None) -> str:
-    """Why nothing can be moved on by a single tick now."""
-    if stage is not None and stage.has_ended:
-        return "the game is over" if isinstance(stage, GameSession) else "the replay has ended"
-    if isinstance(stage, ReplaySession):
+def why_no_single_tick(session: Session | None) -> str:
+    """Return why the session cannot be advanced by a single tick now."""
+    if session is not None and session.has_ended:
+        return "the game is over" if isinstance(session, GameSession) else "the replay has ended"
+    if isinstance(session, ReplaySession):
         return "one tick at a time is for a replay that is held"
     return "one tick at a time is for a game that is paused"

@@ -1,7 +1,7 @@
-"""What do the table files say now? Read again when they have changed, in a thread, so that no frame waits.
+"""The table files of a folder, read again in a thread when they have changed, so that no frame waits.
 
-A file is looked at by its marks (time, size, number on the disk), and so are the meshes that it names. Files
-that cannot be used are kept too, with their first problem: they are shown, not passed over.
+Changes are detected by file attributes (time, size, inode), also of the meshes that a file names. Files that
+cannot be used are listed too, with their first problem.
 """
 
 from __future__ import annotations
@@ -21,70 +21,70 @@ from silverball.table import Table, load_table, table_digest
 from silverball.table.file import SIZE_LIMIT
 
 ENDING = ".toml"
-GLANCE = 0.01  # [s] that a look waits for what is read: a table of a hundred parts is ready by then
-PACE = 0.02  # [s] between two of many files, in which the game has Python to itself
-FIRST_GLANCE = 0.5  # [s] the same before the first picture: some fifty tables
+REFRESH_WAIT = 0.01  # [s] that a check waits for the reading thread: enough for a hundred parts
+READ_PAUSE = 0.02  # [s] between two of many files, which leaves Python to the game
+FIRST_REFRESH_WAIT = 0.5  # [s] the same before the first frame: enough for some fifty tables
 
-Mark: TypeAlias = tuple[str, int, int, int, int, int]
-Stamp: TypeAlias = tuple[Mark, ...]
+Fingerprint: TypeAlias = tuple[str, int, int, int, int, int]
+Fingerprints: TypeAlias = tuple[Fingerprint, ...]
 
 
-class Reading(NamedTuple):
-    """What a file said when it was read last.
+class LoadedFile(NamedTuple):
+    """A table file as last read.
 
     Attributes:
-        stamp: The marks of the file and of its meshes just before.
+        fingerprints: Of the file and of its meshes, taken just before.
         table: The table; None if it cannot be used.
-        digest: Of the table; empty without one.
-        problem: Why it cannot be used, the first reason with its place; empty if it can.
+        digest: Of the table; empty without a table.
+        problem: The first problem with its place; empty if the table can be used.
     """
 
-    stamp: Stamp
+    fingerprints: Fingerprints
     table: Table | None = None
     digest: str = ""
     problem: str = ""
 
 
 class TableFiles:
-    """The table files of a folder, and one more that was chosen wherever it lies.
+    """The table files of a folder, and the chosen one in whatever folder.
 
     Args:
-        folder: The folder; it need not be there.
+        folder: The folder; it may not exist.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._chosen = ""
         self._names: tuple[str, ...] = ()
-        self._readings: dict[str, Reading] = {}
+        self._loaded: dict[str, LoadedFile] = {}
         self._thread = threading.Thread()
-        self._stale: deque[str] = deque()  # to be read; the thread takes them from the left
-        self._versions = itertools.count(1)  # of two threads none takes the same
+        self._stale: deque[str] = deque()  # files to read; the thread takes them from the left
+        self._versions = itertools.count(1)  # shared by two threads, each number is unique
         self.version = 0
-        """Another number whenever something else can be said of the files."""
+        """Changes whenever any file has changed."""
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The paths of all files, the chosen one first if it lies elsewhere."""
+        """The paths of all files, the chosen one first if it is in another folder."""
         return self._names
 
-    def reading(self, name: str) -> Reading | None:
-        """What a file said when it was read last; None if it was not read yet."""
-        return self._readings.get(name)
+    def loaded(self, name: str) -> LoadedFile | None:
+        """Return a file as last read; None if it has not been read yet."""
+        return self._loaded.get(name)
 
-    def choose(self, name: str) -> None:
-        """Watch this file too, if it is one."""
+    def watch(self, name: str) -> None:
+        """Watch this file too, if the name is a path."""
         self._chosen = name if is_path(name) else ""
 
-    def look(self, wait: float = GLANCE, *, whole: bool = True) -> None:
-        """Look which files there are and which have changed, and have those read.
+    def refresh(self, wait: float = REFRESH_WAIT, *, whole: bool = True) -> None:
+        """Find new and changed files, and read them in the thread.
 
         Args:
-            wait: How long to wait for it at most [s]; what takes longer is seen at a later look.
-            whole: Whether the folder is looked through; else only the chosen file.
+            wait: How long to wait for the thread at most [s]; later results appear in a later call.
+            whole: Whether to check the whole folder, or only the chosen file.
         """
         if self._chosen and self._differs(self._chosen) and [self._chosen] != list(self._stale)[:1]:
-            self._stale.appendleft(self._chosen)  # it is what the player waits for
+            self._stale.appendleft(self._chosen)  # the player is waiting for it
         if not self._thread.is_alive():
             if whole:
                 self._list()
@@ -98,20 +98,20 @@ class TableFiles:
         self._thread.join(wait)
 
     def read(self, name: str) -> Table:
-        """The table in a file as it is at this moment.
+        """Read the table in a file now.
 
         Raises:
             SilverballError: It cannot be used.
         """
-        reading, error = _read(name)
-        self._note(name, reading)
+        loaded, error = _read(name)
+        self._set(name, loaded)
         if error is not None:
             raise error
-        assert reading.table is not None
-        return reading.table
+        assert loaded.table is not None
+        return loaded.table
 
     def _list(self) -> None:
-        """Note which files there are; hidden ones are an editor's and half-written."""
+        """List the files, except hidden ones, which editors write temporarily."""
         try:
             found = sorted(
                 entry.name
@@ -129,56 +129,56 @@ class TableFiles:
                 names.insert(0, self._chosen)
         if tuple(names) != self._names:
             self._names = tuple(names)
-            self._readings = {name: one for name, one in self._readings.items() if name in names}
+            self._loaded = {name: one for name, one in self._loaded.items() if name in names}
             self.version = next(self._versions)
 
     def _differs(self, name: str) -> bool:
-        """Whether a file was not read yet, or has changed since."""
-        before = self._readings.get(name)
-        return before is None or _stamp(name, before.stamp) != before.stamp
+        """Return whether a file has not been read yet, or has changed since."""
+        before = self._loaded.get(name)
+        return before is None or _fingerprints(name, before.fingerprints) != before.fingerprints
 
     def _read_all(self) -> None:
         start = time.monotonic()
         while self._stale:
             name = self._stale.popleft()
-            self._note(name, _read(name)[0])
-            if time.monotonic() - start > FIRST_GLANCE:
-                time.sleep(PACE)
+            self._set(name, _read(name)[0])
+            if time.monotonic() - start > FIRST_REFRESH_WAIT:
+                time.sleep(READ_PAUSE)
 
-    def _note(self, name: str, reading: Reading) -> None:
-        self._readings[name] = reading
+    def _set(self, name: str, loaded: LoadedFile) -> None:
+        self._loaded[name] = loaded
         self.version = next(self._versions)
 
 
 def is_path(name: str) -> bool:
-    """Whether a table of this name is a file."""
+    """Return whether a table name is a path."""
     return name.endswith(ENDING) or os.sep in name or (os.altsep is not None and os.altsep in name)
 
 
 def first_problem(error: SilverballError) -> str:
-    """The first thing that is wrong, with its place, as one line."""
+    """Return the first problem, with its place, as one line."""
     if isinstance(error, TableError) and error.problems:
         return " ".join(str(error.problems[0]).split())
     return " ".join(str(error).split())
 
 
-def _read(name: str) -> tuple[Reading, SilverballError | None]:
-    """Read a file; the stamp is taken first, so that a change meanwhile is found at the next look."""
-    mark = _mark(name)
-    stamp = (mark, *(_mark(mesh) for mesh in _meshes(name)))
+def _read(name: str) -> tuple[LoadedFile, SilverballError | None]:
+    """Read a file; fingerprints are taken first, so that a change meanwhile is found by the next check."""
+    fingerprint = _fingerprint(name)
+    fingerprints = (fingerprint, *(_fingerprint(mesh) for mesh in _meshes(name)))
     error: SilverballError
     try:
         table = load_table(name)
-        return Reading(stamp, table, table_digest(table)), None
+        return LoadedFile(fingerprints, table, table_digest(table)), None
     except SilverballError as problem:
         error = problem
-    except Exception as problem:  # whatever is in a file of somebody's, the game and its menu go on
+    except Exception as problem:  # no file, whatever its content, may stop the game
         error = TableError(name, [Problem("", f"cannot be read ({type(problem).__name__}: {problem})")])
-    return Reading(stamp, problem=first_problem(error)), error
+    return LoadedFile(fingerprints, problem=first_problem(error)), error
 
 
 def _meshes(name: str) -> list[str]:
-    """The paths of the meshes that a file names, if it can be read at all."""
+    """Return the paths of the meshes that a file names, if it can be read."""
     try:
         status = os.stat(name)
         if not stat.S_ISREG(status.st_mode) or status.st_size > SIZE_LIMIT:
@@ -197,13 +197,13 @@ def _meshes(name: str) -> list[str]:
     return [str(Path(name).parent / mesh) for mesh in dict.fromkeys(meshes)]
 
 
-def _stamp(name: str, before: Stamp) -> Stamp:
-    """The marks of a file now, and those of the meshes that it had before."""
-    return (_mark(name), *(_mark(path) for path, *_ in before[1:]))
+def _fingerprints(name: str, before: Fingerprints) -> Fingerprints:
+    """Return the fingerprints of a file now, and of the meshes that it had before."""
+    return (_fingerprint(name), *(_fingerprint(path) for path, *_ in before[1:]))
 
 
-def _mark(path: str) -> Mark:
-    """What tells that a file was changed, replaced, removed or can no longer be reached."""
+def _fingerprint(path: str) -> Fingerprint:
+    """Return what changes when a file is changed, replaced, removed or becomes inaccessible."""
     try:
         status = os.stat(path)
     except (OSError, ValueError) as error:

@@ -1,8 +1,8 @@
-"""The game in a window: buttons in, ticks, picture and sounds out, until the player ends it.
+"""The game in a window: buttons in; ticks, picture and sounds out.
 
-A *beat* is: buttons → as many ticks as real time asks for. A *frame* is a beat, and then: the table → what is
-written on top → the screen. Between two frames the window goes on beating, a thousand times a second, so that
-a button reaches the simulation within a tick and not only with the next picture.
+An *input poll* handles the events and runs the ticks that real time asks for. A *frame* polls, draws the
+table and the text on top, and shows the result. Between two frames the window polls a thousand times a
+second, so that a button reaches the simulation within a tick and not only with the next frame.
 """
 
 from __future__ import annotations
@@ -16,24 +16,23 @@ from typing import TYPE_CHECKING
 import pygame
 
 from silverball.app import overlay
+from silverball.app.bindings import upper_label
 from silverball.app.catalog import Catalog
-from silverball.app.clock import TickClock
 from silverball.app.controls import Action
 from silverball.app.debug import DebugView
-from silverball.app.framerate import FrameTimes
-from silverball.app.latency import LatencyMeter
-from silverball.app.listener import Listener
-from silverball.app.menus import capital
-from silverball.app.messages import Messages
+from silverball.app.input_handler import InputHandler
+from silverball.app.overlay import Messages
 from silverball.app.picture import Picture, fitted
-from silverball.app.player_warmup import Rehearsal
+from silverball.app.player_warmup import PlayerWarmup
 from silverball.app.program import Program
 from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
-from silverball.app.startup import Startup, compiling_words
+from silverball.app.sound.voices import part_kinds
+from silverball.app.startup import Startup, compiling_message
+from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
 from silverball.drawing.themes import THEMES
 from silverball.errors import SilverballError, TableError
@@ -48,29 +47,30 @@ if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
 
 TICK_RATE = 240
-LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor more
-BEAT = 0.001  # [s] between two looks at the buttons
+LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor
+POLL_INTERVAL = 0.001  # [s]
 PAGE_SOUNDS = {"initials": "high_score", "attract": "attract"}
-RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles with full strength
+RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles at full strength
+RUMBLE_SECONDS = 0.08
 
 
 class Window:
     """A window to play in.
 
     Args:
-        table: A table, a built-in name, or a path to a file; None: as chosen last. A recipe makes a new board
-            for every seed.
+        table: A table, a built-in name, or a path to a file; None: the one chosen last. A table with random
+            parts makes a new board for every seed.
         seed: Of the first board; None draws one.
         mode: Begin this game at once; None: begin in the menu.
-        replay: Begin by showing this replay.
+        replay: Begin with this replay.
         height: Of the window [pixel]; None: as high as fits the screen.
-        without_display: Whether SDL's drivers that show nothing will do, as in tests.
-        folder: Where scores, settings and replays are; None: the user's data folder.
-        on_compile: Called (from a thread) if the physics has to be compiled first.
+        without_display: Whether SDL drivers without output are accepted, as in tests.
+        folder: For scores, settings and replays; None: the user's data folder.
+        on_compile: Called (from a thread) if the physics must be compiled first.
         on_ready: Called when a game can begin.
 
     Raises:
-        NoDisplay: There is no screen.
+        NoDisplay: There is no display.
         TableError: The table has problems.
     """
 
@@ -96,14 +96,16 @@ class Window:
         except SilverballError:
             self.store.close()
             raise
-        settings = self.program.settings
+        settings = self.program.settings.current
         self._on_ready = on_ready
-        self._startup: Startup | None = Startup(self.program.table, on_compile)
-        self.rehearsal: Rehearsal | None = None  # of the players that can be watched
-        board = self.program.table.board
-        self._screen.open(best_size(board, height) if height else fitted(board, self._screen.first_room).size)
+        self._startup: Startup | None = Startup(self.program.board.table, on_compile)
+        self.player_warmup: PlayerWarmup | None = None
+        board = self.program.board.table.board
+        self._screen.open(
+            best_size(board, height) if height else fitted(board, self._screen.max_initial_size).size
+        )
         if settings.full_screen:
-            self._screen.toggle_full()
+            self._screen.toggle_fullscreen()
         self._picture = Picture(self._screen.surface.get_size())
         self.sounds = Sounds(settings)
         self.sounds.open()
@@ -111,116 +113,118 @@ class Window:
         self._frame_times = FrameTimes()
         self.latency = LatencyMeter()
         self.debug = DebugView()
-        self.listener = Listener(self.program, self._screen, self.sounds, self.messages, self.latency)
-        self._settings = settings
-        self._stage: Session | None = None
+        self.input_handler = InputHandler(
+            self.program, self._screen, self.sounds, self.messages, self.latency
+        )
+        self.program.settings.subscribe(self._apply_settings)
+        self._session: Session | None = None
         self._before: Moment | None = None  # one tick before the present one
-        self._seconds = self._drawn_at = 0.0  # real time so far, and at the last picture
-        self._moved_at = 0.0  # at the last picture of a stage that had not ended
-        for trouble in filter(None, (self.store.warning, self.sounds.trouble)):
-            self.messages.say(trouble)
+        self._part_kinds: dict[str, str] = {}  # of the session's table, by name in events
+        self._seconds = self._drawn_at = 0.0  # real time so far, and at the last frame
+        self._moved_at = 0.0  # real time at the last frame in which the session had not ended
+        for warning in filter(None, (self.store.warning, self.sounds.warning)):
+            self.messages.show(warning)
         if replay is not None:
             self.program.watch(replay)
         elif mode is not None:
-            self.program.play(mode, settings.table, self.program.seed)
+            self.program.play(mode, settings.table, self.program.board.seed)
 
     def _new_program(self, table: Table | str | None, seed: int | None, mode: Mode | None) -> Program:
-        """The program on a table; on the default one if a table chosen long ago is no longer there."""
+        """Create the program on a table, or on the default one if the stored table no longer exists."""
         settings = Settings.of(self.store.settings())
         given = {}
         if table is not None:
             name = table if isinstance(table, str) else table.name
             given = {} if isinstance(table, str) else {name: table}
-            # Without a mode, the player chooses one in the menu, and it is to be on this table.
+            # Without a mode, the player chooses one in the menu; it should be played on this table.
             modes = (Mode.ARCADE, Mode.FREE) if mode is None else (mode,)
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
             settings = settings.changed(mode=mode)
-        library = Catalog(self.store, self._folder, given)
+        catalog = Catalog(self.store, self._folder, given)
         try:
-            return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
+            return Program(self.store, settings, catalog, seed, self.messages.show, tuple(THEMES))
         except TableError as error:
             if table is not None:
                 raise
-            self.messages.say(str(error))
+            self.messages.show(str(error))
             settings = settings.changed(table=Settings(mode=settings.mode).table)
-            return Program(self.store, settings, library, seed, self.messages.say, tuple(THEMES))
+            return Program(self.store, settings, catalog, seed, self.messages.show, tuple(THEMES))
 
     # --- the loop ---------------------------------------------------------------------------------
 
     def run(self, seconds: float | None = None) -> None:
-        """Play until the player ends it, or for some seconds."""
+        """Run until the player quits, or for some seconds."""
         before = start = time.perf_counter()
         try:
             while not self.is_over and (seconds is None or before - start < seconds):
                 due = time.perf_counter() + 1.0 / self.frame_rate
-                before = self.beat_until(due, self.picture(before))
+                before = self.poll_until(due, self.render_frame(before))
         except Exception:
-            self._keep_after_crash()
+            self._save_crash_replay()
             raise
         finally:
             self.close()
 
-    def beat(self, elapsed: float) -> None:
-        """Answer the buttons and play on, so many seconds after the last beat or frame."""
+    def poll_input(self, elapsed: float) -> None:
+        """Handle events and advance the session by the real time [s] since the last poll."""
         self._seconds += elapsed
-        self._begin_when_ready()
+        self._finish_startup()
         for event in pygame.event.get():
-            self.listener.answer(event)
-        self._play(elapsed)
+            self.input_handler.handle(event)
+        self._advance_session(elapsed)
 
     def frame(self, elapsed: float) -> None:
-        """One frame, so many seconds after the last beat or frame."""
-        self.beat(elapsed)
+        """Poll, draw and show, some seconds after the last poll."""
+        self.poll_input(elapsed)
         self.draw()
         self.show()
 
-    def picture(self, before: float) -> float:
-        """One picture in real time; buttons are heard before it is made and before it is shown.
+    def render_frame(self, before: float) -> float:
+        """Render a frame in real time; buttons are polled before it is drawn and before it is shown.
 
         Args:
-            before: When the last beat was, by `time.perf_counter` [s].
+            before: Time of the last poll, by `time.perf_counter` [s].
 
         Returns:
-            When the last beat was now.
+            The new time of the last poll.
         """
-        before = self._beat_since(before)
+        before = self._poll_since(before)
         self.draw()
-        before = self._beat_since(before)
+        before = self._poll_since(before)
         self.show()
         return before
 
     def draw(self) -> None:
-        """Make the picture and the sounds of this moment."""
+        """Draw the current moment and play its sounds."""
         elapsed, self._drawn_at = self._seconds - self._drawn_at, self._seconds
         page = self.program.menus.page
-        self.program.pass_time(self._seconds)
+        self.program.update(self._seconds)
         if self.program.menus.page != page and self.program.menus.page in PAGE_SOUNDS:
-            self.sounds.menu(PAGE_SOUNDS[self.program.menus.page])
-            self.listener.shows_help = False  # whoever asked for it has gone, or wants to sign a score
-        self._follow_settings()
+            self.sounds.play_menu(PAGE_SOUNDS[self.program.menus.page])
+            self.input_handler.shows_help = False  # it must not cover the attract mode or the initials
         self._frame_times.add(self._seconds)
-        is_watched = self.program.is_playing and bool(self._stage and self._stage.game.world.balls)
-        self.messages.pass_time(elapsed, in_play=is_watched)
-        self._screen.pass_time(elapsed, waits=self.program.is_paused)
-        self._sound(elapsed)
+        is_in_play = self.program.is_playing and bool(self._session and self._session.game.world.balls)
+        self.messages.update(elapsed, in_play=is_in_play)
+        self._screen.update(elapsed, is_paused=self.program.is_paused)
+        self._update_sounds(elapsed)
         self._draw()
-        self.latency.drawn()
+        self.latency.record_draw()
 
     def show(self) -> None:
-        """Hand the picture to the screen."""
+        """Show the drawn frame on screen."""
         self._screen.flip()
-        self.latency.shown()
+        self.latency.record_flip()
 
     def close(self) -> None:
-        """Keep the game that is played and close the window."""
-        self.program.keep_last_game()
-        self.program.stage = self._stage = None
+        """Save the current game and close the window."""
+        self.program.save_last_game()
+        self.program.session = self._session = None
         self._picture.close()
-        if self.rehearsal is not None:
-            self.rehearsal.close()
+        if self.player_warmup is not None:
+            self.player_warmup.close()
         self.sounds.close()
-        self.listener.close()
+        self.input_handler.close()
         self._screen.close()
         if not self.store.is_spooled:
             print(f"waiting for another program that holds {self.store.path} …", file=sys.stderr)
@@ -230,7 +234,7 @@ class Window:
 
     @property
     def is_over(self) -> bool:
-        """Whether the player wants to end."""
+        """Whether the player has quit."""
         return self.program.is_over
 
     @property
@@ -245,168 +249,173 @@ class Window:
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn in full quality."""
+        """Whether the picture has its full quality."""
         return self._picture.is_sharp
 
     @property
     def frame_rate(self) -> int:
-        """Frames per second to aim at."""
+        """The target number of frames per second."""
         if not self.is_ready:
             return LOADING_FRAME_RATE
-        wanted = self.program.settings.frame_rate
-        return self._screen.refresh_rate if wanted == "screen" else int(wanted)
+        rate = self.program.settings.current.frame_rate
+        return self._screen.refresh_rate if rate == "screen" else int(rate)
 
-    def beat_until(self, due: float, before: float) -> float:
-        """Go on beating until the next picture is due.
+    def poll_until(self, due: float, before: float) -> float:
+        """Poll repeatedly until the next frame is due.
 
         Args:
-            due: When, by `time.perf_counter` [s].
-            before: When the last beat was.
+            due: Time of the frame, by `time.perf_counter` [s].
+            before: Time of the last poll.
 
         Returns:
-            When the last beat was now.
+            The new time of the last poll.
         """
         while not self.is_over:
-            before = self._beat_since(before)
+            before = self._poll_since(before)
             left = due - time.perf_counter()
             if left <= 0.0:
                 break
-            time.sleep(min(BEAT, left) if self.is_ready else left)
+            time.sleep(min(POLL_INTERVAL, left) if self.is_ready else left)
         return before
 
-    def _beat_since(self, before: float) -> float:
-        """A beat, when the last one was at this time; the time now."""
+    def _poll_since(self, before: float) -> float:
+        """Poll, given the time of the last poll; return the time now."""
         now = time.perf_counter()
-        self.beat(now - before)
+        self.poll_input(now - before)
         return now
 
     # --- playing ----------------------------------------------------------------------------------
 
-    def _begin_when_ready(self) -> None:
+    def _finish_startup(self) -> None:
         if self._startup is not None and self._startup.is_done:
             self._startup = None
             self.program.progress = None
             self.messages.clear()
             self._on_ready()
-            self.rehearsal = Rehearsal(self.program.table)
-            self.program.cast.is_ready = self.rehearsal.is_ready
-            self.program.get_ready()
+            self.player_warmup = PlayerWarmup(self.program.board.table)
+            self.program.demo_players.is_ready = self.player_warmup.is_ready
+            self.program.finish_loading()
         elif self._startup is not None:
             self.program.progress = self._startup.progress
-            if self.program.progress is not None and self.messages.strength < 1.0:
-                self.messages.say(compiling_words())
+            if self.program.progress is not None and self.messages.opacity < 1.0:
+                self.messages.show(compiling_message())
 
-    def _play(self, elapsed: float) -> None:
-        program = self.program
-        self._follow_stage()
-        if not program.is_moving or self.listener.shows_help:
-            self.listener.buttons.forget_taps()
-            self.latency.forget()
-            self._note_events()  # single ticks have some too
+    def _advance_session(self, elapsed: float) -> None:
+        self._follow_session()
+        program, session = self.program, self._session
+        if session is None or not program.is_moving or self.input_handler.shows_help:
+            self.input_handler.buttons.forget_taps()
+            self.latency.reset()
+            self._collect_events()  # of single ticks
             return
         self._clock.speed = program.speed
         ticks = self._clock.advance(elapsed)
-        if ticks == 0 or self._stage is None:
+        if ticks == 0:
             return
-        held = self.listener.buttons.take()
-        if ticks > 1:
-            program.advance(held, ticks - 1)
-            held = held._replace(first=held.rest)
-        self._before = Moment.of(self._stage.game.world)
-        program.advance(held, 1)
-        self.latency.ticked()
-        self._note_events()
+        held = self.input_handler.buttons.poll()
+        with program.stopping_on_error():
+            if ticks > 1:
+                session.advance(held, ticks - 1)
+                held = held._replace(first=held.rest)
+            self._before = Moment.of(session.game.world)
+            session.advance(held, 1)
+        self.latency.record_tick()
+        self._collect_events()
 
-    def _note_events(self) -> None:
-        stage, program = self._stage, self.program
-        if stage is None:
+    def _collect_events(self) -> None:
+        session, program = self._session, self.program
+        if session is None:
             return
-        world = stage.game.world
-        news, events = stage.take_game_events(), stage.take_world_events()
-        program.display.tell(news)
-        self._picture.note(events, world.tick_rate)
-        self.debug.note(events, world.tick_rate)
-        if program.is_heard:
-            self.sounds.tell(news)
-            self.sounds.note(events, world.tick_rate, world.table.board.width)
-        if stage.is_played:
+        world = session.game.world
+        game_events, events = session.game.take_game_events(), session.game.take_world_events()
+        program.display.add_events(game_events)
+        self._picture.add_events(events, world.tick_rate)
+        self.debug.add_events(events, world.tick_rate)
+        if program.is_audible:
+            self.sounds.play_game_events(game_events)
+            self.sounds.play_events(events, world.tick_rate, world.table.board.width)
+        if session.is_played:
             for event in events:
-                if event.kind == "hit" and event.part.startswith("cylinder"):
-                    self.listener.pads.rumble(min(event.speed / RUMBLE_SPEED, 1.0), 0.08)
+                if event.kind == "hit" and self._part_kinds.get(event.part) == "cylinder":
+                    strength = min(event.speed / RUMBLE_SPEED, 1.0)
+                    self.input_handler.gamepads.rumble(strength, RUMBLE_SECONDS)
 
-    def _follow_stage(self) -> None:
-        """Another game, replay or show has begun."""
-        stage = self.program.stage
-        if stage is self._stage:
+    def _follow_session(self) -> None:
+        """Reset everything that belongs to a session when another one has begun."""
+        session = self.program.session
+        if session is self._session:
             return
-        self._stage, self._before = stage, None
-        self._picture.forget()
-        self.debug.forget()
-        self._clock = TickClock(stage.game.tick_rate if stage is not None else TICK_RATE)
-        if stage is not None:
-            self.sounds.begin(stage.game.world.table)
+        self._session, self._before = session, None
+        self._picture.reset()
+        self.debug.reset()
+        self._clock = TickClock(session.game.tick_rate if session is not None else TICK_RATE)
+        if session is not None:
+            self._part_kinds = part_kinds(session.game.world.table)
+            self.sounds.begin_game(session.game.world.table)
 
-    def _follow_settings(self) -> None:
-        settings = self.program.settings
-        if settings is self._settings:
-            return
-        before, self._settings = self._settings, settings
-        self.listener.use(settings)
-        self.sounds.change(settings)
-        if settings.full_screen not in (before.full_screen, self._screen.is_full):
-            self._screen.toggle_full()
+    def _apply_settings(self, before: Settings, settings: Settings) -> None:
+        self.input_handler.update_controls()
+        self.sounds.apply_settings(settings)
+        if settings.full_screen not in (before.full_screen, self._screen.is_fullscreen):
+            self._screen.toggle_fullscreen()
 
-    def _sound(self, elapsed: float) -> None:
-        program, sounds = self.program, self.sounds
-        if not program.is_moving or self.listener.shows_help or self._stage is None or not program.is_heard:
+    def _update_sounds(self, elapsed: float) -> None:
+        program, sounds, session = self.program, self.sounds, self._session
+        is_silent = self.input_handler.shows_help or not program.is_audible
+        if session is None or not program.is_moving or is_silent:
             sounds.pause()
-            sounds.rolling((), elapsed, self.program.table.board.width)
+            sounds.set_rolling((), elapsed, program.board.table.board.width)
             return
         sounds.resume()
-        world = self._stage.game.world
-        game = self._stage.game
-        sounds.buttons(*((False, False) if game.view.tilted else game.held))
-        balls = rolling_balls(world)
-        sounds.rolling(balls, elapsed * program.speed, world.table.board.width)
+        game = session.game
+        sounds.set_buttons(*((False, False) if game.view.tilted else game.held))
+        width = game.world.table.board.width
+        sounds.set_rolling(rolling_balls(game.world), elapsed * program.speed, width)
 
     # --- drawing ----------------------------------------------------------------------------------
 
     def _draw(self) -> None:
-        program, stage = self.program, self._stage
-        moment = Moment.before(program.table)
-        if stage is not None:
-            moment = Moment.of(stage.game.world)
-            if stage.has_ended:
-                # Nothing moves any more, but what was on its way is gone soon: a lost ball, sparks, lights.
+        program, session = self.program, self._session
+        moment = Moment.before(program.board.table)
+        if session is not None:
+            moment = Moment.of(session.game.world)
+            if session.has_ended:
+                # The board stands still, but let the last animations end: a lost ball, sparks, lights.
                 moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
             else:
                 self._moved_at = self._seconds
             if self._before is not None and program.is_moving:
-                moment = Moment.between(self._before, moment, self._clock.share)
-        self._picture.show(program.table, program.board_seed, program.settings)
+                moment = Moment.between(self._before, moment, self._clock.fraction)
+        self._picture.show(program.board.table, program.board.random_seed, program.settings.current)
         target = self._picture.draw(moment, self._screen.surface, program.dots(self._seconds))
         renderer = self._picture.renderer
         scale, apron = self._picture.scale, self._picture.apron
-        if self.listener.shows_debug and stage is not None:
-            self.debug.draw(target, renderer.camera, stage.game.world)
+        if self.input_handler.shows_debug and session is not None:
+            self.debug.draw(target, renderer.camera, session.game.world)
             self.debug.draw_figures(
-                target, stage.game.world, self._frame_times, self.latency, program.speed,
+                target, session.game.world, self._frame_times, self.latency, program.speed,
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
-        if self.listener.shows_help:
-            shoves = self.listener.controls.shown_keys(Action.JITTER)
-            rules = how_to_score(program.table, program.mode, capital(shoves[0]) if shoves else "")
+        if self.input_handler.shows_help:
+            jitter_keys = self.input_handler.controls.key_labels(Action.JITTER)
+            jitter_key = upper_label(jitter_keys[0]) if jitter_keys else ""
+            rules = how_to_score(program.board.table, program.mode, jitter_key)
             overlay.draw_help(
-                target, scale, program.seed, self.listener.controls, self.listener.help_page, rules
+                target,
+                scale,
+                program.board.seed,
+                self.input_handler.controls,
+                self.input_handler.help_page,
+                rules,
             )
-        if self.messages.strength > 0.0:
-            overlay.draw_message(target, apron, scale, self.messages.text, self.messages.strength)
+        if self.messages.opacity > 0.0:
+            overlay.draw_message(target, apron, scale, self.messages.text, self.messages.opacity)
 
-    # --- what is left behind ----------------------------------------------------------------------
+    # --- after a crash ----------------------------------------------------------------------------
 
-    def _keep_after_crash(self) -> None:
-        stage = self._stage
-        if stage is not None and stage.is_played:
-            path = self.program.keep_file("crash")
+    def _save_crash_replay(self) -> None:
+        session = self._session
+        if session is not None and session.is_played:
+            path = self.program.save_replay_file("crash")
             where = f"A replay for a report is at {plain(str(path))}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from silverball.cli.console import compiling, make_boards, progress_bar, say, say_json
-from silverball.cli.options import (
+from silverball.cli.shared_options import (
     AsJson,
     FirstSeed,
     PlayerName,

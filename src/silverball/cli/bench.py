@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from silverball.cli.console import compiling, errors, progress_bar, say, say_json, say_table
-from silverball.cli.options import LAST_SEED, AsJson, TableName, file_name
+from silverball.cli.shared_options import LAST_SEED, AsJson, TableName, file_name
 from silverball.errors import OutputError, SilverballError
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def planner(
 
     loaded = load_table(table)
     with compiling("plan_worlds"):
-        from silverball.benchmarks.planner import measure_planner
+        from silverball.benchmarks.decision_cost import measure_planner
     show_figures(lambda advance: measure_planner(loaded, seed, seconds, branches, advance), as_json)
 
 
@@ -141,7 +141,7 @@ def window(
 
     Example: `silverball bench window --seconds 20 --player planner`
     """
-    from silverball.benchmarks.window import measure_window
+    from silverball.benchmarks.window_smoothness import measure_window
 
     show_figures(lambda advance: measure_window(seconds, player, advance), as_json)
 
@@ -174,8 +174,7 @@ def envs(
 
     Example: `silverball bench envs --rounds 5 --out envs.md`
     """
-    from silverball.benchmarks.envs import measure
-    from silverball.benchmarks.envs import table as report
+    from silverball.benchmarks.envs import measure, rate_table as report
     from silverball.wholefile import write_whole
 
     paths = [output_path(text, (".md",)) for text in out]

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from silverball.cli.console import baking, compiling
-from silverball.cli.options import (
+from silverball.cli.shared_options import (
     BoardSeed,
     Force,
     PlayerName,
@@ -73,7 +73,7 @@ def make_demo(
         theme: Name of the theme.
         force: Whether an existing file is overwritten.
     """
-    from silverball.cli.recording import ENDINGS, film_size, record
+    from silverball.cli.filming import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.players import make_player

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from silverball.cli.console import compiling, progress_bar, say, say_json, say_table
-from silverball.cli.options import AsJson, FirstSeed, TableName
+from silverball.cli.shared_options import AsJson, FirstSeed, TableName
 from silverball.plain import plain
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from silverball.cli.console import say
-from silverball.cli.options import LAST_SEED, Force
+from silverball.cli.shared_options import LAST_SEED, Force
 
 
 def generate(

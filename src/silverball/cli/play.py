@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from silverball.cli.options import LAST_SEED
+from silverball.cli.shared_options import LAST_SEED
 from silverball.errors import NoDisplay
 from silverball.game.view import Mode
 
@@ -42,15 +42,15 @@ def open_window(
     mode: Mode | None = None,
     replay: Replay | None = None,
 ) -> None:
-    """Open the window and play; the terminal shows the compilation of the physics meanwhile."""
-    from silverball.app.startup import compiling_words
+    """Open the window and play, telling the terminal while the physics is being compiled."""
+    from silverball.app.startup import compiling_message
     from silverball.app.window import Window
     from silverball.cli.console import errors
 
     status = errors.status("compiling the physics…")
 
     def show_status() -> None:
-        status.update(compiling_words())
+        status.update(compiling_message())
         status.start()
 
     window = Window(table, seed, mode=mode, replay=replay, on_compile=show_status, on_ready=status.stop)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from silverball.cli.console import baking, compiling, errors, progress_bar, say, say_json
-from silverball.cli.options import Force, Size, ThemeName, file_name, theme_named
+from silverball.cli.shared_options import Force, Size, ThemeName, file_name, theme_named
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ def make_film(
         SilverballError: The part is empty, or the file cannot be written.
     """
     from silverball.app.sessions import ReplaySession
-    from silverball.cli.recording import ENDINGS, film_size, record
+    from silverball.cli.filming import ENDINGS, film_size, record
     from silverball.drawing import Renderer
     from silverball.export.film import check_output
     from silverball.game.replay.player import ReplayPlayer

@@ -135,7 +135,7 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     Raises:
         OutputError: The file exists, or cannot be written.
     """
-    from silverball.cli.options import file_name
+    from silverball.cli.shared_options import file_name
     from silverball.errors import OutputError
     from silverball.wholefile import write_whole
 

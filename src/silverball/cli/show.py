@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from silverball.cli.console import baking, say
-from silverball.cli.options import BoardSeed, Force, TableName, ThemeName, file_name, theme_named
+from silverball.cli.shared_options import BoardSeed, Force, TableName, ThemeName, file_name, theme_named
 
 
 def show(

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from silverball.cli.console import compiling, make_boards, progress_bar, say, say_json
-from silverball.cli.options import (
+from silverball.cli.shared_options import (
     AsJson,
     FirstSeed,
     PlayerName,

@@ -9,7 +9,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 from silverball.cli.console import compiling, progress_bar, say, say_json
-from silverball.cli.options import AsJson, FirstSeed, TickRate, Worlds
+from silverball.cli.shared_options import AsJson, FirstSeed, TickRate, Worlds
 from silverball.errors import SilverballError, StateError
 
 SHOWN_FINDINGS = 10

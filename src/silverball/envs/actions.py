@@ -1,4 +1,4 @@
-"""Which numbers are actions, and what do they hold? For one environment, for many, and for people's keys."""
+"""Actions: their space, and conversions between button bits, numbers and pressed keys."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from gymnasium import spaces
 from numpy.typing import NDArray
 
 from silverball.envs.options import Options
@@ -14,8 +15,14 @@ KEYS = {"left": "a", "right": "d", "jitter": "z", "create": " "}
 """The key of each button, as in the window."""
 
 
+def action_space(options: Options) -> spaces.Space[Any]:
+    """The space of one environment's actions."""
+    count = len(options.buttons)
+    return spaces.MultiBinary(count) if options.actions == "multibinary" else spaces.Discrete(1 << count)
+
+
 def as_array(given: Any) -> NDArray[Any]:
-    """Actions as an array, whatever they are."""
+    """Actions of any type as an array."""
     try:
         return np.asarray(given)
     except ValueError:  # rows of different lengths
@@ -23,15 +30,15 @@ def as_array(given: Any) -> NDArray[Any]:
 
 
 def as_bits(given: NDArray[Any]) -> NDArray[np.bool_] | None:
-    """The bits, if all are 0 or 1; of any type, floats too, as `MultiBinary` has it."""
+    """The bits, or None if one is neither 0 nor 1. Any type will do, also floats, as for `MultiBinary`."""
     on: NDArray[np.bool_] = given == 1
     return on if np.all(np.logical_or(given == 0, on)) else None
 
 
 def keys_to_action(options: Options) -> dict[tuple[str, ...], Any]:
-    """For each set of pressed keys the action that holds their buttons, for `gymnasium.utils.play`.
+    """The action of every set of pressed keys, for `gymnasium.utils.play`.
 
-    Of no key at all `play` wants to hear nothing; it takes 0 then, which holds no button.
+    The empty set is left out: `play` does not expect it, and uses 0 then, which holds no button.
     """
     buttons = options.buttons
     found: dict[tuple[str, ...], Any] = {}

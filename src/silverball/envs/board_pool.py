@@ -1,8 +1,8 @@
-"""Which boards do the episodes draw from? A pool, made before the first step and shared by all environments.
+"""The pool of boards that episodes draw from, made before the first step and shared by all environments.
 
-A board takes 10 ms or more to make and check, a step a tenth of a microsecond; so episodes draw one from a
-pool instead. All boards of a pool have the same borders and paddles, so that what is observed
-means the same on each: they come from one recipe, or from a list of tables that are alike in this.
+A board takes 10 ms or more to generate and check, a step a tenth of a microsecond; so episodes draw a board
+from a pool. All boards of a pool have the same borders and paddles, so that observations mean the same on
+each: they come from one recipe, or from a list of tables with the same board and paddles.
 """
 
 from __future__ import annotations
@@ -17,25 +17,25 @@ import numpy as np
 import tomli_w
 from numpy.typing import NDArray
 
-from silverball.envs.options import Named
-from silverball.envs.slots import CylinderSlot, Field, PrismSlot, fields
-from silverball.physics.records import LOG, WORLD, Kind, Part, records
+from silverball.envs.observations import CylinderSlot, Field, PrismSlot, fields
+from silverball.envs.options import TableSource
+from silverball.physics.records import Kind
 from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
-from silverball.world.compile import Boards, compile_tables
+from silverball.world.compile import Boards, blank_worlds, compile_tables
 
 
 class Pool(NamedTuple):
-    """Boards, compiled, with what environments need of them.
+    """Compiled boards, and what environments need to know about them.
 
     Attributes:
         tables: The finished tables.
-        seeds: The seed of each board, int64 [board]; of a list of tables their numbers; −1 for one table.
+        seeds: The seed of each board, int64 [board]; for a list of tables their numbers; −1 for one table.
         boards: The compiled tables.
         blanks: WORLD records of worlds in which nothing has happened yet, one for each board.
-        layouts: The groups of each board's obstacles in an observation, float32 [board, column].
-        fields: Where all groups of an observation lie.
+        layouts: The obstacles of each board as they stand in an observation, float32 [board, column].
+        fields: The groups of an observation and their columns.
     """
 
     tables: tuple[Table, ...]
@@ -46,59 +46,59 @@ class Pool(NamedTuple):
     fields: tuple[Field, ...]
 
     def board_of_seed(self, seed: Any) -> int:
-        """Which board has a seed, or that number in a list of tables.
+        """The board with this seed, or with this number in a list of tables.
 
         Raises:
-            ValueError: None has.
+            ValueError: There is none.
         """
         if self.seeds[0] < 0:
             name = plain(self.tables[0].name)
             raise ValueError(f"board cannot be chosen: {name} is the only table, got {seed!r}")
         try:
             number = -1 if isinstance(seed, bool) else index(seed)
-        except TypeError:  # no whole number
+        except TypeError:  # not an integer
             number = -1
         found = np.flatnonzero(self.seeds == number)
         if not len(found):
             raise ValueError(
-                f"board must be a whole number from {self.seeds[0]} to {self.seeds[-1]}, got {seed!r}; "
-                "of a recipe the options boards and board_seed make others"
+                f"board must be an integer from {self.seeds[0]} to {self.seeds[-1]}, got {seed!r}; "
+                "for other boards of a recipe set the options boards and board_seed"
             )
         return int(found[0])
 
     @property
     def columns(self) -> int:
-        """Columns of a state observation."""
+        """The number of columns of a state observation."""
         return self.fields[-1].end
 
 
-def pool_of(table: Named | Sequence[Named], count: int, board_seed: int) -> Pool:
+def pool_of(table: TableSource | Sequence[TableSource], count: int, board_seed: int) -> Pool:
     """The pool of a recipe, of one table, or of a list of tables.
 
     Args:
-        table: A table, a built-in name or a path; or a list of these, of finished tables.
-        count: How many boards, if it is a recipe.
+        table: A table source, or a list of sources of finished tables.
+        count: The number of boards, if it is a recipe.
         board_seed: The seed of the first board; the others follow.
 
     Raises:
         TableError: There is no such table, or it has problems.
-        TypeError: It is something else.
-        ValueError: Tables of a list cannot be in one pool.
+        TypeError: It is not a table source.
+        ValueError: The tables of a list differ in their boards or paddles, or one is a recipe.
     """
     if isinstance(table, (list, tuple)):
-        return _listed(tuple(_loaded(one) for one in table))
+        return _pool_of_list(tuple(_loaded(one) for one in table))
     one = _loaded(table)  # type: ignore[arg-type]
-    return _drawn(one, count, board_seed) if one.random is not None else _compiled((one,), [-1])
+    return _pool_of_recipe(one, count, board_seed) if one.random is not None else _pool((one,), [-1])
 
 
-def _loaded(table: Named) -> Table:
+def _loaded(table: TableSource) -> Table:
     if isinstance(table, (str, os.PathLike)):
         return load_table(table)
     if isinstance(table, Mapping):
         try:
             text = tomli_w.dumps(table)
         except TypeError as error:
-            raise TypeError(f"table must hold what a table file can: {error}") from None
+            raise TypeError(f"table has a value that a table file cannot hold: {error}") from None
         return parse_table(text, "table")
     if not isinstance(table, Table):
         raise TypeError(
@@ -109,13 +109,13 @@ def _loaded(table: Named) -> Table:
 
 
 @lru_cache(maxsize=8)
-def _drawn(recipe: Table, count: int, board_seed: int) -> Pool:
+def _pool_of_recipe(recipe: Table, count: int, board_seed: int) -> Pool:
     seeds = range(board_seed, board_seed + count)
-    return _compiled(tuple(generate_table(seed, recipe) for seed in seeds), seeds)
+    return _pool(tuple(generate_table(seed, recipe) for seed in seeds), seeds)
 
 
 @lru_cache(maxsize=8)
-def _listed(tables: tuple[Table, ...]) -> Pool:
+def _pool_of_list(tables: tuple[Table, ...]) -> Pool:
     if not tables:
         raise ValueError("the list of tables is empty, it needs at least one")
     for number, table in enumerate(tables):
@@ -125,54 +125,42 @@ def _listed(tables: tuple[Table, ...]) -> Pool:
         for part in ("board", "paddle"):
             if getattr(table, part) != getattr(tables[0], part):
                 raise ValueError(f"{which} has another [{part}] than the first one; they must be the same")
-    return _compiled(tables, range(len(tables)))
+    return _pool(tables, range(len(tables)))
 
 
-def _compiled(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
+def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     boards = compile_tables(tables)
     layout = fields(
         max(len(table.triangular_prism) for table in tables), max(len(table.cylinder) for table in tables)
     )
-    blanks = records(len(tables), WORLD)
-    for part, side in ((Part.LEFT_PADDLE, 0), (Part.RIGHT_PADDLE, 1)):
-        rest = boards.collider["angle_rest"][boards.board["collider_first"] + part]
-        blanks["paddle"]["angle"][:, side] = rest
-        blanks["paddle"]["angle_commanded"][:, side] = rest
+    blanks = blank_worlds(boards, np.arange(len(tables)))
     return Pool(tables, np.array(seeds, np.int64), boards, blanks, _layouts(boards, layout), layout)
 
 
 def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:
-    """The obstacles of each board as they stand in an observation; 0 where others have more of them."""
+    """The obstacles of each board as they stand in an observation; 0 where other boards have more."""
     prisms, cylinders = layout[-2:]
     shown = np.zeros((len(boards.board), cylinders.end - prisms.first), np.float32)
     for row, board in zip(shown, boards.board, strict=True):
         parts = boards.collider[board["collider_first"] : board["collider_end"]]
-        up, across = board["half_length"], board["half_width"]
-        corners = parts[parts["kind"] == Kind.TRIANGULAR_PRISM]
-        first = row[: len(corners) * len(PrismSlot)]
+        half_length, half_width = board["half_length"], board["half_width"]
+        prism_parts = parts[parts["kind"] == Kind.TRIANGULAR_PRISM]
+        first = row[: len(prism_parts) * len(PrismSlot)]
         for corner in range(3):
-            first[2 * corner :: 6] = corners[f"x{corner}"] / up
-            first[2 * corner + 1 :: 6] = corners[f"z{corner}"] / across
-        round_ones = parts[parts["kind"] == Kind.CYLINDER]
-        rest = row[prisms.end - prisms.first :][: len(round_ones) * len(CylinderSlot)]
-        rest[0::3], rest[1::3] = round_ones["x"] / up, round_ones["z"] / across
-        rest[2::3] = round_ones["radius"] / across
+            first[2 * corner :: 6] = prism_parts[f"x{corner}"] / half_length
+            first[2 * corner + 1 :: 6] = prism_parts[f"z{corner}"] / half_width
+        cylinder_parts = parts[parts["kind"] == Kind.CYLINDER]
+        rest = row[prisms.end - prisms.first :][: len(cylinder_parts) * len(CylinderSlot)]
+        rest[0::3], rest[1::3] = cylinder_parts["x"] / half_length, cylinder_parts["z"] / half_width
+        rest[2::3] = cylinder_parts["radius"] / half_width
     return shown
 
 
 class PooledBatch(WorldBatch):
-    """A batch of worlds that may change boards: each plays on any board of the pool."""
+    """A batch of worlds that play on any board of a pool and change boards between episodes."""
 
     def __init__(
-        self, pool: Pool, count: int, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
+        self, pool: Pool, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
     ) -> None:
-        """Worlds in these records, WORLD [world], on these boards [world]."""
-        self.count = count
-        self.tick_rate = tick_rate
-        self.threads = threads
-        self.tables = pool.tables
-        self.boards = pool.boards
-        self.board_of = board_of
-        self.state = state
-        self.logs = records(count, LOG)
-        self.tallies = np.zeros((count, max(len(names) for names in pool.boards.names)), np.int64)
+        """Use these WORLD records and boards [world]; both are changed from outside."""
+        self._set_attributes(pool.tables, pool.boards, state, board_of, tick_rate, threads)

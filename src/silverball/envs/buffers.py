@@ -1,8 +1,8 @@
-"""Which arrays does a step write to, and when may they be written to again?
+"""Arrays that steps write to, and when they may be written to again.
 
-What a step has returned must stay as it is for as long as anybody can see it. So a step writes to new arrays,
-or to those of an earlier step that nobody refers to any more: memory that is new to a program costs more
-time than a picture.
+What a step has returned must not change while the caller can still see it. So a step writes to new arrays, or
+to those of an earlier step that are no longer referenced: touching new memory takes longer than drawing a
+picture.
 """
 
 from __future__ import annotations
@@ -13,22 +13,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.spaces import INFO
+from silverball.envs.pointers import OUTPUTS
+from silverball.envs.state import INFO
 
-WRITTEN = ("observations", "rewards", "terminated", "truncated", "counts", "frames", "copies")
-"""The arrays that a step writes to, in the order of their addresses in ADDRESSES."""
-
-MOST_HANDED_OUT = 4  # outputs that are looked after, in case that they come back
+MAX_TRACKED = 4  # outputs that are kept in case that they are no longer referenced
 
 
-class Output:
+class StepOutput:
     """The arrays of one step's results.
 
     Attributes:
-        arrays: By the names of `WRITTEN`.
+        arrays: By the names of `OUTPUTS`.
         observations, rewards, terminated, truncated, counts, frames, copies: The same.
         addresses: Where they are, int64 [array].
-        infos: Each count by its name, a view [env], and where it holds: everywhere.
+        infos: Each count by its name, a view [env], and Gymnasium's mask for it, which is all True.
     """
 
     observations: NDArray[np.float32]
@@ -40,59 +38,58 @@ class Output:
     copies: NDArray[np.uint8]
 
     def __init__(
-        self, arrays: dict[str, NDArray[Any]], handed_out: tuple[str, ...], everywhere: NDArray[np.bool_]
+        self, arrays: dict[str, NDArray[Any]], returned: tuple[str, ...], all_true: NDArray[np.bool_]
     ) -> None:
         self.arrays = arrays
-        for name in WRITTEN:
-            setattr(self, name, arrays[name])
-        self.addresses = np.array([arrays[name].ctypes.data for name in WRITTEN], np.int64)
+        vars(self).update(arrays)
+        self.addresses = np.array([arrays[name].ctypes.data for name in OUTPUTS], np.int64)
         self.infos: dict[str, Any] = {}
         for name, row in zip(INFO, self.counts.T, strict=True):
-            self.infos[name], self.infos[f"_{name}"] = row, everywhere
-        self._seen = [*(arrays[name] for name in handed_out), *(self.infos[name] for name in INFO)]
+            self.infos[name], self.infos[f"_{name}"] = row, all_true
+        self._returned = [*(arrays[name] for name in returned), *(self.infos[name] for name in INFO)]
         del row
-        self._holders = list(map(getrefcount, self._seen))
+        self._own_references = list(map(getrefcount, self._returned))
 
-    def is_unheld(self) -> bool:
-        """Whether nobody else refers to what a step returns; views and tensors of an array do."""
-        return list(map(getrefcount, self._seen)) == self._holders
+    def is_unreferenced(self) -> bool:
+        """Whether no other object refers to what a step returns; views and tensors of an array do."""
+        return list(map(getrefcount, self._returned)) == self._own_references
 
-    def told(self) -> dict[str, Any]:
+    def infos_copy(self) -> dict[str, Any]:
         """The infos of a step in which all environments took part, as a new dict."""
         infos = self.infos.copy()
         infos["stalled"] = infos["stalled"] != 0
         return infos
 
 
-class Outputs:
+class OutputPool:
     """The outputs of an engine's steps.
 
     Attributes:
         last: That of the last step.
     """
 
-    def __init__(self, first: dict[str, NDArray[Any]], handed_out: tuple[str, ...]) -> None:
-        """Begin with these arrays; those named in `handed_out` are what a step returns."""
-        self._handed_out = handed_out
-        self._everywhere = np.ones(len(first["rewards"]), np.bool_)
-        self._everywhere.flags.writeable = False
-        self.last = Output(first, handed_out, self._everywhere)
-        self._kept = [self.last]
+    def __init__(self, first: dict[str, NDArray[Any]], returned: tuple[str, ...]) -> None:
+        """Begin with these arrays; those named in `returned` are what a step returns."""
+        self._returned = returned
+        self._all_true = np.ones(len(first["rewards"]), np.bool_)
+        self._all_true.flags.writeable = False
+        self.last = StepOutput(first, returned, self._all_true)
+        self._tracked = [self.last]
 
-    def renew(self) -> None:
-        """Let `last` be one that nobody else sees."""
-        for output in self._kept:
-            if output.is_unheld():
+    def advance(self) -> None:
+        """Make `last` an output that the caller does not see."""
+        for output in self._tracked:
+            if output.is_unreferenced():
                 self.last = output
                 return
         arrays = {
-            name: np.empty_like(array) if name in self._handed_out else array
+            name: np.empty_like(array) if name in self._returned else array
             for name, array in self.last.arrays.items()
         }
-        self.last = Output(arrays, self._handed_out, self._everywhere)
-        self._kept = [*self._kept[-MOST_HANDED_OUT + 1 :], self.last]
+        self.last = StepOutput(arrays, self._returned, self._all_true)
+        self._tracked = [*self._tracked[-MAX_TRACKED + 1 :], self.last]
 
     def replace(self, **arrays: NDArray[Any]) -> None:
         """Write to these arrays from now on."""
-        self.last = Output(self.last.arrays | arrays, self._handed_out, self._everywhere)
-        self._kept = [self.last]
+        self.last = StepOutput(self.last.arrays | arrays, self._returned, self._all_true)
+        self._tracked = [self.last]

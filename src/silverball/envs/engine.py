@@ -1,11 +1,10 @@
-"""How do Python's environments and the compiled step come together? An engine owns all arrays of both.
+"""The engine: all arrays that Python's environments share with the compiled step.
 
-A single environment is an engine of one, a vector environment an engine of many; there is no second path.
-The addresses of the arrays are written down once (see world/single_step.py), so that a step is one short
-call, or
-one for each slice of environments on threads.
+A single environment is an engine of one, a vector environment an engine of many; there is no second code
+path. The addresses of the arrays are written once (see world/single_step.py), so that a step is one short
+call, or one for each slice of environments on threads.
 
-An engine of one keeps all that changes in one run of bytes, so that saving it is copying them.
+The changing state of an engine of one is contiguous in memory, so that saving it is one copy.
 """
 
 from __future__ import annotations
@@ -22,26 +21,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.envs.board_pool import Pool, PooledBatch, pool_of
-from silverball.envs.buffers import WRITTEN, Outputs
-from silverball.envs.episode import move
+from silverball.envs.buffers import OutputPool
+from silverball.envs.episode import run_task
 from silverball.envs.options import Options
-from silverball.envs.pictures import Pictures, pictures_of
 from silverball.envs.pixels import draw_finals
-from silverball.envs.pointers import ADDRESSES, ARRAYS
-from silverball.envs.state import COUNTS, EPISODE, FILM, RULES, SCENE, End, Mode, Task
+from silverball.envs.pointers import ADDRESSES, OUTPUTS, write_addresses
+from silverball.envs.rewards import TERMS, called, called_for_many, resolve_reward
+from silverball.envs.sprites import no_pictures, pictures_of
+from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, ResetMode, StepFlag, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
 from silverball.physics.records import WORLD, Part, records
 from silverball.world.threads import thread_pool
 
-FORMAT = 3  # of saved states
-MARK = 16  # bytes that say of which boards and which version a saved state is
-HEAD = MARK + 8  # with the number of the board
-LEAST_SLICE = 1000  # work below which a thread is not worth its start: environments, states of one tick each
-PICTURE = 3  # that of a picture, of each that is copied
-RING = 4  # windows in the ring of pictures that are shown where they are: more are moved more seldom
-COUNT_ROWS = len(COUNTS) + 2
+STATE_FORMAT = 3
+SIGNATURE_SIZE = 16  # [B] of a saved state: a hash of what it must share with the environment
+PREFIX_SIZE = SIGNATURE_SIZE + 8  # [B] with the number of the board
+MIN_SLICE_WORK = 1000  # work below which a thread does not pay: environments, states of one tick each
+PICTURE_WORK = 3  # work of a picture, and of each picture that is copied
+RING_FACTOR = (
+    4  # length of the ring in windows, if the window is the observation; a longer one moves less often
+)
 
 
 class Engine:
@@ -50,194 +51,186 @@ class Engine:
     Attributes:
         options: What was chosen.
         pool: The boards.
-        batch: The worlds, with all that a `WorldBatch` can do.
+        batch: The worlds, a `WorldBatch`.
         episodes: EPISODE records [env].
+        rules: One RULES record [1].
         outputs: The arrays that steps write to; `outputs.last` has those of the last one: observations,
             float32 [env, column], empty for pictures; rewards, terminated, truncated [env]; counts, the
-            events so far, int64 [env, count]: `COUNTS`, then the board's seed and whether it stalled.
+            events so far, int64 [env, count], in the order of `INFO`.
         window: The pictures of the last observation, uint8 [env, stacked, pixel]; empty for states.
         finals, final_counts: Observations and counts of episodes that ended in the last step.
     """
 
-    def __init__(self, options: Options, count: int, mode: Mode, threads: int, owns_output: bool) -> None:
-        """Make `count` environments; `owns_output`: observations stay in the same arrays for ever."""
-        self.options, self.count, self.owns_output = options, count, owns_output
+    def __init__(
+        self, options: Options, count: int, mode: ResetMode, threads: int, has_fixed_output: bool
+    ) -> None:
+        """Make `count` environments; `has_fixed_output`: every step writes to the same arrays."""
+        self.options, self.count, self.has_fixed_output = options, count, has_fixed_output
         self.pool: Pool = pool_of(options.table, options.boards, options.board_seed)
+        self.reward = resolve_reward(options.reward)
         self.shows_pictures = options.observation == "pixels"
         self.stack = options.stack if self.shows_pictures else 0
-        self._allocate(threads)
+        self._allocate_state(threads)
         self.rules = _rules(options, self.pool, mode)
-        self._set_film()
+        self._prepare_pictures()
         self.actions = np.zeros(count, np.int64)
-        self.masks = np.ones(count, np.bool_)
-        self.wanted = np.full(count, -1, np.int64)
+        self.reset_mask = np.ones(count, np.bool_)
+        self.requested_boards = np.full(count, -1, np.int64)
+        rewarded = count if self.rules["weighs_counts"][0] else 0
+        self.terms = np.zeros((rewarded, len(TERMS)))
+        self.counts_before = np.zeros((rewarded, len(COUNTS)), np.int64)
         columns = 0 if self.shows_pictures else self.pool.columns
         self.outputs = self._first_outputs(columns)
-        kept = count if mode == Mode.SAME_STEP else 0
-        self.finals = np.zeros((kept, columns), np.float32)
-        self.final_counts = np.zeros((kept, COUNT_ROWS), np.int64)
-        self.final_scenes = records(kept * self.stack, SCENE).reshape(kept, self.stack)
+        ended = count if mode == ResetMode.SAME_STEP else 0
+        self.finals = np.zeros((ended, columns), np.float32)
+        self.final_counts = np.zeros((ended, len(INFO)), np.int64)
+        self.final_picture_states = records(ended * self.stack, PICTURE_STATE).reshape(ended, self.stack)
         self._held = np.zeros((1, count, 3), np.bool_)
-        pictures = max(1, self.stack * int(self.rules["copies"][0])) if self.shows_pictures else 0
-        self._work = options.frame_skip + PICTURE * pictures
+        pictures = max(1, self.stack * int(self.rules["copies_stack"][0])) if self.shows_pictures else 0
+        self._work_per_env = options.frame_skip + PICTURE_WORK * pictures
         self._write_addresses()
-        _tell_of_compiling()
-        self.move = bind_types(move, self.addresses, 0, 1, 0)
-        self.forget()
+        _announce_compilation()
+        self.run_task = bind_types(run_task, self.addresses, 0, 1, 0)
+        self.set_unstarted()
 
-    def _allocate(self, threads: int) -> None:
-        """Make the arrays of all that changes; for one environment in one run of bytes."""
-        sizes = (MARK, 8, WORLD.itemsize, EPISODE.itemsize, self.stack * SCENE.itemsize)
+    def _allocate_state(self, threads: int) -> None:
+        """Make the arrays of everything that changes, contiguous for one environment."""
+        sizes = (SIGNATURE_SIZE, 8, WORLD.itemsize, EPISODE.itemsize, self.stack * PICTURE_STATE.itemsize)
         edges = np.cumsum((0, *(size * self.count for size in sizes)))
         self.memory = np.zeros(edges[-1], np.uint8)
-        marks, board_of, worlds, episodes, scenes = (
+        signatures, board_of, worlds, episodes, picture_states = (
             self.memory[start:end] for start, end in itertools.pairwise(edges)
         )
-        marks.reshape(self.count, MARK)[:] = np.frombuffer(self._mark(), np.uint8)
+        signatures.reshape(self.count, SIGNATURE_SIZE)[:] = np.frombuffer(self._signature(), np.uint8)
         self.episodes = _as_records(episodes, EPISODE)
-        self.scenes = _as_records(scenes, SCENE).reshape(self.count, self.stack)
+        self.picture_states = _as_records(picture_states, PICTURE_STATE).reshape(self.count, self.stack)
         state, board = _as_records(worlds, WORLD), board_of.view(np.int64)
-        self.batch = PooledBatch(self.pool, self.count, self.options.tick_rate, threads, state, board)
-        self.parts = [part.reshape(self.count, -1) for part in (marks, board_of, worlds, episodes, scenes)]
+        self.batch = PooledBatch(self.pool, self.options.tick_rate, threads, state, board)
+        parts = (signatures, board_of, worlds, episodes, picture_states)
+        self.state_parts = [part.reshape(self.count, -1) for part in parts]
 
-    def _mark(self) -> bytes:
-        """What a state must share with the environments that it is restored into."""
-        told = (FORMAT, PHYSICS_VERSION, self.options.tick_rate, self.stack, self.pool.boards.digests)
-        return hashlib.sha256(repr(told).encode()).digest()[:MARK]
+    def _signature(self) -> bytes:
+        """A hash of what a state must share with the environments that it is restored into."""
+        shared = (STATE_FORMAT, PHYSICS_VERSION, self.options.tick_rate, self.stack, self.pool.boards.digests)
+        return hashlib.sha256(repr(shared).encode()).digest()[:SIGNATURE_SIZE]
 
-    def _set_film(self) -> None:
+    def _prepare_pictures(self) -> None:
+        """Choose how pictures are drawn, and make what the drawing needs."""
         if not self.shows_pictures:
-            self.pictures = Pictures(records(1, FILM), *(np.zeros((1, 0), np.uint8) for _ in range(3)))
+            self.pictures = no_pictures(self.pool)
             self.ring = 0
         else:
             self.pictures = pictures_of(self.pool, self.options.size, self.options.rgb)
-            self.ring = self.stack * (RING if self.stack > 1 and self.owns_output else 1)
-        self.film = self.pictures.film.copy()
-        self.film["stack"] = self.stack
-        # One picture is drawn right where it goes; of several the window slides along a ring.
-        self.draws_in_place = self.stack == 1 and not self.owns_output
-        self.rules["copies"] = not self.owns_output and self.stack > 1
-        self.rules["redraw"] = self.draws_in_place
-        self.rules["mends"] = not self.draws_in_place
-        self.drawn = records(self.count * self.ring, SCENE).reshape(self.count, self.ring)
+            self.ring = self.stack * (RING_FACTOR if self.stack > 1 and self.has_fixed_output else 1)
+        self.raster = self.pictures.raster.copy()
+        self.raster["stack"] = self.stack
+        # A single picture is drawn right into the output; of several the window moves along a ring.
+        self.draws_into_output = self.stack == 1 and not self.has_fixed_output
+        self.rules["copies_stack"] = not self.has_fixed_output and self.stack > 1
+        self.rules["must_redraw"] = self.draws_into_output
+        self.rules["can_repair"] = not self.draws_into_output
+        self.drawn = records(self.count * self.ring, PICTURE_STATE).reshape(self.count, self.ring)
         self.drawn["board"] = -1
 
-    def _first_outputs(self, columns: int) -> Outputs:
+    def _first_outputs(self, columns: int) -> OutputPool:
         """The arrays that the first step writes to."""
         count, pixels = self.count, self.pictures.backgrounds.shape[1]
         shown = "observations"
         if self.shows_pictures:
-            shown = "frames" if self.draws_in_place else "copies"
-        copies = self.stack if self.rules["copies"][0] else 0
+            shown = "frames" if self.draws_into_output else "copies"
+        copied = self.stack if self.rules["copies_stack"][0] else 0
         arrays: dict[str, NDArray[Any]] = {
             "observations": np.zeros((count, columns), np.float32),
             "rewards": np.zeros(count),
             "terminated": np.zeros(count, np.bool_),
             "truncated": np.zeros(count, np.bool_),
-            "counts": np.zeros((count, COUNT_ROWS), np.int64),
+            "counts": np.zeros((count, len(INFO)), np.int64),
             "frames": np.zeros((count, self.ring, pixels), np.uint8),
-            "copies": np.zeros((count, copies, pixels), np.uint8),
+            "copies": np.zeros((count, copied, pixels), np.uint8),
         }
-        return Outputs(arrays, ("rewards", "terminated", "truncated", "counts", shown))
+        return OutputPool(arrays, ("rewards", "terminated", "truncated", "counts", shown))
 
     def _write_addresses(self) -> None:
-        """Write down where everything is."""
-        boards, pictures, pool = self.pool.boards, self.pictures, self.pool
-        self.addresses = records(1, ADDRESSES)
-        first = ARRAYS.index(WRITTEN[0])
-        self._places = self.addresses.view(np.int64)[first : first + len(WRITTEN)]
-        self._point_at(
-            worlds=self.batch.state, boards=boards.board, board_of=self.batch.board_of,
-            board_seeds=pool.seeds, colliders=boards.collider, grid=boards.grid, places=boards.place,
-            logs=self.batch.logs, tallies=self.batch.tallies, held=self._held, episodes=self.episodes,
-            blanks=pool.blanks, layouts=pool.layouts, rules=self.rules, film=self.film, actions=self.actions,
-            masks=self.masks, wanted=self.wanted, finals=self.finals, final_counts=self.final_counts,
-            scenes=self.scenes, final_scenes=self.final_scenes, drawn=self.drawn,
-            backgrounds=pictures.backgrounds, balls=pictures.balls, paddles=pictures.paddles,
-            **self.outputs.last.arrays,
-        )  # fmt: skip
-        lengths = {
-            "envs": self.count, "boards": len(boards.board),
-            "colliders": len(boards.collider), "numbers": len(boards.grid), "places": len(boards.place),
-            "parts": self.batch.tallies.shape[1], "columns": self.finals.shape[1],
-            "layout_columns": pool.layouts.shape[1], "counts": COUNT_ROWS, "stack": self.stack,
-            "ring": self.ring, "pixels": pictures.backgrounds.shape[1],
-            "ball_pixels": pictures.balls.size, "paddle_pixels": pictures.paddles.size,
+        """Write down where all arrays are: attributes of the engine by their names, and those of others."""
+        boards, pictures, pool, batch = self.pool.boards, self.pictures, self.pool, self.batch
+        arrays = {
+            "worlds": batch.state, "board_of": batch.board_of, "logs": batch.logs, "tallies": batch.tallies,
+            "boards": boards.board, "colliders": boards.collider, "grid": boards.grid, "places": boards.place,
+            "board_seeds": pool.seeds, "blanks": pool.blanks, "layouts": pool.layouts, "held": self._held,
+            "backgrounds": pictures.backgrounds, "ball_sprites": pictures.balls,
+            "paddle_sprites": pictures.paddles,
         }  # fmt: skip
-        for name, length in lengths.items():
-            self.addresses[name] = length
-
-    def _point_at(self, **arrays: NDArray[Any]) -> None:
-        """Let the kernels read and write these arrays from now on."""
-        row = self.addresses[0]
-        for name, array in arrays.items():
-            row[f"{name}_at"] = array.ctypes.data
+        self.addresses = records(1, ADDRESSES)
+        write_addresses(self.addresses, {**vars(self), **arrays, **self.outputs.last.arrays})
+        self._output_addresses = self.addresses.view(np.int64)[: len(OUTPUTS)]
 
     # --- what moves it
 
     def step_one(self, action: int) -> tuple[float, int]:
-        """Move the one environment on; its reward and `End` bits. Nothing moves where the episode is over."""
+        """Make a step in the only environment, unless its episode is over; its reward and `StepFlag` bits."""
         if self.episodes["over"][0]:
-            return 0.0, End.WAS_OVER
-        self._slide()
-        ends: tuple[float, int] = self.move(self.addresses, 0, 1, action)
-        return ends
+            return 0.0, StepFlag.WAS_OVER
+        self._advance_window()
+        reward, flags = self.run_task(self.addresses, 0, 1, action)
+        if callable(self.reward):
+            reward = called(self.reward, dict(zip(TERMS, self.terms[0].tolist(), strict=True)))
+        return reward, flags
 
     def step(self) -> None:
-        """Move all environments on by their `actions`."""
-        self._slide()
-        self._do(Task.STEP)
+        """Make a step in all environments with their `actions`."""
+        self._advance_window()
+        self._run(Task.STEP)
+        if callable(self.reward):
+            rewards = called_for_many(self.reward, self.terms)
+            has_moved = self.rules["mode"] != ResetMode.NEXT_STEP or self.episodes["steps"] > 0
+            self.outputs.last.rewards[:] = np.where(has_moved, rewards, 0.0)
 
     def reset(self, boards: NDArray[np.int64] | int = -1) -> None:
-        """Begin the next episode of the environments in `masks`, on these boards of the pool; −1: any."""
-        self.wanted[:] = boards
-        self._do(Task.RESET)
-        self.wanted[:] = -1
+        """Begin the next episode of the environments in `reset_mask` on these boards of the pool; −1: any."""
+        self.requested_boards[:] = boards
+        self._run(Task.RESET)
+        self.requested_boards[:] = -1
 
     def observe(self) -> None:
-        """Write the observations anew, after states were changed."""
-        self._do(Task.OBSERVE)
+        """Write the observations again, after states were changed."""
+        self._run(Task.OBSERVE)
 
-    def _do(self, task: Task) -> None:
+    def _run(self, task: Task) -> None:
         """Do a task in all environments, in slices on threads; this thread takes the first slice."""
-        self._renew()
-        number = int(task)
-        threads = min(self.batch.threads, self.count * self._work // LEAST_SLICE)
+        if not self.has_fixed_output:
+            self.outputs.advance()
+            self._output_addresses[:] = self.outputs.last.addresses
+        code = int(task)
+        threads = min(self.batch.threads, self.count * self._work_per_env // MIN_SLICE_WORK)
         if threads < 2:
-            self.move(self.addresses, 0, self.count, number)
+            self.run_task(self.addresses, 0, self.count, code)
             return
-        edges = [self.count * slice_ // threads for slice_ in range(threads + 1)]
+        edges = [self.count * number // threads for number in range(threads + 1)]
         workers = thread_pool(self.batch.threads)
         others: list[Future[Any]] = [
-            workers.submit(self.move, self.addresses, first, end, number)
+            workers.submit(self.run_task, self.addresses, first, end, code)
             for first, end in itertools.pairwise(edges[1:])
         ]
-        self.move(self.addresses, 0, edges[1], number)
+        self.run_task(self.addresses, 0, edges[1], code)
         for other in others:
             other.result()
 
-    def _slide(self) -> None:
-        """Let the window of pictures slide on by one."""
+    def _advance_window(self) -> None:
+        """Move the window of pictures along the ring by one."""
         if self.stack < 2:
             return
-        film = self.film
-        at = film["at"][0] + 1
+        raster = self.raster
+        start = raster["start"][0] + 1
         if self.ring == self.stack:
-            film["at"] = at % self.ring
+            raster["start"] = start % self.ring
         else:
-            film["wraps"] = wraps = at + self.stack > self.ring
-            film["at"] = 0 if wraps else at
-
-    def _renew(self) -> None:
-        """Let the next step write to arrays that nobody sees, unless its output stays where it is."""
-        if not self.owns_output:
-            self.outputs.renew()
-            self._places[:] = self.outputs.last.addresses
+            raster["wraps"] = wraps = start + self.stack > self.ring
+            raster["start"] = 0 if wraps else start
 
     def write_to(
         self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
     ) -> bool:
-        """Let the kernels write to these arrays for ever, if they can; see `PinballVectorEnv.write_to`."""
+        """Write to these arrays from now on, if possible; see `PinballVectorEnv.write_to`."""
         last, name = self.outputs.last, "frames" if self.shows_pictures else "observations"
         own = last.arrays[name]
         pairs = ((observations, own), (terminated, last.terminated), (truncated, last.truncated))
@@ -246,21 +239,21 @@ class Engine:
             and given.flags.c_contiguous and given.flags.writeable
             for given, mine in pairs
         )  # fmt: skip
-        if not (fits and self.owns_output and self.stack <= 1):
+        if not (fits and self.has_fixed_output and self.stack <= 1):
             return False
         shown = {name: observations.reshape(own.shape)}
         self.outputs.replace(terminated=terminated, truncated=truncated, **shown)
-        self._places[:] = self.outputs.last.addresses
-        self.rules["mends"], self.rules["redraw"] = 0, self.shows_pictures
+        self._output_addresses[:] = self.outputs.last.addresses
+        self.rules["can_repair"], self.rules["must_redraw"] = 0, self.shows_pictures
         return True
 
     @property
     def window(self) -> NDArray[np.uint8]:
         """The pictures of the last observation, oldest first, uint8 [env, stacked, pixel]."""
-        if self.rules["copies"][0]:
+        if self.rules["copies_stack"][0]:
             return self.outputs.last.copies
-        at = int(self.film["at"][0])
-        return self.outputs.last.frames[:, at : at + self.stack]
+        start = int(self.raster["start"][0])
+        return self.outputs.last.frames[:, start : start + self.stack]
 
     def final_pictures(self, rows: NDArray[np.int64]) -> NDArray[np.uint8]:
         """The last pictures of the episodes that ended in these environments, uint8 [row, stacked, pixel]."""
@@ -268,62 +261,65 @@ class Engine:
         draw_finals(self.addresses, rows, drawn.ctypes.data)
         return drawn
 
-    # --- beginning and saving
+    # --- starting and saving
 
     @property
-    def heads(self) -> frozenset[bytes]:
-        """All that the first HEAD bytes of a state can be: the mark, then the number of the board."""
-        boards = range(len(self.pool.tables))
-        return frozenset(self._mark() + board.to_bytes(HEAD - MARK, byteorder) for board in boards)
+    def state_prefixes(self) -> frozenset[bytes]:
+        """All valid values of the first PREFIX_SIZE bytes of a state: the signature and a board's number."""
+        boards, size = range(len(self.pool.tables)), PREFIX_SIZE - SIGNATURE_SIZE
+        return frozenset(self._signature() + board.to_bytes(size, byteorder) for board in boards)
 
     @property
     def has_begun(self) -> NDArray[np.bool_]:
-        """In which environments an episode has begun since they were made or seeded, bool [env]."""
+        """Whether an episode has begun since the environment was made or seeded, bool [env]."""
         begun: NDArray[np.bool_] = self.episodes["number"] >= 0
         return begun
 
-    def forget(self) -> None:
-        """Be as if never reset."""
+    def set_unstarted(self) -> None:
+        """Mark all environments as never reset."""
         self.episodes["over"] = 1
         self.episodes["number"] = -1
 
-    def seed(self, keys: Any, where: Any = slice(None)) -> None:
-        """Give environments seeds; their next episode is their first."""
-        self.episodes["key"][where] = keys
+    def seed(self, seeds: Any, where: Any = slice(None)) -> None:
+        """Seed environments; their next episode is the first of the seed."""
+        self.episodes["seed"][where] = seeds
         self.episodes["number"][where] = -1
 
     def save(self, rows: Any) -> NDArray[np.uint8]:
         """The states of some environments, uint8 [row, byte]."""
-        return np.concatenate([part[rows] for part in self.parts], axis=1)
+        return np.concatenate([part[rows] for part in self.state_parts], axis=1)
 
     def restore(self, states: NDArray[np.uint8], rows: Any) -> None:
-        """Put states into some environments, one for each or one for all; observations stay until `observe`.
+        """Restore states, one for each of these environments or one for all; `observe` writes observations.
 
         Raises:
-            StateError: They are no states of such environments.
+            StateError: They are not states of such environments.
         """
-        size = sum(part.shape[1] for part in self.parts)
-        if states.ndim != 2 or states.shape[1] != size or (states[:, :MARK] != self.parts[0][0]).any():
-            self.refuse(states.shape[-1] if states.ndim else 0)
-        edges = np.cumsum((0, *(part.shape[1] for part in self.parts)))
+        signature_part = self.state_parts[0]
+        size = sum(part.shape[1] for part in self.state_parts)
+        if states.ndim != 2 or states.shape[1] != size:
+            self.refuse_state(states.shape[-1] if states.ndim else 0)
+        if (states[:, :SIGNATURE_SIZE] != signature_part[0]).any():
+            self.refuse_state(size)
+        edges = np.cumsum((0, *(part.shape[1] for part in self.state_parts)))
         parts = [states[:, start:end] for start, end in itertools.pairwise(edges)]
-        boards, scenes = (np.ascontiguousarray(parts[number]).reshape(-1) for number in (1, 4))
-        for numbers in (boards.view(np.int64), scenes.view(SCENE)["board"]):
+        boards, picture_states = (np.ascontiguousarray(parts[number]).reshape(-1) for number in (1, 4))
+        for numbers in (boards.view(np.int64), picture_states.view(PICTURE_STATE)["board"]):
             if ((numbers < 0) | (numbers >= len(self.pool.tables))).any():
-                self.refuse(size)
-        for own, part in zip(self.parts, parts, strict=True):
+                self.refuse_state(size)
+        for own, part in zip(self.state_parts, parts, strict=True):
             own[rows] = part
 
     def __reduce__(self) -> NoReturn:
-        """Nothing to copy: the kernels know the arrays by their addresses. Environments copy themselves."""
-        raise TypeError("an engine cannot be copied or pickled: copy the environment that it belongs to")
+        """Refuse to be copied: the kernels know the arrays by address. Environments copy themselves."""
+        raise TypeError("an engine cannot be copied or pickled: copy the environment that owns it")
 
-    def refuse(self, size: int) -> None:
-        """Say what is wrong with a state that cannot be restored."""
-        need = sum(part.shape[1] for part in self.parts)
-        if size != need:
+    def refuse_state(self, size: int) -> NoReturn:
+        """Say what is wrong with a state of this size [B] that cannot be restored."""
+        expected = sum(part.shape[1] for part in self.state_parts)
+        if size != expected:
             raise StateError(
-                f"a state of this environment has {need} bytes, as save_state made it; got {size}"
+                f"a state of this environment has {expected} bytes, as save_state made it; got {size}"
             )
         raise StateError(
             "the state belongs to other boards, another tick rate or stack, or another version; "
@@ -332,9 +328,9 @@ class Engine:
 
 
 @cache
-def _tell_of_compiling() -> None:
+def _announce_compilation() -> None:
     """Say why the first environment of a process takes its time, if it does."""
-    if SETTINGS.DISABLE_JIT or is_compiled(move.__name__, AGENTS):
+    if SETTINGS.DISABLE_JIT or is_compiled(run_task.__name__, AGENTS):
         return
     how_often = "once" if cache_folder(AGENTS) else "as at every start: its cache folder cannot be written"
     words = f"compiling the environments for this machine, {how_often}; this takes half a minute or so…"
@@ -347,30 +343,35 @@ def _as_records(memory: NDArray[np.uint8], dtype: np.dtype[Any]) -> NDArray[Any]
     return array.view(np.recarray) if SETTINGS.DISABLE_JIT else array
 
 
-def _rules(options: Options, pool: Pool, mode: Mode) -> NDArray[Any]:
+def _rules(options: Options, pool: Pool, mode: ResetMode) -> NDArray[Any]:
     """The options as the numbers that the kernels read."""
     rules = records(1, RULES)
     row = rules[0]
     board = pool.tables[0].board
     row["ticks"], row["tick"] = options.frame_skip, 1.0 / options.tick_rate
-    row["balls"], row["per_ball"] = options.balls, 1.0 / options.balls
-    row["by_button"], row["by_time"] = options.create == "button", options.reward == "time"
-    row["stall"], row["limit"] = options.steps_in(options.stall), options.steps_in(options.time_limit)
-    row["per_quiet"] = 0.0 if options.stall is None else 1.0 / row["stall"]
+    row["balls"], row["ball_scale"] = options.balls, 1.0 / options.balls
+    row["creates_by_button"] = options.create == "button"
+    reward = resolve_reward(options.reward)
+    row["writes_terms"] = callable(reward)
+    row["weighs_counts"] = callable(reward) or not reward.keys() <= {"points", "seconds"}
+    for name, weight in {} if callable(reward) else reward.items():
+        row["weights"][TERMS.index(name)] = weight
+    row["stall_steps"] = options.steps_in(options.stall)
+    row["max_steps"] = options.steps_in(options.time_limit)
+    row["idle_scale"] = 0.0 if options.stall is None else 1.0 / row["stall_steps"]
     for bit, name in enumerate(options.buttons):
         if name in ("jitter", "create"):
             row[f"{name}_bit"] = 1 << bit
     row["boards"], row["mode"] = len(pool.tables), mode
-    row["per_x"], row["per_z"] = 2.0 / board.length, 2.0 / board.width
-    row["per_speed"] = 1.0 / board.speed_cap
+    row["x_scale"], row["z_scale"] = 2.0 / board.length, 2.0 / board.width
+    row["speed_scale"] = 1.0 / board.speed_cap
     for side, part in ((0, Part.LEFT_PADDLE), (1, Part.RIGHT_PADDLE)):
         collider = pool.boards.collider[pool.boards.board["collider_first"][0] + part]
-        row["rest"][side], row["up"][side] = collider["angle_rest"], collider["angle_up"]
+        row["rest_angle"][side], row["raised_angle"][side] = collider["angle_rest"], collider["angle_up"]
         swing = collider["angle_up"] - collider["angle_rest"]
         if swing > 0.0:
-            row["per_angle"][side] = 1.0 / swing
-            row["per_turn"][side] = 1.0 / max(collider["lift_speed"], collider["return_speed"])
-    row["state"] = options.observation != "pixels"
-    row["pictures"] = options.observation == "pixels"
-    row["layout"] = 1
+            row["angle_scale"][side] = 1.0 / swing
+            row["turn_scale"][side] = 1.0 / max(collider["lift_speed"], collider["return_speed"])
+    row["writes_state"] = options.observation != "pixels"
+    row["draws_pictures"] = options.observation == "pixels"
     return rules

@@ -1,267 +1,285 @@
-"""What happens in one step of an environment? Everything, in one compiled call.
+"""What happens in one step of an environment, in one compiled call.
 
-    the action's bits become buttons → a wanted ball is created → the worlds move (run_worlds)
-    → for each environment: reward, the next ball, the end of the episode, a new episode if it is time
+    the action's bits become buttons → a ball is created if requested → the worlds move (run_worlds)
+    → for each environment: reward, next ball, end of the episode, reset if due
     → observations and counts are written
 
-A ball is *stalled* when no hit gave points for too long: whoever holds both paddles up for ever, a ball lying
-on them, ends the episode. How long is left is part of the observation.
+A ball is *stalled* when no hit has scored for too long; this ends the episodes of agents that hold both
+paddles up forever with a ball lying on them. The remaining time is part of the observation.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from silverball.envs import pointers as the
-from silverball.envs.options import POINT
-from silverball.envs.pixels import SCENE_SIZE, film_step, show_again, show_first, wind
-from silverball.envs.pointers import SMALL_FLOAT, copy_bytes
-from silverball.envs.slots import (
-    BALLS,
-    GAME,
-    LAYOUT,
-    PADDLES,
-    BallSlot,
-    GameSlot,
-    PaddleSlot,
-)
-from silverball.envs.state import COUNTS, EPISODE, End, Mode, Task
+from silverball.envs import pointers as views
+from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, BallSlot, GameSlot, PaddleSlot
+from silverball.envs.pixels import PICTURE_STATE_SIZE, copy_stack, draw_first, draw_step, redraw_stack
+from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
+from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
+from silverball.envs.state import COUNTS, EPISODE, ResetMode, RulesRecord, StepFlag, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.portable_math import WORD, threefry
 from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
 from silverball.physics.step import run_worlds
-from silverball.world.single_step import INT, array_at
+from silverball.world.single_step import INT, LEFT, RIGHT, array_at
 
-BLOCK = 64  # worlds that are moved before they are looked at: their records stay in the cache
+BLOCK = 64  # worlds that are moved before their rewards are computed: their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
-# The counters stand in a world's record in the order of `COUNTS`, the first two fields of an episode follow.
+# A WORLD record has its counters in the order of `COUNTS`; `write_counts` appends two fields of an episode.
 COUNTS_AT, COUNTS_SIZE = int(WORLD.fields["score"][1]), 8 * len(COUNTS)  # type: ignore[index]
 BALL_WIDTH, PADDLE_WIDTH = len(BallSlot), len(PaddleSlot)
 
 
 @kernel
-def move(addresses: Any, first: int, end: int, task: int) -> tuple[float, int]:
-    """Do something with the environments first … end − 1.
+def run_task(addresses: Any, first: int, end: int, task: int) -> tuple[float, int]:
+    """Do a task for the environments first … end − 1: the entry point from Python.
 
     Args:
         addresses: One ADDRESSES record.
         first: The first environment of the slice.
         end: One past its last one.
-        task: A `Task`; or an action ≥ 0 for environment 0, which is then moved on alone.
+        task: A `Task`; or an action ≥ 0, with which environment 0 makes a step.
 
     Returns:
-        The reward of the last environment that was moved on, and what happened to its episode (`End`).
+        The reward of the last environment that made a step, and `StepFlag` bits of its episode.
     """
-    at = addresses[0]
+    ptr = addresses[0]
     if task == Task.RESET:
-        reset_envs(at, first, end)
+        reset_envs(ptr, first, end)
     elif task == Task.OBSERVE:
-        observe_envs(at, first, end)
+        observe_envs(ptr, first, end)
     else:
         if task >= 0:
-            if the.episodes(at)[0].over != 0:
-                return 0.0, End.WAS_OVER + 0
-            the.actions(at)[0] = task
-        return step_envs(at, first, end)
+            if views.episodes(ptr)[0].over != 0:
+                return 0.0, StepFlag.WAS_OVER + 0
+            views.actions(ptr)[0] = task
+        return step_envs(ptr, first, end)
     return 0.0, 0
 
 
 @ir_inlined
-def step_envs(at: Any, first: int, end: int) -> tuple[float, int]:
-    """Move the environments first … end − 1 on by one step.
+def step_envs(ptr: Pointers, first: int, end: int) -> tuple[float, int]:
+    """Make one step in the environments first … end − 1.
 
     Returns:
-        The reward of the last of them, and what happened to its episode (`End`).
+        The reward of the last of them, and `StepFlag` bits of its episode.
     """
-    rules = the.rules(at)[0]
-    reward, ends = 0.0, 0
+    rules = views.rules(ptr)[0]
+    reward, flags = 0.0, 0
     for start in range(first, end, BLOCK):
         stop = min(start + BLOCK, end)
         for index in range(start, stop):
-            press(at, rules, index)
-        lanes = Lanes(the.worlds(at), the.board_of(at), the.logs(at), the.tallies(at))
-        geometries = BatchGeometry(the.boards(at), the.colliders(at), the.grid(at))
-        run_worlds(lanes, geometries, the.held(at), start, stop, rules.ticks, rules.tick)
+            if rules.weighs_counts != 0:
+                row = ptr.counts_before_at + (first + index - start) * COUNTS_SIZE
+                copy_bytes(row, ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
+            apply_action(ptr, rules, index)
+        lanes = Lanes(views.worlds(ptr), views.board_of(ptr), views.logs(ptr), views.tallies(ptr))
+        geometries = BatchGeometry(views.boards(ptr), views.colliders(ptr), views.grid(ptr))
+        run_worlds(lanes, geometries, views.held(ptr), start, stop, rules.ticks, rules.tick)
         for index in range(start, stop):
-            reward, ends = settle(at, rules, index)
-            the.rewards(at)[index] = reward
-            the.terminated(at)[index] = ends & End.TERMINATED != 0
-            the.truncated(at)[index] = ends & End.TRUNCATED != 0
-            if at.envs == 1 and has_counted(at, index):
-                ends |= End.COUNTED + 0
-            observe(at, rules, index)
-    return reward, ends
+            reward, flags = finish_step(ptr, rules, index, first + index - start)
+            views.rewards(ptr)[index] = reward
+            views.terminated(ptr)[index] = flags & StepFlag.TERMINATED != 0
+            views.truncated(ptr)[index] = flags & StepFlag.TRUNCATED != 0
+            if ptr.envs == 1 and have_counts_changed(ptr, index):
+                flags |= StepFlag.COUNTS_CHANGED + 0
+            observe(ptr, rules, index)
+    return reward, flags
 
 
 @ir_inlined
-def reset_envs(at: Any, first: int, end: int) -> None:
-    """Begin the next episode of those of the environments first … end − 1 that the mask names."""
-    rules = the.rules(at)[0]
+def reset_envs(ptr: Pointers, first: int, end: int) -> None:
+    """Begin the next episode in those of the environments first … end − 1 that are in the mask."""
+    rules = views.rules(ptr)[0]
     for index in range(first, end):
-        if the.masks(at)[index]:
-            begin(at, rules, index)
-        elif rules.redraw != 0:
-            show_again(at, index)
-        observe(at, rules, index)
+        if views.reset_mask(ptr)[index]:
+            begin_episode(ptr, rules, index)
+        elif rules.must_redraw != 0:
+            redraw_stack(ptr, index)
+        observe(ptr, rules, index)
 
 
 @ir_inlined
-def observe_envs(at: Any, first: int, end: int) -> None:
-    """Write the observations of the environments first … end − 1 anew, after their state was changed."""
-    rules = the.rules(at)[0]
+def observe_envs(ptr: Pointers, first: int, end: int) -> None:
+    """Write the observations of the environments first … end − 1 again, after their states were changed."""
+    rules = views.rules(ptr)[0]
     for index in range(first, end):
-        if rules.pictures != 0:
-            show_again(at, index)
-        observe(at, rules, index)
+        if rules.draws_pictures != 0:
+            redraw_stack(ptr, index)
+        observe(ptr, rules, index)
 
 
 @inlined
-def press(at: Any, rules: Any, index: int) -> None:
-    """Turn an action into buttons, and create a ball if it asks for one."""
-    bits = the.actions(at)[index]
-    the.held(at)[0, index, 0] = bits & 1 != 0
-    the.held(at)[0, index, 1] = bits & 2 != 0
-    the.held(at)[0, index, 2] = bits & rules.jitter_bit != 0
-    world = the.worlds(at)[index]
-    if bits & rules.create_bit != 0 and world.created < rules.balls and the.episodes(at)[index].over == 0:
-        board = the.boards(at)[the.board_of(at)[index]]
-        if (
-            create_ball(world, board, the.colliders(at), the.places(at), the.logs(at)[index])
-            == Outcome.CREATED
-        ):
-            the.episodes(at)[index].quiet = 0
+def apply_action(ptr: Pointers, rules: RulesRecord, index: int) -> None:
+    """Turn the bits of an action into held buttons, and create a ball if its bit is set."""
+    bits = views.actions(ptr)[index]
+    held, world, log = views.held(ptr), views.worlds(ptr)[index], views.logs(ptr)[index]
+    held[0, index, 0] = bits & LEFT != 0
+    held[0, index, 1] = bits & RIGHT != 0
+    held[0, index, 2] = bits & rules.jitter_bit != 0
+    if bits & rules.create_bit != 0 and world.created < rules.balls and views.episodes(ptr)[index].over == 0:
+        board = views.boards(ptr)[views.board_of(ptr)[index]]
+        if create_ball(world, board, views.colliders(ptr), views.places(ptr), log) == Outcome.CREATED:
+            views.episodes(ptr)[index].idle_steps = 0
 
 
 @internal
-def settle(at: Any, rules: Any, index: int) -> tuple[float, int]:
-    """What the last step was worth, and whether it ended the episode; a new one begins where it is time.
+def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> tuple[float, int]:
+    """Compute the reward of a step and whether it ended the episode; create the next ball; reset if due.
+
+    Args:
+        ptr: One ADDRESSES record.
+        rules: One RULES record.
+        index: The environment.
+        before: The row of `counts_before` with its counters.
 
     Returns:
-        The reward, and `End` bits.
+        The reward, and `StepFlag` bits.
     """
-    world, episode = the.worlds(at)[index], the.episodes(at)[index]
+    world, episode = views.worlds(ptr)[index], views.episodes(ptr)[index]
     if episode.over != 0:
-        if rules.mode == Mode.NEXT_STEP:
-            begin(at, rules, index)
+        if rules.writes_terms != 0:
+            for term in range(len(TERMS)):
+                views.terms(ptr)[index, term] = 0.0
+        if rules.mode == ResetMode.NEXT_STEP:
+            begin_episode(ptr, rules, index)
             return 0.0, 0
-        return 0.0, End.WAS_OVER + 0
-    gained = world.score - episode.scored
-    episode.scored = world.score
+        return 0.0, StepFlag.WAS_OVER + 0
+    gained = world.score - episode.last_score
+    episode.last_score = world.score
     episode.steps += 1
-    episode.quiet = 0 if gained > 0 else episode.quiet + 1
-    ends, plays = 0, world.created > world.drained
+    episode.idle_steps = 0 if gained > 0 else episode.idle_steps + 1
+    flags, plays = 0, world.created > world.drained
     if world.drained >= rules.balls:
-        ends = End.TERMINATED + 0
-    elif not plays and rules.by_button == 0:
-        board = the.boards(at)[the.board_of(at)[index]]
-        create_ball(world, board, the.colliders(at), the.places(at), the.logs(at)[index])
-        episode.quiet = 0
-    if ends == 0 and episode.quiet >= rules.stall:
+        flags = StepFlag.TERMINATED + 0
+    elif not plays and rules.creates_by_button == 0:
+        board = views.boards(ptr)[views.board_of(ptr)[index]]
+        create_ball(world, board, views.colliders(ptr), views.places(ptr), views.logs(ptr)[index])
+        episode.idle_steps = 0
+    if flags == 0 and episode.idle_steps >= rules.stall_steps:
         episode.stalled = 1
-        ends = End.TERMINATED + 0
-    if ends == 0 and (episode.steps >= rules.limit or world.fault != Fault.NONE):
-        ends = End.TRUNCATED + 0
-    reward = gained * POINT
-    if rules.by_time != 0:
-        reward = rules.ticks * rules.tick if plays else 0.0
-    if rules.pictures != 0:
-        film_step(at, index)
-    if ends != 0:
+        flags = StepFlag.TERMINATED + 0
+    if flags == 0 and (episode.steps >= rules.max_steps or world.fault != Fault.NONE):
+        flags = StepFlag.TRUNCATED + 0
+    seconds = rules.ticks * rules.tick if plays else 0.0
+    reward = rules.weights[POINTS] * gained + rules.weights[SECONDS] * seconds
+    if rules.weighs_counts != 0:
+        reward += weigh_counts(ptr, rules, index, before)
+        if rules.writes_terms != 0:
+            views.terms(ptr)[index, POINTS], views.terms(ptr)[index, SECONDS] = gained, seconds
+    if rules.draws_pictures != 0:
+        draw_step(ptr, index)
+    if flags != 0:
         episode.over = 1
-        if rules.mode == Mode.SAME_STEP:
-            keep_final(at, rules, index)
-            begin(at, rules, index)
-    return reward, ends
+        if rules.mode == ResetMode.SAME_STEP:
+            store_final(ptr, rules, index)
+            begin_episode(ptr, rules, index)
+    return reward, flags
+
+
+@ir_inlined
+def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> float:
+    """The weighted sum of the stall and of the growth of the counts; writes these terms, too."""
+    stalled = views.episodes(ptr)[index].stalled
+    views.terms(ptr)[index, STALLED] = stalled
+    reward = rules.weights[STALLED] * stalled
+    counts = array_at(ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
+    for term in range(FIRST_COUNT, len(TERMS)):
+        count = term - FIRST_COUNT + 1
+        grown = counts[count] - views.counts_before(ptr)[before, count]
+        views.terms(ptr)[index, term] = grown
+        reward += rules.weights[term] * grown
+    return float(reward)
 
 
 @internal
-def begin(at: Any, rules: Any, index: int) -> None:
-    """Begin the next episode: another board, another seed, a world in which nothing has happened yet."""
-    episode = the.episodes(at)[index]
+def begin_episode(ptr: Pointers, rules: RulesRecord, index: int) -> None:
+    """Begin the next episode: its board, its seed, a blank world, the first ball."""
+    episode = views.episodes(ptr)[index]
     episode.number += 1
-    key0, key1 = episode.key & WORD, (episode.key >> 32) & WORD
+    key0, key1 = episode.seed & WORD, (episode.seed >> 32) & WORD
     high, low = threefry(key0, key1, episode.number & WORD, 0)
     choice, _ = threefry(key0, key1, episode.number & WORD, 1)
     which = (choice * rules.boards) >> 32 if rules.own_boards == 0 else index % rules.boards
-    if the.wanted(at)[index] >= 0:
-        which = the.wanted(at)[index]
-    the.board_of(at)[index] = which
-    copy_bytes(at.worlds_at + index * WORLD_SIZE, at.blanks_at + which * WORLD_SIZE, WORLD_SIZE)
-    world, log = the.worlds(at)[index], the.logs(at)[index]
+    if views.requested_boards(ptr)[index] >= 0:
+        which = views.requested_boards(ptr)[index]
+    views.board_of(ptr)[index] = which
+    copy_bytes(ptr.worlds_at + index * WORLD_SIZE, ptr.blanks_at + which * WORLD_SIZE, WORLD_SIZE)
+    world, log = views.worlds(ptr)[index], views.logs(ptr)[index]
     world.seed = ((high & 0x7FFFFFFF) << 32) | low
-    log.count, log.lost = 0, 0
-    episode.board_seed = the.board_seeds(at)[which]
-    episode.stalled, episode.over, episode.steps, episode.quiet, episode.scored = 0, 0, 0, 0, 0
-    if rules.by_button == 0:
-        create_ball(world, the.boards(at)[which], the.colliders(at), the.places(at), log)
-    if rules.pictures != 0:
-        show_first(at, index)
+    log.count, log.carried, log.done, log.lost = 0, 0, 0, 0
+    episode.board_seed = views.board_seeds(ptr)[which]
+    episode.stalled, episode.over, episode.steps, episode.idle_steps, episode.last_score = 0, 0, 0, 0, 0
+    if rules.creates_by_button == 0:
+        create_ball(world, views.boards(ptr)[which], views.colliders(ptr), views.places(ptr), log)
+    if rules.draws_pictures != 0:
+        draw_first(ptr, index)
 
 
 @internal
-def keep_final(at: Any, rules: Any, index: int) -> None:
-    """Keep what the last observation and the counts of an episode are made of, before the next begins."""
-    write_counts(at, at.final_counts_at, index)
-    if rules.state != 0:
-        write_state(at, rules, at.finals_at, index)
-    if rules.pictures != 0:
-        size = at.stack * SCENE_SIZE
-        copy_bytes(at.final_scenes_at + index * size, at.scenes_at + index * size, size)
+def store_final(ptr: Pointers, rules: RulesRecord, index: int) -> None:
+    """Store the last observation and the counts of an episode before the next one begins."""
+    write_counts(ptr, ptr.final_counts_at, index)
+    if rules.writes_state != 0:
+        write_state(ptr, rules, ptr.finals_at, index)
+    if rules.draws_pictures != 0:
+        size = ptr.stack * PICTURE_STATE_SIZE
+        copy_bytes(ptr.final_picture_states_at + index * size, ptr.picture_states_at + index * size, size)
 
 
 @inlined
-def observe(at: Any, rules: Any, index: int) -> None:
-    """Write what an environment shows."""
-    write_counts(at, at.counts_at, index)
-    if rules.state != 0:
-        write_state(at, rules, at.observations_at, index)
-    if rules.copies != 0:
-        wind(at, index)
+def observe(ptr: Pointers, rules: RulesRecord, index: int) -> None:
+    """Write the counts and the observation of an environment."""
+    write_counts(ptr, ptr.counts_at, index)
+    if rules.writes_state != 0:
+        write_state(ptr, rules, ptr.observations_at, index)
+    if rules.copies_stack != 0:
+        copy_stack(ptr, index)
 
 
 @inlined
-def write_counts(at: Any, address: int, index: int) -> None:
-    """Write the events of the episode so far, in the order of `COUNTS`, then the board's seed and a stall."""
-    start = address + index * at.counts * 8
-    copy_bytes(start, at.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
-    copy_bytes(start + COUNTS_SIZE, at.episodes_at + index * EPISODE_SIZE, 16)
+def write_counts(ptr: Pointers, address: int, index: int) -> None:
+    """Write the counts of the episode so far at an address, in the order of `INFO`."""
+    start = address + index * ptr.info * 8
+    copy_bytes(start, ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
+    copy_bytes(start + COUNTS_SIZE, ptr.episodes_at + index * EPISODE_SIZE, 16)
 
 
 @internal
-def has_counted(at: Any, index: int) -> bool:
-    """Whether what `write_counts` would write differs from what is there."""
-    there = array_at(at.counts_at + index * at.counts * 8, (at.counts,), INT)
-    counts = array_at(at.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
-    episode = the.episodes(at)[index]
-    differs = there[len(COUNTS)] != episode.board_seed or there[len(COUNTS) + 1] != episode.stalled
+def have_counts_changed(ptr: Pointers, index: int) -> bool:
+    """Whether `write_counts` would change the last counts."""
+    last = array_at(ptr.counts_at + index * ptr.info * 8, (ptr.info,), INT)
+    counts = array_at(ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
+    episode = views.episodes(ptr)[index]
+    differs = last[len(COUNTS)] != episode.board_seed or last[len(COUNTS) + 1] != episode.stalled
     for number in range(len(COUNTS)):
-        differs |= there[number] != counts[number]
+        differs |= last[number] != counts[number]
     return bool(differs)
 
 
 @internal
-def write_state(at: Any, rules: Any, address: int, index: int) -> None:
-    """Write a state observation among those at an address, slot by slot as `slots.py` has them."""
-    row = array_at(address + index * at.columns * 4, (at.columns,), SMALL_FLOAT)
-    world, episode = the.worlds(at)[index], the.episodes(at)[index]
+def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> None:
+    """Write the state observation of an environment into an array [env, column] at an address."""
+    row = array_at(address + index * ptr.columns * 4, (ptr.columns,), SMALL_FLOAT)
+    world, episode = views.worlds(ptr)[index], views.episodes(ptr)[index]
     for slot in range(BALL_COUNT):
         ball, start = world.ball[slot], BALLS + BALL_WIDTH * slot
-        there = 0.0 if ball.id == 0 else 1.0
-        row[start + BallSlot.ALIVE] = there
-        row[start + BallSlot.X] = there * ball.x * rules.per_x
-        row[start + BallSlot.Z] = there * ball.z * rules.per_z
-        row[start + BallSlot.VX] = there * ball.vx * rules.per_speed
-        row[start + BallSlot.VZ] = there * ball.vz * rules.per_speed
+        is_alive = 0.0 if ball.id == 0 else 1.0
+        row[start + BallSlot.ALIVE] = is_alive
+        row[start + BallSlot.X] = is_alive * ball.x * rules.x_scale
+        row[start + BallSlot.Z] = is_alive * ball.z * rules.z_scale
+        row[start + BallSlot.VX] = is_alive * ball.vx * rules.speed_scale
+        row[start + BallSlot.VZ] = is_alive * ball.vz * rules.speed_scale
     for side in range(2):
         paddle, start = world.paddle[side], PADDLES + PADDLE_WIDTH * side
-        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest[side]) * rules.per_angle[side]
-        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.per_turn[side]
-        held = paddle.angle_commanded == rules.up[side] and rules.per_angle[side] != 0.0
+        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest_angle[side]) * rules.angle_scale[side]
+        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[side]
+        held = paddle.angle_commanded == rules.raised_angle[side] and rules.angle_scale[side] != 0.0
         row[start + PaddleSlot.HELD] = 1.0 if held else 0.0
-    row[GAME + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.quiet * rules.per_quiet)
-    row[GAME + GameSlot.LEFT] = (rules.balls - world.created) * rules.per_ball
-    if rules.layout != 0:
-        size = at.layout_columns * 4
-        target = address + (index * at.columns + LAYOUT) * 4
-        copy_bytes(target, at.layouts_at + the.board_of(at)[index] * size, size)
+    row[GAME + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.idle_steps * rules.idle_scale)
+    row[GAME + GameSlot.LEFT] = (rules.balls - world.created) * rules.ball_scale
+    size = ptr.layout_columns * 4
+    target = address + (index * ptr.columns + LAYOUT) * 4
+    copy_bytes(target, ptr.layouts_at + views.board_of(ptr)[index] * size, size)

@@ -1,198 +1,252 @@
-"""What can be chosen about an environment, and what does each choice mean? Checked once, here."""
+"""The options of an environment: their defaults, descriptions and checks.
+
+Also here: the checks of other arguments that environments share (seeds, render modes, options of a reset).
+"""
 
 from __future__ import annotations
 
-import dataclasses
-import difflib
 import math
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from operator import index
+from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, SkipValidation, StrictBool, ValidationError
 
+from silverball.envs.rewards import POINT, Reward, did_you_mean, resolve_reward
 from silverball.table import Table
+from silverball.table.quantity import Count, Quantity, Several, refuse
 
-Named = Table | str | os.PathLike[str] | Mapping[str, Any]
+TableSource: TypeAlias = Table | str | os.PathLike[str] | Mapping[str, Any]
 """A table, the name of a built-in one, a path, or the keys of a table file."""
 
-POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
 BUTTONS = ("left", "right", "jitter", "create")
-OF_VECTORS = (
-    "autoreset_mode",
-    "zero_copy",
-    "threads",
-    "own_boards",
-)  # what a vector environment takes besides
-MOST_BOARDS = 2**16
-MOST_BALLS = 1000
-LONGEST = 1e7  # [s]
-LARGEST_PICTURE = 1024  # [pixel] a side
-MOST_STACKED = 16
-NEVER = 2**62  # [step] a limit that no episode reaches
+VECTOR_ONLY = ("autoreset_mode", "zero_copy", "threads", "own_boards")
+"""Arguments that vector environments take and single ones do not."""
+
+MAX_BOARDS = 2**16
+MAX_BALLS = 1000
+MAX_SECONDS = 1e7
+MAX_PICTURE_SIDE = 1024  # [pixel]
+MAX_STACK = 16
+NO_LIMIT = 2**62  # [step] a limit that no episode reaches
+SEED_RANGE = 2**63
 
 
-def option(default: Any, text: str) -> Any:
-    """A field with its description."""
-    return dataclasses.field(default=default, metadata={"text": text})
+def _seconds_or_none(value: Any) -> float | None:
+    """None, or a time above zero [s]."""
+    if value is None:
+        return None
+    seconds = Quantity(0.0, MAX_SECONDS, "s, or None").check(value)
+    return seconds if seconds > 0.0 else refuse(f"must be None or above 0 s, got {value!r}")
 
 
-@dataclasses.dataclass(frozen=True)
-class Options:
-    """The choices; `OPTIONS` describes each in a sentence.
+def _reward(reward: Any) -> Any:
+    """A reward as it was given, with weights copied."""
+    resolved = resolve_reward(reward)
+    return resolved if isinstance(reward, Mapping) else reward
 
-    Raises:
-        ValueError: One of them cannot be.
-    """
 
-    table: Named | Sequence[Named] = option(
+class Options(BaseModel):
+    """What can be chosen; `OPTIONS` describes each choice in a sentence."""
+
+    model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
+
+    table: Annotated[TableSource | Sequence[TableSource], SkipValidation] = Field(
         "random",
-        "a built-in name, a path, a table, or the keys of a table file as a dict; a recipe "
-        "gives every episode a random board, a list of finished "
-        "tables with the same board and paddles one of them",
+        description="a built-in name, a path, a table, or the keys of a table file as a dict; a recipe gives "
+        "every episode a random board, a list of finished tables with the same board and paddles one of them",
     )
-    boards: int = option(
-        64, "of a recipe: how many boards are made beforehand, for the episodes to draw from"
+    boards: Annotated[int, Count(1, MAX_BOARDS)] = Field(
+        64, description="of a recipe: how many boards are made in advance; every episode draws one of them"
     )
-    board_seed: int = option(
-        0, "of a recipe: the boards have the seeds board_seed, board_seed + 1, …; take others to evaluate"
+    board_seed: Annotated[int, Count(0, 2**62)] = Field(
+        0,
+        description="of a recipe: the boards have the seeds board_seed, board_seed + 1, …; "
+        "choose others to evaluate",
     )
-    observation: Literal["state", "dict", "pixels"] = option(
-        "state", '"state" (one row), "dict" (the same by name) or "pixels"'
+    observation: Literal["state", "dict", "pixels"] = Field(
+        "state", description='"state" (one row), "dict" (the same by name) or "pixels"'
     )
-    actions: Literal["discrete", "multibinary"] = option(
+    actions: Literal["discrete", "multibinary"] = Field(
         "discrete",
-        '"discrete" (a number whose bits are the buttons) or "multibinary" (a bit for each button)',
+        description='"discrete" (a number whose bits are the buttons) or "multibinary" (a bit for each one)',
     )
-    jitter: bool = option(False, "whether there is a button that shoves the balls")
-    create: Literal["auto", "button"] = option(
-        "auto", '"auto": a ball comes by itself when none is on the board; "button": a button brings it'
+    jitter: StrictBool = Field(False, description="whether there is a button that shoves the balls")
+    create: Literal["auto", "button"] = Field(
+        "auto",
+        description='"auto": a ball is created when none is on the board; "button": a button creates one',
     )
-    balls: int = option(1, "balls of an episode: 1, or 3 for a game")
-    reward: Literal["score", "time"] = option(
-        "score", f'"score": points × {POINT}; "time": the seconds that a ball stays on the board'
+    balls: Annotated[int, Count(1, MAX_BALLS)] = Field(
+        1, description="balls of an episode: 1, or 3 for a game"
     )
-    stall: float | None = option(
-        15.0, "[s] without a scoring hit after which the episode ends as stalled; None: never"
+    reward: Annotated[Reward, PlainValidator(_reward)] = Field(
+        "score",
+        description=f'"score": points × {POINT}; "time": the seconds that a ball stays on the board; '
+        "weights of terms as a dict; a callable, or its import path",
     )
-    time_limit: float | None = option(300.0, "[s] of play after which an episode is truncated; None: never")
-    tick_rate: int = option(60, "ticks of the physics a second")
-    frame_skip: int = option(1, "ticks of one step, in which the buttons are held")
-    size: tuple[int, int] = option((84, 84), "of pictures: height and width [pixel]")
-    rgb: bool = option(False, "of pictures: in colour instead of grey")
-    stack: int = option(4, "of pictures: how many of the last ones an observation shows, oldest first")
-
-    def __post_init__(self) -> None:
-        """Refuse what cannot be."""
-        _whole("boards", self.boards, 1, MOST_BOARDS)
-        _whole("board_seed", self.board_seed, 0, 2**62)
-        _one_of("observation", self.observation, ("state", "dict", "pixels"))
-        _one_of("actions", self.actions, ("discrete", "multibinary"))
-        _one_of("create", self.create, ("auto", "button"))
-        _one_of("reward", self.reward, ("score", "time"))
-        _flag("jitter", self.jitter)
-        _flag("rgb", self.rgb)
-        _whole("balls", self.balls, 1, MOST_BALLS)
-        _whole("tick_rate", self.tick_rate, 10, 100_000)
-        _whole("frame_skip", self.frame_skip, 1, 10_000)
-        _seconds("stall", self.stall)
-        _seconds("time_limit", self.time_limit)
-        size = tuple(self.size) if isinstance(self.size, (tuple, list)) else ()
-        if len(size) != 2:
-            raise ValueError(f"size must be a height and a width such as (84, 84), got {self.size!r}")
-        for side in size:
-            _whole("size", side, 8, LARGEST_PICTURE)
-        object.__setattr__(self, "size", size)
-        _whole("stack", self.stack, 1, MOST_STACKED)
+    stall: Annotated[float | None, PlainValidator(_seconds_or_none)] = Field(
+        15.0, description="[s] without a scoring hit after which the episode ends as stalled; None: never"
+    )
+    time_limit: Annotated[float | None, PlainValidator(_seconds_or_none)] = Field(
+        300.0, description="[s] of play after which an episode is truncated; None: never"
+    )
+    tick_rate: Annotated[int, Count(10, 100_000)] = Field(60, description="physics ticks per second")
+    frame_skip: Annotated[int, Count(1, 10_000)] = Field(
+        1, description="ticks of one step, in which the buttons are held"
+    )
+    size: Annotated[tuple[int, int], Several(Count(8, MAX_PICTURE_SIDE), 2, "(height, width)")] = Field(
+        (84, 84), description="of pictures: height and width [pixel]"
+    )
+    rgb: StrictBool = Field(False, description="of pictures: in colour instead of grey")
+    stack: Annotated[int, Count(1, MAX_STACK)] = Field(
+        4, description="of pictures: how many of the last ones an observation shows, oldest first"
+    )
 
     @classmethod
-    def of(cls, given: dict[str, Any], others: tuple[str, ...] = ()) -> Options:
+    def of(cls, given: Mapping[str, Any], others: tuple[str, ...] = ()) -> Options:
         """The options of these keyword arguments.
 
         Args:
             given: By their names.
-            others: What else the caller takes: a name that is mistyped may mean one of these.
+            others: What else the caller takes: a misspelled name may mean one of these.
 
         Raises:
-            TypeError: There is no option of that name.
+            TypeError: An option is unknown.
+            ValueError: An option has an invalid value.
         """
-        names = [field.name for field in dataclasses.fields(cls)]
+        known = (*cls.model_fields, *others)
         for name in given:
-            if name in names:
+            if name in cls.model_fields:
                 continue
             # Trainers try options of other environments and look for these words (TorchRL: frameskip).
             unexpected = f"got an unexpected keyword argument {name!r}"
-            if name in OF_VECTORS and name not in others:
-                raise TypeError(f"{unexpected}: it is for many environments, gymnasium.make_vec takes it")
-            known = (*names, *others)
-            near = difflib.get_close_matches(name, known, 1)
-            hint = f"did you mean {near[0]!r}? " if near else ""
-            raise TypeError(f"{unexpected}; {hint}The options are {', '.join(known)}")
-        return cls(**given)
+            if name in VECTOR_ONLY and name not in others:
+                raise TypeError(f"{unexpected}: only vector environments take it, use gymnasium.make_vec")
+            raise TypeError(f"{unexpected}; {did_you_mean(name, known)}expected one of {', '.join(known)}")
+        plain = {
+            name: value.item() if isinstance(value, np.generic) else value for name, value in given.items()
+        }
+        try:
+            return cls.model_validate(plain)
+        except ValidationError as error:
+            raise ValueError("; ".join(map(_sentence, error.errors(include_url=False)))) from None
+
+    def kwargs(self) -> dict[str, Any]:
+        """The options as keyword arguments that make the same environment."""
+        return {name: getattr(self, name) for name in type(self).model_fields}
 
     @property
     def buttons(self) -> tuple[str, ...]:
-        """The buttons there are, in the order of an action's bits."""
+        """The available buttons, in the order of an action's bits."""
         present = (True, True, self.jitter, self.create == "button")
-        return tuple(name for name, is_there in zip(BUTTONS, present, strict=True) if is_there)
+        return tuple(name for name, is_present in zip(BUTTONS, present, strict=True) if is_present)
 
     @property
     def meanings(self) -> list[str]:
-        """What each discrete action holds, in capitals: NOOP, LEFT, RIGHT, LEFT+RIGHT and so on."""
+        """The buttons of each discrete action in capitals: NOOP, LEFT, RIGHT, LEFT+RIGHT and so on."""
         names = [name.upper() for name in self.buttons]
         codes = range(1 << len(names))
         held = [[name for bit, name in enumerate(names) if code >> bit & 1] for code in codes]
         return ["+".join(those) or "NOOP" for those in held]
 
     @property
-    def steps(self) -> int | None:
+    def max_steps(self) -> int | None:
         """The steps after which an episode is truncated; None: never."""
         return None if self.time_limit is None else self.steps_in(self.time_limit)
 
     @property
     def step_seconds(self) -> float:
-        """Time of a step [s]."""
+        """Duration of a step [s]."""
         return self.frame_skip / self.tick_rate
 
     @property
     def frames_per_second(self) -> int:
-        """Pictures for people in a second of play, one for each step; at least 1."""
+        """Rendered pictures per second of play, one for each step; at least 1."""
         return max(1, round(1.0 / self.step_seconds))
 
     def steps_in(self, seconds: float | None) -> int:
-        """The least number of whole steps that last so long; NEVER for None."""
-        return NEVER if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))
+        """The least number of whole steps that last this long [s]; NO_LIMIT for None."""
+        return NO_LIMIT if seconds is None else max(1, math.ceil(seconds / self.step_seconds - 1e-9))
 
 
-def refuse_options(given: dict[str, Any], names: tuple[str, ...], reason: str) -> None:
-    """Refuse options that a trainer's adapter decides, in Python's words for what a function lacks."""
+OPTIONS = tuple(
+    (name, field.default, field.description or "") for name, field in Options.model_fields.items()
+)
+"""Name, default and description of every option."""
+
+
+def _sentence(detail: Any) -> str:
+    """One of pydantic's findings as a sentence: where, what was expected, what was got."""
+    name, context = detail["loc"][0], detail.get("ctx", {})
+    match detail["type"]:
+        case "silverball":
+            return f"{name} {context['message']}"
+        case "literal_error":
+            return f"{name} must be {context['expected']}, got {detail['input']!r}"
+        case "bool_type":
+            return f"{name} must be True or False, got {detail['input']!r}"
+        case "value_error":  # these sentences name the option
+            return str(context["error"])
+        case _:
+            return f"{name}: {detail['msg']}, got {detail['input']!r}"
+
+
+def refuse_options(given: Mapping[str, Any], names: tuple[str, ...], reason: str) -> None:
+    """Refuse options that a trainer's adapter decides, in Python's words for an unknown argument."""
     for name in names:
         if name in given:
             raise TypeError(f"got an unexpected keyword argument {name!r}: {reason}")
 
 
-OPTIONS = tuple((field.name, field.default, field.metadata["text"]) for field in dataclasses.fields(Options))
-"""Name, default and description of every option."""
+def checked_seed(seed: Any) -> int:
+    """A seed as the engine takes it: an integer from 0, below 2⁶³.
+
+    Raises:
+        ValueError: It is not an integer, or negative.
+    """
+    try:
+        number = index(seed)
+    except TypeError:
+        number = -1
+    if number < 0:
+        raise ValueError(f"seed must be an integer ≥ 0, got {seed!r}")
+    return number % SEED_RANGE
 
 
-def _whole(name: str, value: Any, least: int, greatest: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= greatest:
-        raise ValueError(f"{name} must be a whole number from {least} to {greatest}, got {value!r}")
+def checked_render_mode(render_mode: str | None, modes: tuple[str, ...]) -> str | None:
+    """The render mode, if it is None or one of these.
+
+    Raises:
+        ValueError: It is another one.
+    """
+    if render_mode is not None and render_mode not in modes:
+        raise ValueError(f"render_mode must be {' or '.join(map(repr, modes))} or None, got {render_mode!r}")
+    return render_mode
 
 
-def _one_of(name: str, value: Any, choices: tuple[str, ...]) -> None:
-    if value not in choices:
-        raise ValueError(f"{name} must be one of {', '.join(map(repr, choices))}, got {value!r}")
+def checked_generator(generator: np.random.Generator) -> np.random.Generator:
+    """The random generator that a caller sets.
+
+    Raises:
+        TypeError: It is not a generator.
+    """
+    if not isinstance(generator, np.random.Generator):
+        raise TypeError(f"np_random must be a numpy.random.Generator, got {generator!r}")
+    return generator
 
 
-def _flag(name: str, value: Any) -> None:
-    if not isinstance(value, (bool, np.bool_)):
-        raise ValueError(f"{name} must be True or False, got {value!r}")
+def checked_reset_options(options: dict[str, Any] | None, known: tuple[str, ...]) -> dict[str, Any]:
+    """The options of a reset, if their names are known; an empty dict for None.
 
-
-def _seconds(name: str, value: Any) -> None:
-    if value is None:
-        return
-    number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-    if not number or not 0.0 < value <= LONGEST:
-        raise ValueError(f"{name} must be None or seconds above 0, at most {LONGEST:g}, got {value!r}")
+    Raises:
+        TypeError: They are not a dict.
+        ValueError: One is unknown.
+    """
+    if options is not None and not isinstance(options, dict):
+        raise TypeError(f"options must be a dict or None, got {options!r}")
+    for name in options or {}:
+        if name not in known:
+            raise ValueError(f"unknown reset option {name!r}; expected {' or '.join(map(repr, known))}")
+    return options or {}

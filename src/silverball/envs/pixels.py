@@ -1,66 +1,65 @@
-"""How is a picture of a world drawn at a million a second?
+"""Drawing pictures of worlds in the compiled step, a million a second.
 
-The board's background is drawn once for each board; a picture is a copy of it, then the parts that were hit
-in this step in bright, the paddles and the balls as sprites. Each is blended by taking the brighter value,
-so that the order does not matter. The board fills the picture: its top is the first row, its left the first
-column.
+The background of each board is drawn once. A picture is a copy of it, then the lit parts (hit in this step),
+the paddles and the balls as sprites. Sprites are blended by the brighter value, so that their order does not
+matter. The board fills the picture: its top is the first row, its left border the first column.
 
-The last pictures of an environment lie in a ring, and the window of the newest slides along it. Where the
-window itself is the observation, the ring is longer, and the pictures move back to its beginning now and
-then; where the window is copied, the ring is no longer than that and the window goes round. Where nobody
-else writes to the ring, a picture is drawn by mending the old one in its place: balls and lights are taken
-away and put where they are now, paddles if they have moved.
+The last pictures of an environment stand in a ring of frames, and the window of the newest ones moves along
+it. Where the window itself is the observation, the ring is longer, and the pictures move back to its start
+when the window reaches its end; where the window is copied, the ring has its length and the window wraps. If
+only the kernels write to the ring, an old picture is turned into a new one by repairing its dirty rectangles:
+balls and lights are erased and drawn again, paddles only if they have moved.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from silverball.envs import pointers as the
-from silverball.envs.pointers import BYTE, copy_bytes
-from silverball.envs.state import LIT_BITS, SCENE
+from silverball.envs import pointers as views
+from silverball.envs.pointers import BYTE, Pointers, copy_bytes
+from silverball.envs.state import LIT_BITS, PICTURE_STATE, PictureStateRecord, RasterRecord
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BALL_COUNT, EventKind, Kind, Part
+from silverball.physics.records import BALL_COUNT, ColliderRecord, EventKind, Kind, Part
 from silverball.physics.shapes import distance
 from silverball.world.single_step import array_at
 
-FINE = 8  # places of a ball within a pixel, along each axis, that have a sprite of their own
-SCENE_SIZE = SCENE.itemsize
-ANGLES = 32  # angles of a paddle that have a sprite of their own
+SUBPIXELS = 8  # positions of a ball within a pixel along each axis; each has a sprite
+PICTURE_STATE_SIZE = PICTURE_STATE.itemsize
+ANGLES = 32  # of a paddle; each has a sprite
 
 
 @internal
-def film_step(at: Any, index: int) -> None:
-    """Write down what the next picture shows, and draw it."""
-    film = the.film(at)[0]
-    last = film.stack - 1
+def draw_step(ptr: Pointers, index: int) -> None:
+    """Record what the next picture shows, and draw it."""
+    raster = views.raster(ptr)[0]
+    last = raster.stack - 1
     for number in range(last):
-        copy_scene(at, index, number + 1, number)
-    look(at, index, last)
-    if film.wraps != 0:
+        copy_picture_state(ptr, index, number + 1, number)
+    record_state(ptr, index, last)
+    if raster.wraps != 0:
         for number in range(last):
-            show(at, index, number)
-    show(at, index, last)
+            draw_in_ring(ptr, index, number)
+    draw_in_ring(ptr, index, last)
 
 
 @internal
-def show_first(at: Any, index: int) -> None:
-    """Fill the whole window with the first picture of an episode."""
-    last = the.film(at)[0].stack - 1
-    look(at, index, last)
-    the.scenes(at)[index, last].lit = 0
+def draw_first(ptr: Pointers, index: int) -> None:
+    """Fill the window with the first picture of an episode."""
+    last = views.raster(ptr)[0].stack - 1
+    record_state(ptr, index, last)
+    views.picture_states(ptr)[index, last].lit = 0
     for number in range(last):
-        copy_scene(at, index, last, number)
-    for place in range(at.ring):  # nothing is mended of what was there, whatever has become of it
-        the.drawn(at)[index, place].board = -1
-    show_again(at, index)
+        copy_picture_state(ptr, index, last, number)
+    for place in range(ptr.ring):  # the caller may have written there, so nothing can be repaired
+        views.drawn(ptr)[index, place].board = -1
+    redraw_stack(ptr, index)
 
 
 @internal
-def show_again(at: Any, index: int) -> None:
-    """Draw all pictures of the window from their scenes."""
-    for number in range(the.film(at)[0].stack):
-        show(at, index, number)
+def redraw_stack(ptr: Pointers, index: int) -> None:
+    """Draw all pictures of the window from their states."""
+    for number in range(views.raster(ptr)[0].stack):
+        draw_in_ring(ptr, index, number)
 
 
 @kernel
@@ -72,165 +71,174 @@ def draw_finals(addresses: Any, rows: Any, pictures: int) -> None:
         rows: Which environments, int64 [row].
         pictures: Address of where they go, uint8 [row, stacked, pixel].
     """
-    at = addresses[0]
+    ptr = addresses[0]
     for row in range(len(rows)):
-        for number in range(at.stack):
-            scene = the.final_scenes(at)[rows[row], number]
-            draw(at, scene, pictures + (row * at.stack + number) * at.pixels)
+        for number in range(ptr.stack):
+            state = views.final_picture_states(ptr)[rows[row], number]
+            draw(ptr, state, pictures + (row * ptr.stack + number) * ptr.pixels)
 
 
 @internal
-def show(at: Any, index: int, number: int) -> None:
-    """Draw a scene of an environment in its place in the ring."""
-    scene, place = the.scenes(at)[index, number], place_of(at, number)
-    picture, drawn = frame(at, index, place), the.drawn(at)[index, place]
-    if the.rules(at)[0].mends == 0 or drawn.board != scene.board:
-        draw(at, scene, picture)
+def draw_in_ring(ptr: Pointers, index: int, number: int) -> None:
+    """Draw picture `number` of the window in its frame of the ring."""
+    state, place = views.picture_states(ptr)[index, number], ring_index(ptr, number)
+    picture, drawn = frame_address(ptr, index, place), views.drawn(ptr)[index, place]
+    if views.rules(ptr)[0].can_repair == 0 or drawn.board != state.board:
+        draw(ptr, state, picture)
     else:
-        mend(at, drawn, scene, picture)
-    first = at.scenes_at + (index * at.stack + number) * SCENE_SIZE
-    copy_bytes(at.drawn_at + (index * at.ring + place) * SCENE_SIZE, first, SCENE_SIZE)
+        repair_dirty_rects(ptr, drawn, state, picture)
+    first = ptr.picture_states_at + (index * ptr.stack + number) * PICTURE_STATE_SIZE
+    copy_bytes(ptr.drawn_at + (index * ptr.ring + place) * PICTURE_STATE_SIZE, first, PICTURE_STATE_SIZE)
 
 
 @inlined
-def wind(at: Any, index: int) -> None:
-    """Copy the window of an environment to where its observation goes."""
-    target, start = at.copies_at + index * at.stack * at.pixels, the.film(at)[0].at
-    straight = min(at.stack, at.ring - start)  # pictures up to the ring's end; the rest is at its start
-    copy_bytes(target, frame(at, index, start), straight * at.pixels)
-    copy_bytes(target + straight * at.pixels, frame(at, index, 0), (at.stack - straight) * at.pixels)
+def copy_stack(ptr: Pointers, index: int) -> None:
+    """Copy the window of an environment to its observation."""
+    target, start = ptr.copies_at + index * ptr.stack * ptr.pixels, views.raster(ptr)[0].start
+    to_end = min(ptr.stack, ptr.ring - start)  # pictures up to the end of the ring; the rest is at its start
+    copy_bytes(target, frame_address(ptr, index, start), to_end * ptr.pixels)
+    copy_bytes(target + to_end * ptr.pixels, frame_address(ptr, index, 0), (ptr.stack - to_end) * ptr.pixels)
 
 
 @inlined
-def place_of(at: Any, number: int) -> int:
-    """Where in the ring a picture of the window is."""
-    place = the.film(at)[0].at + number
-    return int(place if place < at.ring else place - at.ring)
+def ring_index(ptr: Pointers, number: int) -> int:
+    """The number of the frame of picture `number` of the window."""
+    place = views.raster(ptr)[0].start + number
+    return int(place if place < ptr.ring else place - ptr.ring)
 
 
 @inlined
-def frame(at: Any, index: int, number: int) -> int:
-    """The address of a picture in the ring."""
-    return int(at.frames_at + (index * at.ring + number) * at.pixels)
+def frame_address(ptr: Pointers, index: int, number: int) -> int:
+    """The address of a frame of the ring."""
+    return int(ptr.frames_at + (index * ptr.ring + number) * ptr.pixels)
 
 
 @inlined
-def copy_scene(at: Any, index: int, number: int, to: int) -> None:
-    """Copy a scene of an environment to another place among its scenes."""
-    first = at.scenes_at + index * at.stack * SCENE_SIZE
-    copy_bytes(first + to * SCENE_SIZE, first + number * SCENE_SIZE, SCENE_SIZE)
+def copy_picture_state(ptr: Pointers, index: int, number: int, to: int) -> None:
+    """Copy state `number` of an environment over another one of its states."""
+    first = ptr.picture_states_at + index * ptr.stack * PICTURE_STATE_SIZE
+    copy_bytes(first + to * PICTURE_STATE_SIZE, first + number * PICTURE_STATE_SIZE, PICTURE_STATE_SIZE)
 
 
 @internal
-def look(at: Any, index: int, number: int) -> None:
-    """Write down what is to be seen of a world now, as its scene of that number."""
-    world, scene, log = the.worlds(at)[index], the.scenes(at)[index, number], the.logs(at)[index]
-    rules = the.rules(at)[0]
-    scene.board = the.board_of(at)[index]
+def record_state(ptr: Pointers, index: int, number: int) -> None:
+    """Record what a world shows now as picture state `number`."""
+    state = views.picture_states(ptr)[index, number]
+    world, log, rules = views.worlds(ptr)[index], views.logs(ptr)[index], views.rules(ptr)[0]
+    state.board = views.board_of(ptr)[index]
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
-        scene.x[slot], scene.z[slot], scene.alive[slot] = ball.x, ball.z, ball.id
+        state.x[slot], state.z[slot], state.alive[slot] = ball.x, ball.z, ball.id
     for side in range(2):
-        turn = (world.paddle[side].angle - rules.rest[side]) * rules.per_angle[side]
-        is_there = rules.per_angle[side] != 0.0
-        scene.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if is_there else -1
+        turn = (world.paddle[side].angle - rules.rest_angle[side]) * rules.angle_scale[side]
+        is_there = rules.angle_scale[side] != 0.0
+        state.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if is_there else -1
     lit = 0
     for entry in range(log.count):
         event = log.event[entry]
         shape = event.part - Part.FIRST_SHAPE
         if event.kind == EventKind.HIT and 0 <= shape < LIT_BITS:
             lit |= 1 << shape
-    scene.lit = lit
+    state.lit = lit
 
 
 @internal
-def draw(at: Any, scene: Any, picture: int) -> None:
-    """Draw a scene as the picture at this address, whatever is there."""
-    film = the.film(at)[0]
-    copy_bytes(picture, at.backgrounds_at + scene.board * at.pixels, at.pixels)
-    if scene.lit != 0:
-        light_up(at, film, scene, picture)
-    draw_paddles(at, film, scene, picture)
+def draw(ptr: Pointers, state: PictureStateRecord, picture: int) -> None:
+    """Draw the whole picture of a state at an address."""
+    raster = views.raster(ptr)[0]
+    copy_bytes(picture, ptr.backgrounds_at + state.board * ptr.pixels, ptr.pixels)
+    if state.lit != 0:
+        light_up(ptr, raster, state, picture)
+    draw_paddles(ptr, raster, state, picture)
     for slot in range(BALL_COUNT):
-        if scene.alive[slot] != 0:
-            draw_ball(film, at.balls_at, scene.x[slot], scene.z[slot], picture)
+        if state.alive[slot] != 0:
+            draw_ball(raster, ptr.ball_sprites_at, state.x[slot], state.z[slot], picture)
 
 
 @internal
-def mend(at: Any, drawn: Any, scene: Any, picture: int) -> None:
-    """Make the picture of a scene from that of another one of the same board; no pixel differs from `draw`'s.
+def repair_dirty_rects(
+    ptr: Pointers, drawn: PictureStateRecord, state: PictureStateRecord, picture: int
+) -> None:
+    """Turn the picture of `drawn` into that of `state`, on the same board; every pixel is as `draw` makes it.
 
-    What may have been hurt thereby is drawn again.
+    Dirty rectangles are restored to the background, and what they may have cut is drawn again.
     """
-    film = the.film(at)[0]
-    empty = at.backgrounds_at + scene.board * at.pixels
-    lowest = 0  # one past the lowest row where a paddle may have been hurt
+    raster = views.raster(ptr)[0]
+    background = ptr.backgrounds_at + state.board * ptr.pixels
+    lowest = 0  # one past the lowest row that was erased and may have cut a paddle
     if drawn.lit != 0:
-        lowest = darken(at, film, drawn, picture, empty)
+        lowest = unlight(ptr, raster, drawn, picture, background)
     for slot in range(BALL_COUNT):
         if drawn.alive[slot] != 0:
-            top, left = ball_corner(film, drawn.x[slot], drawn.z[slot])
-            rows, columns = 2 * film.ball_rows + 1, 2 * film.ball_columns + 1
-            take_away(film, empty, picture, top, left, rows, columns)
+            top, left = ball_corner(raster, drawn.x[slot], drawn.z[slot])
+            rows, columns = 2 * raster.ball_rows + 1, 2 * raster.ball_columns + 1
+            restore_background(raster, background, picture, top, left, rows, columns)
             lowest = max(lowest, top + rows)
-    has_turned = drawn.paddle[0] != scene.paddle[0] or drawn.paddle[1] != scene.paddle[1]
+    has_turned = drawn.paddle[0] != state.paddle[0] or drawn.paddle[1] != state.paddle[1]
     if has_turned:
         for side in range(2):
-            top, left = film.paddle_row[side], film.paddle_column[side]
-            take_away(film, empty, picture, top, left, film.paddle_rows, film.paddle_columns)
-    if scene.lit != 0:
-        lowest = max(lowest, light_up(at, film, scene, picture))
-    if has_turned or lowest > min(film.paddle_row[0], film.paddle_row[1]):
-        draw_paddles(at, film, scene, picture)
+            top, left = raster.paddle_row[side], raster.paddle_column[side]
+            rows, columns = raster.paddle_rows, raster.paddle_columns
+            restore_background(raster, background, picture, top, left, rows, columns)
+    if state.lit != 0:
+        lowest = max(lowest, light_up(ptr, raster, state, picture))
+    if has_turned or lowest > min(raster.paddle_row[0], raster.paddle_row[1]):
+        draw_paddles(ptr, raster, state, picture)
     for slot in range(BALL_COUNT):
-        if scene.alive[slot] != 0:
-            draw_ball(film, at.balls_at, scene.x[slot], scene.z[slot], picture)
+        if state.alive[slot] != 0:
+            draw_ball(raster, ptr.ball_sprites_at, state.x[slot], state.z[slot], picture)
 
 
 @inlined
-def take_away(film: Any, empty: int, picture: int, top: int, left: int, rows: int, columns: int) -> None:
-    """Put a box of the empty board's picture back, as far as it lies within the picture."""
-    first, last = max(0, left) * film.channels, min(film.width, left + columns) * film.channels
+def restore_background(
+    raster: RasterRecord, background: int, picture: int, top: int, left: int, rows: int, columns: int
+) -> None:
+    """Copy a rectangle of the background to the picture, as far as it lies within it."""
+    first, last = max(0, left) * raster.channels, min(raster.width, left + columns) * raster.channels
     if last <= first:
         return
-    for row in range(max(0, top), min(film.height, top + rows)):
-        start = row * film.width * film.channels + first
-        copy_bytes(picture + start, empty + start, last - first)
+    for row in range(max(0, top), min(raster.height, top + rows)):
+        start = row * raster.width * raster.channels + first
+        copy_bytes(picture + start, background + start, last - first)
 
 
 @internal
-def draw_paddles(at: Any, film: Any, scene: Any, picture: int) -> None:
-    """Draw both paddles, as far as they are there."""
-    rows, columns = film.paddle_rows, film.paddle_columns
+def draw_paddles(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int) -> None:
+    """Draw the paddles that the board has."""
+    rows, columns = raster.paddle_rows, raster.paddle_columns
     for side in range(2):
-        if scene.paddle[side] >= 0:
-            number = side * ANGLES + scene.paddle[side]
-            sprite = at.paddles_at + number * rows * columns * film.channels
-            stamp(film, sprite, rows, columns, picture, film.paddle_row[side], film.paddle_column[side])
+        if state.paddle[side] >= 0:
+            number = side * ANGLES + state.paddle[side]
+            sprite = ptr.paddle_sprites_at + number * rows * columns * raster.channels
+            top, left = raster.paddle_row[side], raster.paddle_column[side]
+            blend_sprite(raster, sprite, rows, columns, picture, top, left)
 
 
 @inlined
-def ball_corner(film: Any, x: float, z: float) -> tuple[int, int]:
+def ball_corner(raster: RasterRecord, x: float, z: float) -> tuple[int, int]:
     """The first row and column of a ball's sprite."""
-    row, column = (film.half_length - x) * film.rows, (film.half_width + z) * film.columns
-    return int(row) - film.ball_rows, int(column) - film.ball_columns  # never negative on the board
+    row, column = (raster.half_length - x) * raster.rows, (raster.half_width + z) * raster.columns
+    return int(row) - raster.ball_rows, int(column) - raster.ball_columns  # never negative on the board
 
 
 @inlined
-def draw_ball(film: Any, sprites: int, x: float, z: float, picture: int) -> None:
-    """Draw a ball at (x, z) with the sprite of its place within the pixel."""
-    row, column = (film.half_length - x) * film.rows, (film.half_width + z) * film.columns
-    whole_row, whole_column = int(row), int(column)  # never negative on the board
-    fine = int((row - whole_row) * FINE) * FINE + int((column - whole_column) * FINE)
-    rows, columns = 2 * film.ball_rows + 1, 2 * film.ball_columns + 1
-    sprite = sprites + fine * rows * columns * film.channels
-    stamp(film, sprite, rows, columns, picture, whole_row - film.ball_rows, whole_column - film.ball_columns)
+def draw_ball(raster: RasterRecord, sprites: int, x: float, z: float, picture: int) -> None:
+    """Draw a ball at (x, z) with the sprite for its position within the pixel."""
+    row, column = (raster.half_length - x) * raster.rows, (raster.half_width + z) * raster.columns
+    pixel_row, pixel_column = int(row), int(column)  # never negative on the board
+    subpixel = int((row - pixel_row) * SUBPIXELS) * SUBPIXELS + int((column - pixel_column) * SUBPIXELS)
+    rows, columns = 2 * raster.ball_rows + 1, 2 * raster.ball_columns + 1
+    sprite = sprites + subpixel * rows * columns * raster.channels
+    top, left = pixel_row - raster.ball_rows, pixel_column - raster.ball_columns
+    blend_sprite(raster, sprite, rows, columns, picture, top, left)
 
 
 @internal
-def stamp(film: Any, sprite: int, rows: int, columns: int, picture: int, top: int, left: int) -> None:
-    """Put the sprite at an address onto the picture at another: of two values the brighter one stays."""
-    channels, height, width = film.channels, film.height, film.width
+def blend_sprite(
+    raster: RasterRecord, sprite: int, rows: int, columns: int, picture: int, top: int, left: int
+) -> None:
+    """Blend the sprite at an address into the picture at another: the brighter value wins."""
+    channels, height, width = raster.channels, raster.height, raster.width
     first, last = max(0, -left), min(columns, width - left)
     count = (last - first) * channels
     if count <= 0:
@@ -243,70 +251,72 @@ def stamp(film: Any, sprite: int, rows: int, columns: int, picture: int, top: in
 
 
 @inlined
-def box_of(film: Any, c: Any) -> tuple[int, int, int, int]:
-    """The rows and columns, from … to before, in which a part lies, within the picture."""
-    top = max(0, int((film.half_length - c.x - c.reach) * film.rows))
-    bottom = min(film.height, int((film.half_length - c.x + c.reach) * film.rows) + 1)
-    left = max(0, int((film.half_width + c.z - c.reach) * film.columns))
-    right = min(film.width, int((film.half_width + c.z + c.reach) * film.columns) + 1)
+def visible_box(raster: RasterRecord, c: ColliderRecord) -> tuple[int, int, int, int]:
+    """Top, bottom, left and right of a part within the picture; bottom and right are exclusive."""
+    top = max(0, int((raster.half_length - c.x - c.reach) * raster.rows))
+    bottom = min(raster.height, int((raster.half_length - c.x + c.reach) * raster.rows) + 1)
+    left = max(0, int((raster.half_width + c.z - c.reach) * raster.columns))
+    right = min(raster.width, int((raster.half_width + c.z + c.reach) * raster.columns) + 1)
     return top, bottom, left, right
 
 
 @internal
-def light_up(at: Any, film: Any, scene: Any, address: int) -> int:
-    """Show the prisms and cylinders that were hit in bright; one past the lowest row that changed."""
-    picture = array_at(address, (at.pixels,), BYTE)
-    first, lowest = the.boards(at)[scene.board].collider_first + Part.FIRST_SHAPE, 0
+def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, address: int) -> int:
+    """Brighten the prisms and cylinders that were hit; one past the lowest row that changed."""
+    picture = array_at(address, (ptr.pixels,), BYTE)
+    first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
     for shape in range(LIT_BITS):
-        if scene.lit >> shape & 1 == 0:
+        if state.lit >> shape & 1 == 0:
             continue
-        c = the.colliders(at)[first + shape]
+        c = views.colliders(ptr)[first + shape]
         if c.kind not in (Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
             continue
-        top, bottom, left, right = box_of(film, c)
+        top, bottom, left, right = visible_box(raster, c)
         lowest = max(lowest, bottom)
         for row in range(top, bottom):
             for column in range(left, right):
-                x = film.half_length - (row + 0.5) / film.rows
-                z = (column + 0.5) / film.columns - film.half_width
+                x = raster.half_length - (row + 0.5) / raster.rows
+                z = (column + 0.5) / raster.columns - raster.half_width
                 outside, _, _ = distance(c, x, z)
                 if outside > 0.0:
                     continue
-                pixel = (row * film.width + column) * film.channels
-                picture[pixel] = film.red
-                if film.channels == 3:
-                    picture[pixel + 1] = film.green
-                    picture[pixel + 2] = film.blue
+                pixel = (row * raster.width + column) * raster.channels
+                picture[pixel] = raster.red
+                if raster.channels == 3:
+                    picture[pixel + 1] = raster.green
+                    picture[pixel + 2] = raster.blue
     return lowest
 
 
 @internal
-def darken(at: Any, film: Any, scene: Any, picture: int, empty: int) -> int:
-    """Take away the light of the parts that were hit; one past the lowest row that this has changed."""
-    first, lowest = the.boards(at)[scene.board].collider_first + Part.FIRST_SHAPE, 0
+def unlight(
+    ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int, background: int
+) -> int:
+    """Restore the background of the lit parts; one past the lowest row that changed."""
+    first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
     for shape in range(LIT_BITS):
-        if scene.lit >> shape & 1 != 0:
-            top, bottom, left, right = box_of(film, the.colliders(at)[first + shape])
-            take_away(film, empty, picture, top, left, bottom - top, right - left)
+        if state.lit >> shape & 1 != 0:
+            top, bottom, left, right = visible_box(raster, views.colliders(ptr)[first + shape])
+            restore_background(raster, background, picture, top, left, bottom - top, right - left)
             lowest = max(lowest, bottom)
     return lowest
 
 
 @kernel
-def cover(film: Any, c: Any, samples: int, covered: Any) -> None:
-    """Count for each pixel how many of samples × samples points in it lie within a still part."""
-    for row in range(film.height):
-        for column in range(film.width):
+def count_coverage(raster: RasterRecord, c: ColliderRecord, samples: int, covered: Any) -> None:
+    """Count for each pixel how many of its samples × samples points lie within a part."""
+    for row in range(raster.height):
+        for column in range(raster.width):
             covered[row, column] = 0
-            x = film.half_length - (row + 0.5) / film.rows
-            z = (column + 0.5) / film.columns - film.half_width
-            far = c.reach + 0.5 / film.rows + 0.5 / film.columns
+            x = raster.half_length - (row + 0.5) / raster.rows
+            z = (column + 0.5) / raster.columns - raster.half_width
+            far = c.reach + 0.5 / raster.rows + 0.5 / raster.columns
             if (x - c.x) ** 2 + (z - c.z) ** 2 > far * far:
                 continue
             for up in range(samples):
                 for across in range(samples):
-                    at_x = x + ((up + 0.5) / samples - 0.5) / film.rows
-                    at_z = z + ((across + 0.5) / samples - 0.5) / film.columns
+                    at_x = x + ((up + 0.5) / samples - 0.5) / raster.rows
+                    at_z = z + ((across + 0.5) / samples - 0.5) / raster.columns
                     outside, _, _ = distance(c, at_x, at_z)
                     if outside <= 0.0:
                         covered[row, column] += 1

@@ -1,32 +1,33 @@
-"""Where do the kernels find the arrays of the environments?
+"""The arrays of the environments as the kernels find them: by address, in one ADDRESSES record.
 
-A kernel with thirty arrays as arguments would be slow to call and slow to compile. So the addresses and
-lengths of all of them stand in one ADDRESSES record (see world/single_step.py), which is what the kernels
-hand
-each other; the functions below make the array from it where one is needed. Whoever holds the record must
-hold the arrays.
+A kernel with thirty array arguments would be slow to call and slow to compile. So the addresses and lengths
+of all arrays stand in one record (see world/single_step.py) that kernels pass to each other, and a view such
+as `worlds(ptr)` makes the array where it is needed. Whoever holds the record must hold the arrays.
 """
 
 from __future__ import annotations
 
 import ctypes
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numba import types
+from numpy.typing import NDArray
 
-from silverball.envs.buffers import WRITTEN
-from silverball.envs.state import EPISODE, FILM, RULES, SCENE
+from silverball.envs.state import EPISODE, PICTURE_STATE, RASTER, RULES
 from silverball.physics.kernel import SETTINGS, ir_inlined
 from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
 from silverball.world.single_step import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
 
 FLOAT, SMALL_FLOAT, BYTE = np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.uint8)
 
+Pointers: TypeAlias = Any
+"""An ADDRESSES record."""
+
 
 @intrinsic  # type: ignore[untyped-decorator]
 def _compiled_copy(typing_context: Any, target: Any, source: Any, count: Any) -> Any:
-    """Copy bytes from an address to another; the two runs must not overlap."""
+    """Copy bytes from one address to another; the ranges must not overlap."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         pointers = [builder.inttoptr(address, cgutils.voidptr_t) for address in arguments[:2]]
@@ -43,207 +44,120 @@ def _interpreted_copy(target: int, source: int, count: int) -> None:
 
 copy_bytes: Any = _interpreted_copy if SETTINGS.DISABLE_JIT else _compiled_copy
 
-ARRAYS = (
-    "worlds", "boards", "board_of", "board_seeds", "colliders", "grid", "places", "logs",
-    "tallies", "held", "episodes", "blanks", "layouts", "rules", "film", "actions", "masks", "wanted",
-    *WRITTEN, "finals", "final_counts", "scenes", "final_scenes", "drawn", "backgrounds", "balls", "paddles",
-)  # fmt: skip
-LENGTHS = (
-    "envs", "boards", "colliders", "numbers", "places", "parts", "columns", "layout_columns", "counts",
-    "stack", "ring", "pixels", "ball_pixels", "paddle_pixels",
-)  # fmt: skip
-ADDRESSES = np.dtype(
-    [*((f"{name}_at", "i8") for name in ARRAYS), *((name, "i8") for name in LENGTHS)], align=True
+
+class ArrayType(NamedTuple):
+    """Element type of an array, and the names of its axes; axes of one name have one length."""
+
+    dtype: np.dtype[Any]
+    axes: tuple[str, ...]
+
+
+def _array(dtype: np.dtype[Any], *axes: str) -> ArrayType:
+    return ArrayType(dtype, axes)
+
+
+OUTPUTS = {
+    "observations": _array(SMALL_FLOAT, "envs", "columns"),
+    "rewards": _array(FLOAT, "envs"),
+    "terminated": _array(BOOL, "envs"),
+    "truncated": _array(BOOL, "envs"),
+    "counts": _array(INT, "envs", "info"),  # see `state.INFO`
+    "frames": _array(BYTE, "envs", "ring", "pixels"),  # a ring of pictures
+    "copies": _array(BYTE, "envs", "copied", "pixels"),  # of the window of the ring
+}
+"""The arrays that a step writes its results to."""
+
+ARRAYS = {
+    **OUTPUTS,
+    "worlds": _array(WORLD, "envs"),
+    "boards": _array(BOARD, "boards"),
+    "board_of": _array(INT, "envs"),  # the board of each world
+    "board_seeds": _array(INT, "boards"),
+    "colliders": _array(COLLIDER, "colliders"),  # of all boards
+    "grid": _array(SHORT_INT, "grid_numbers"),  # of all boards
+    "places": _array(FLOAT, "places", "x_and_z"),  # squares in which balls are created
+    "logs": _array(LOG, "envs"),  # events of the last step
+    "tallies": _array(INT, "envs", "parts"),  # hits of each part
+    "held": _array(BOOL, "one", "envs", "buttons"),  # the buttons for run_worlds
+    "episodes": _array(EPISODE, "envs"),
+    "blanks": _array(WORLD, "boards"),  # worlds in which nothing has happened yet
+    "layouts": _array(SMALL_FLOAT, "boards", "layout_columns"),  # obstacles as they stand in an observation
+    "rules": _array(RULES, "one"),
+    "raster": _array(RASTER, "one"),
+    "actions": _array(INT, "envs"),
+    "reset_mask": _array(BOOL, "envs"),
+    "requested_boards": _array(INT, "envs"),  # of the next episode; −1: it is drawn
+    "terms": _array(FLOAT, "rewarded", "terms"),  # of the last step's rewards, see `rewards.TERMS`
+    "counts_before": _array(INT, "rewarded", "counters"),  # before the step; a slice uses its first rows
+    "finals": _array(
+        SMALL_FLOAT, "ended", "columns"
+    ),  # last observations of episodes that ended in this step
+    "final_counts": _array(INT, "ended", "info"),
+    "picture_states": _array(PICTURE_STATE, "envs", "stack"),  # of the window, the newest last
+    "final_picture_states": _array(PICTURE_STATE, "ended", "stack"),
+    "drawn": _array(PICTURE_STATE, "envs", "ring"),  # what the frames show
+    "backgrounds": _array(BYTE, "boards", "pixels"),  # the still parts of each board
+    "ball_sprites": _array(BYTE, "ball_pixels"),
+    "paddle_sprites": _array(BYTE, "paddle_pixels"),
+}
+"""All arrays by name. An ADDRESSES record holds the address of each, and the length of each axis."""
+
+AXES = tuple(dict.fromkeys(axis for array in ARRAYS.values() for axis in array.axes))
+ADDRESSES = np.dtype([*((f"{name}_at", "i8") for name in ARRAYS), *((axis, "i8") for axis in AXES)])
+
+
+def write_addresses(addresses: NDArray[Any], arrays: dict[str, NDArray[Any]]) -> None:
+    """Write the addresses of all arrays, and the lengths of their axes, into an ADDRESSES record [1].
+
+    Raises:
+        ValueError: Two arrays disagree about the length of an axis.
+    """
+    lengths: dict[str, int] = {}
+    for name, (_, axes) in ARRAYS.items():
+        addresses[f"{name}_at"] = arrays[name].ctypes.data
+        for axis, length in zip(axes, arrays[name].shape, strict=True):
+            if lengths.setdefault(axis, length) != length:
+                raise ValueError(
+                    f"axis {axis!r} of {name} must have the length {lengths[axis]}, got {length}"
+                )
+            addresses[axis] = length
+
+
+def _view(name: str) -> Any:
+    """The function that makes an array from an ADDRESSES record, for kernels."""
+    address, (dtype, axes) = f"{name}_at", ARRAYS[name]
+    if len(axes) == 1:
+        (length,) = axes
+
+        def view(ptr: Pointers) -> Any:
+            return array_at(ptr[address], (ptr[length],), dtype)
+
+    elif len(axes) == 2:
+        rows, columns = axes
+
+        def view(ptr: Pointers) -> Any:
+            return array_at(ptr[address], (ptr[rows], ptr[columns]), dtype)
+
+    else:
+        first, second, third = axes
+
+        def view(ptr: Pointers) -> Any:
+            return array_at(ptr[address], (ptr[first], ptr[second], ptr[third]), dtype)
+
+    return ir_inlined(view)
+
+
+rewards, terminated, truncated = _view("rewards"), _view("terminated"), _view("truncated")
+worlds, boards, board_of, board_seeds = (
+    _view("worlds"),
+    _view("boards"),
+    _view("board_of"),
+    _view("board_seeds"),
 )
-
-
-@ir_inlined
-def worlds(at: Any) -> Any:
-    """Records [envs]."""
-    return array_at(at.worlds_at, (at.envs,), WORLD)
-
-
-@ir_inlined
-def boards(at: Any) -> Any:
-    """Records [boards]."""
-    return array_at(at.boards_at, (at.boards,), BOARD)
-
-
-@ir_inlined
-def board_of(at: Any) -> Any:
-    """The board of each world [envs]."""
-    return array_at(at.board_of_at, (at.envs,), INT)
-
-
-@ir_inlined
-def board_seeds(at: Any) -> Any:
-    """The seed of each board [boards]."""
-    return array_at(at.board_seeds_at, (at.boards,), INT)
-
-
-@ir_inlined
-def colliders(at: Any) -> Any:
-    """Of all boards [colliders]."""
-    return array_at(at.colliders_at, (at.colliders,), COLLIDER)
-
-
-@ir_inlined
-def grid(at: Any) -> Any:
-    """Of all boards [numbers]."""
-    return array_at(at.grid_at, (at.numbers,), SHORT_INT)
-
-
-@ir_inlined
-def places(at: Any) -> Any:
-    """Squares in which balls are created [places, 2]."""
-    return array_at(at.places_at, (at.places, 2), FLOAT)
-
-
-@ir_inlined
-def logs(at: Any) -> Any:
-    """What happened in the last step [envs]."""
-    return array_at(at.logs_at, (at.envs,), LOG)
-
-
-@ir_inlined
-def tallies(at: Any) -> Any:
-    """Hits of each part [envs, parts]."""
-    return array_at(at.tallies_at, (at.envs, at.parts), INT)
-
-
-@ir_inlined
-def held(at: Any) -> Any:
-    """What run_worlds presses [1, envs, 3]."""
-    return array_at(at.held_at, (1, at.envs, 3), BOOL)
-
-
-@ir_inlined
-def episodes(at: Any) -> Any:
-    """Records [envs]."""
-    return array_at(at.episodes_at, (at.envs,), EPISODE)
-
-
-@ir_inlined
-def layouts(at: Any) -> Any:
-    """The obstacles of each board as they stand in an observation [boards, layout_columns]."""
-    return array_at(at.layouts_at, (at.boards, at.layout_columns), SMALL_FLOAT)
-
-
-@ir_inlined
-def rules(at: Any) -> Any:
-    """One record [1]."""
-    return array_at(at.rules_at, (1,), RULES)
-
-
-@ir_inlined
-def film(at: Any) -> Any:
-    """One record [1]."""
-    return array_at(at.film_at, (1,), FILM)
-
-
-@ir_inlined
-def actions(at: Any) -> Any:
-    """The buttons as bits [envs]."""
-    return array_at(at.actions_at, (at.envs,), INT)
-
-
-@ir_inlined
-def masks(at: Any) -> Any:
-    """Which environments a reset is for [envs]."""
-    return array_at(at.masks_at, (at.envs,), BOOL)
-
-
-@ir_inlined
-def wanted(at: Any) -> Any:
-    """The board of each one's next episode [envs]; −1: it is drawn."""
-    return array_at(at.wanted_at, (at.envs,), INT)
-
-
-@ir_inlined
-def observations(at: Any) -> Any:
-    """States as they are shown [envs, columns]."""
-    return array_at(at.observations_at, (at.envs, at.columns), SMALL_FLOAT)
-
-
-@ir_inlined
-def rewards(at: Any) -> Any:
-    """Of the last step [envs]."""
-    return array_at(at.rewards_at, (at.envs,), FLOAT)
-
-
-@ir_inlined
-def terminated(at: Any) -> Any:
-    """Of the last step [envs]."""
-    return array_at(at.terminated_at, (at.envs,), BOOL)
-
-
-@ir_inlined
-def truncated(at: Any) -> Any:
-    """Of the last step [envs]."""
-    return array_at(at.truncated_at, (at.envs,), BOOL)
-
-
-@ir_inlined
-def counts(at: Any) -> Any:
-    """The events of each episode so far, see `COUNTS` [envs, counts]."""
-    return array_at(at.counts_at, (at.envs, at.counts), INT)
-
-
-@ir_inlined
-def finals(at: Any) -> Any:
-    """Last observations of episodes that ended in this step [envs, columns]."""
-    return array_at(at.finals_at, (at.envs, at.columns), SMALL_FLOAT)
-
-
-@ir_inlined
-def final_counts(at: Any) -> Any:
-    """Their counts [envs, counts]."""
-    return array_at(at.final_counts_at, (at.envs, at.counts), INT)
-
-
-@ir_inlined
-def scenes(at: Any) -> Any:
-    """What the last pictures show, the newest last [envs, stack]."""
-    return array_at(at.scenes_at, (at.envs, at.stack), SCENE)
-
-
-@ir_inlined
-def final_scenes(at: Any) -> Any:
-    """The same of episodes that ended in this step [envs, stack]."""
-    return array_at(at.final_scenes_at, (at.envs, at.stack), SCENE)
-
-
-@ir_inlined
-def drawn(at: Any) -> Any:
-    """What the pictures in the ring show [envs, ring]."""
-    return array_at(at.drawn_at, (at.envs, at.ring), SCENE)
-
-
-@ir_inlined
-def frames(at: Any) -> Any:
-    """A ring of pictures [envs, ring, pixels]."""
-    return array_at(at.frames_at, (at.envs, at.ring, at.pixels), BYTE)
-
-
-@ir_inlined
-def copies(at: Any) -> Any:
-    """Where copies of the window go [envs, stack, pixels]."""
-    return array_at(at.copies_at, (at.envs, at.stack, at.pixels), BYTE)
-
-
-@ir_inlined
-def backgrounds(at: Any) -> Any:
-    """The still parts of each board [boards, pixels]."""
-    return array_at(at.backgrounds_at, (at.boards, at.pixels), BYTE)
-
-
-@ir_inlined
-def balls(at: Any) -> Any:
-    """Sprites [ball_pixels]."""
-    return array_at(at.balls_at, (at.ball_pixels,), BYTE)
-
-
-@ir_inlined
-def paddles(at: Any) -> Any:
-    """Sprites [paddle_pixels]."""
-    return array_at(at.paddles_at, (at.paddle_pixels,), BYTE)
+colliders, grid, places = _view("colliders"), _view("grid"), _view("places")
+logs, tallies, held = _view("logs"), _view("tallies"), _view("held")
+episodes, rules, raster = _view("episodes"), _view("rules"), _view("raster")
+actions, reset_mask, requested_boards = _view("actions"), _view("reset_mask"), _view("requested_boards")
+terms, counts_before = _view("terms"), _view("counts_before")
+picture_states, final_picture_states = _view("picture_states"), _view("final_picture_states")
+drawn = _view("drawn")

@@ -1,4 +1,4 @@
-"""The vector environment for PufferLib: `SilverballPufferEnv`, which writes right into the trainer's buffers.
+"""Adapter for PufferLib: `SilverballPufferEnv`, which writes right into the trainer's buffers.
 
 import pufferlib.vector
 from silverball.envs.puffer import SilverballPufferEnv
@@ -28,13 +28,13 @@ Step = tuple[Any, NDArray[Any], NDArray[Any], NDArray[Any], list[dict[str, float
 
 
 class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ignore]
-    """Many pinball tables as PufferLib wants them; an episode that ends begins anew in the same step.
+    """Many pinball tables with the interface of PufferLib; the step that ends an episode resets it.
 
     Args:
-        num_envs: How many.
-        buf: The trainer's buffers; None: own ones.
-        seed: Of the first episodes: environment i gets seed × num_envs + i, so that no two workers, which get
-            seeds one after the other, play the same.
+        num_envs: The number of environments.
+        buf: The trainer's buffers; None: new ones.
+        seed: Of the first episodes: environment i gets seed × num_envs + i, so that workers with consecutive
+            seeds play different episodes.
         threads: How many threads a step may use; PufferLib's workers are processes, so one.
         options: See `silverball.envs.options.OPTIONS`; observations cannot be "dict".
     """
@@ -43,7 +43,7 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
         self, num_envs: int = 1, buf: Any = None, seed: int = 0, threads: int = 1, **options: Any
     ) -> None:
         if options.get("observation") == "dict" or options.get("actions") == "multibinary":
-            raise ValueError("PufferLib takes rows and numbers: leave observation and actions as they are")
+            raise ValueError("PufferLib needs observation='state' or 'pixels' and actions='discrete'")
         refuse_options(options, ("autoreset_mode", "zero_copy"), "it is always the same for PufferLib")
         self.envs = PinballVectorEnv(num_envs, AutoresetMode.SAME_STEP, True, threads, **options)
         self.single_observation_space = self.envs.single_observation_space
@@ -65,7 +65,7 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
         return self.observations, []
 
     def step(self, actions: NDArray[Any]) -> Step:
-        """Make a step; the info of a step in which episodes ended is the mean over these."""
+        """Make a step; if episodes ended in it, the only info holds their means."""
         observations, rewards, terminated, truncated, infos = self.envs.step(actions)
         self.actions[:] = actions
         self.rewards[:] = rewards
@@ -75,9 +75,9 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
         self._returns += rewards
         self._lengths += 1
         ended = terminated | truncated
-        told: list[dict[str, float]] = []
+        ended_infos: list[dict[str, float]] = []
         if ended.any():
-            told.append(
+            ended_infos.append(
                 {
                     "episode_return": float(self._returns[ended].mean()),
                     "episode_length": float(self._lengths[ended].mean()),
@@ -85,8 +85,8 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
                 }
             )
             self._returns[ended], self._lengths[ended] = 0.0, 0
-        return self.observations, self.rewards, self.terminals, self.truncations, told
+        return self.observations, self.rewards, self.terminals, self.truncations, ended_infos
 
     def close(self) -> None:
-        """Nothing is open."""
+        """No resources to release."""
         self.envs.close()

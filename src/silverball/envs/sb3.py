@@ -1,4 +1,4 @@
-"""The vector environment for Stable-Baselines3, which has an interface of its own: `SilverballVecEnv`.
+"""Adapter for Stable-Baselines3, which has its own interface for vector environments: `SilverballVecEnv`.
 
 from stable_baselines3 import PPO
 from silverball.envs.sb3 import SilverballVecEnv
@@ -17,9 +17,8 @@ from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
-from silverball.envs.options import refuse_options
-from silverball.envs.single import checked_reset_options
-from silverball.envs.spaces import INFO
+from silverball.envs.options import checked_reset_options, refuse_options
+from silverball.envs.state import INFO
 from silverball.envs.vector import PinballVectorEnv
 
 try:
@@ -31,15 +30,15 @@ except ModuleNotFoundError:
 
 
 class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
-    """Many pinball tables as Stable-Baselines3 wants them.
+    """Many pinball tables with the interface of Stable-Baselines3.
 
-    An episode that ends begins anew in the same step. Its last observation, how it ended, its return, length
-    and counts of events are in its `info`; the infos of all others are empty. Pictures are what
-    Stable-Baselines3 knows as images: in grey (stack, height, width), in colour (3 × stack, height, width) or
-    (height, width, 3) where only one is shown.
+    An environment whose episode ends is reset in the same step. The `info` of the ended episode holds its
+    last observation, how it ended, its return, length and counts of events; all other infos are empty.
+    Pictures have the shapes of Stable-Baselines3's images: grey (stack, height, width), colour (3 × stack,
+    height, width), or (height, width, 3) for a single one in colour.
 
     Args:
-        num_envs: How many.
+        num_envs: The number of environments.
         seed: Of the first episodes: environment i gets seed + i; None: random.
         threads: How many threads a step may use; None: one for each core.
         render_mode: "rgb_array" or None.
@@ -57,14 +56,14 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         render_mode: str | None = None,
         **options: Any,
     ) -> None:
-        refuse_options(options, ("autoreset_mode",), "Stable-Baselines3 knows SAME_STEP alone")
+        refuse_options(options, ("autoreset_mode",), "Stable-Baselines3 supports only SAME_STEP")
         self.envs = PinballVectorEnv(
             num_envs, AutoresetMode.SAME_STEP, threads=threads, render_mode=render_mode, **options
         )
         self.render_mode = render_mode
         space: Any = self.envs.single_observation_space
         if self.envs.options.observation == "pixels":
-            space = Box(0, 255, self._shown(np.zeros((1, *space.shape), np.uint8)).shape[1:], np.uint8)
+            space = Box(0, 255, self._as_images(np.zeros((1, *space.shape), np.uint8)).shape[1:], np.uint8)
         super().__init__(num_envs, space, self.envs.single_action_space)
         self.metadata = self.envs.metadata
         self._first_seed = seed
@@ -73,7 +72,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         self._started = time.time()
 
     def reset(self) -> Any:
-        """Begin an episode in every environment; its observations."""
+        """Begin an episode in every environment and return the observations."""
         seeds = [seed for seed in self._seeds if seed is not None]
         seed: Any = seeds if len(seeds) == self.num_envs else self._first_seed
         given = [checked_reset_options(one, ("board",)) for one in self._options]
@@ -87,55 +86,66 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         self.reset_infos = [
             {name: infos[name][number].item() for name in INFO} for number in range(self.num_envs)
         ]
-        return self._shown(observations)
+        return self._as_images(observations)
 
     def step_async(self, actions: NDArray[Any]) -> None:
-        """Take the actions of the next step."""
+        """Store the actions of the next step."""
         self._actions = actions
 
     def step_wait(self) -> tuple[Any, NDArray[np.float32], NDArray[np.bool_], list[dict[str, Any]]]:
-        """Make the step: observations, rewards, which episodes ended, and a dict for each environment."""
-        observations, rewards, terminated, truncated, infos = self.envs.step(self._actions)
+        """Make the step.
+
+        Returns:
+            Observations, rewards float32 [env], which episodes ended [env], and a dict for each environment.
+        """
+        observations, rewards, terminated, truncated, vector_infos = self.envs.step(self._actions)
         self._returns += rewards
         self._lengths += 1
         ended = terminated | truncated
-        told: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
+        infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         for row in np.flatnonzero(ended):
-            told[row] = {
-                "terminal_observation": self._shown_one(infos["final_obs"][row]),
+            infos[row] = {
+                "terminal_observation": self._as_image(vector_infos["final_obs"][row]),
                 "TimeLimit.truncated": bool(truncated[row] and not terminated[row]),
                 "episode": {
                     "r": float(self._returns[row]),
                     "l": int(self._lengths[row]),
                     "t": round(time.time() - self._started, 6),
                 },
-                **{name: infos["final_info"][name][row].item() for name in INFO},
+                **{name: vector_infos["final_info"][name][row].item() for name in INFO},
             }
         self._returns[ended], self._lengths[ended] = 0.0, 0
-        return self._shown(observations), rewards.astype(np.float32), ended, told
+        return self._as_images(observations), rewards.astype(np.float32), ended, infos
 
     def close(self) -> None:
-        """Nothing is open."""
+        """No resources to release."""
         self.envs.close()
 
     def get_images(self) -> Sequence[NDArray[np.uint8] | None]:
-        """All tables as the window draws them."""
+        """All tables as the game draws them."""
         return self.envs.render() or [None] * self.num_envs
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """An attribute, which all environments share."""
+        """An attribute of the vector, once for each of these environments."""
         return [getattr(self.envs, attr_name) for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
-        """Set an attribute, which all environments share."""
+        """Set an attribute of the vector, for all environments.
+
+        Raises:
+            ValueError: The indices select only some of them.
+        """
         if len(list(self._get_indices(indices))) < self.num_envs:
             raise ValueError(f"the environments share {attr_name!r}: set it for all of them, without indices")
         setattr(self.envs, attr_name, value)
 
     def env_method(self, method_name: str, *arguments: Any, indices: Any = None, **named: Any) -> list[Any]:
-        """Call a method of the vector environment; its result for each of the chosen environments.
+        """Call a method of the vector environment; its result for each of the selected environments.
 
-        `save_state` and `restore_state` act on the chosen ones alone; others need all of them.
+        `save_state` and `restore_state` act on the selected ones; other methods act on all.
+
+        Raises:
+            ValueError: Another method is called for only some of the environments.
         """
         chosen = list(self._get_indices(indices))
         if method_name == "save_state":
@@ -147,11 +157,11 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         return [getattr(self.envs, method_name)(*arguments, **named)] * len(chosen)
 
     def env_is_wrapped(self, wrapper_class: Any, indices: Any = None) -> list[bool]:
-        """No environment is wrapped in anything."""
+        """False for each: the environments have no wrappers."""
         return [False for _ in self._get_indices(indices)]
 
-    def _shown(self, observations: Any) -> Any:
-        """Observations [env, …] as Stable-Baselines3 wants them."""
+    def _as_images(self, observations: Any) -> Any:
+        """Observations [env, …] in the shapes of Stable-Baselines3."""
         options = self.envs.options
         if options.observation != "pixels" or options.rgb == (options.stack == 1):
             return observations
@@ -160,8 +170,8 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         count, stack, height, width, channels = observations.shape
         return np.moveaxis(observations, -1, 2).reshape(count, stack * channels, height, width)
 
-    def _shown_one(self, observation: Any) -> Any:
-        return observation if isinstance(observation, dict) else self._shown(observation[None])[0]
+    def _as_image(self, observation: Any) -> Any:
+        return observation if isinstance(observation, dict) else self._as_images(observation[None])[0]
 
     def _get_indices(self, indices: Any) -> Iterable[int]:
         chosen: Iterable[int] = super()._get_indices(indices)

@@ -1,7 +1,7 @@
 """The environment for many agents at once: `PinballVectorEnv`, a `gymnasium.vector.VectorEnv`.
 
-One compiled call for each slice of environments does everything: actions, physics, rewards, ends, new
-episodes, observations and counts. Environment i is, bit for bit, the single environment with the seed of
+One compiled call for each slice of environments does everything: actions, physics, rewards, ends, resets,
+observations and counts. Environment i equals, bit for bit, the single environment with the seed of
 environment i.
 """
 
@@ -16,52 +16,58 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import ArrayLike, NDArray
 
-from silverball.envs.actions import as_array, as_bits
+from silverball.envs.actions import action_space, as_array, as_bits
 from silverball.envs.engine import Engine
-from silverball.envs.options import NEVER, OF_VECTORS, Options
-from silverball.envs.seeds import GREATEST_SEED, key_of
-from silverball.envs.single import checked_generator, checked_render_mode, checked_reset_options
-from silverball.envs.spaces import INFO, action_space, observation_space, shown, shown_one
+from silverball.envs.observations import as_observation, as_observations, observation_space
+from silverball.envs.options import (
+    NO_LIMIT,
+    SEED_RANGE,
+    VECTOR_ONLY,
+    Options,
+    checked_generator,
+    checked_render_mode,
+    checked_reset_options,
+    checked_seed,
+)
 from silverball.envs.spec import own_spec
-from silverball.envs.state import Mode
+from silverball.envs.state import INFO, ResetMode
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
 from silverball.world import WorldBatch
 from silverball.world.arguments import Index, checked_int, resolve_index
 from silverball.world.threads import cores
 
-MODES = {
-    AutoresetMode.DISABLED: Mode.DISABLED,
-    AutoresetMode.NEXT_STEP: Mode.NEXT_STEP,
-    AutoresetMode.SAME_STEP: Mode.SAME_STEP,
+RESET_MODES = {
+    AutoresetMode.DISABLED: ResetMode.DISABLED,
+    AutoresetMode.NEXT_STEP: ResetMode.NEXT_STEP,
+    AutoresetMode.SAME_STEP: ResetMode.SAME_STEP,
 }
 
-REMADE = {"_engine", "_viewer"}
-"""Attributes that look at the engine's arrays; a copy makes its own."""
+REBUILT = {"_engine", "_viewer"}
+"""Attributes that refer to the engine's arrays; a copy makes its own."""
 
 
 class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
-    """Many pinball tables that move together.
+    """Many pinball tables that make a step together.
 
     Args:
-        num_envs: How many.
-        autoreset_mode: When an environment whose episode is over begins the next: `AutoresetMode.NEXT_STEP`,
-            `SAME_STEP` or `DISABLED`, or their names or values as text.
-        zero_copy: Whether every step writes to the same memory: faster, and right for trainers that copy what
-            they keep. What it returns is to be read only; several pictures are a window that slides. Without
-            it every step returns new arrays.
-        threads: How many threads a step may use; None: one for each core. It never changes a result.
+        num_envs: The number of environments.
+        autoreset_mode: When an environment begins its next episode: `AutoresetMode.NEXT_STEP`, `SAME_STEP` or
+            `DISABLED`, or their names or values as text.
+        zero_copy: Whether every step writes to the same memory: faster, for trainers that copy what they
+            keep. The caller must not write to what a step returns. Without it every step returns new arrays.
+        threads: How many threads a step may use; None: one for each core. Results do not depend on it.
         render_mode: "rgb_array" or None.
         max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows; None
-            or −1: `time_limit` alone counts.
-        own_boards: Whether environment i always plays board i instead of one that is drawn for every episode:
-            of a recipe, which must then have as many `boards`; of a list of tables in turn.
+            or −1: only `time_limit` counts.
+        own_boards: Whether environment i always plays board i instead of one drawn for every episode. A
+            recipe must then have as many `boards`; the tables of a list are taken in turn.
         options: See `silverball.envs.options.OPTIONS`.
 
     Raises:
-        TypeError: There is no option of that name.
-        ValueError: An option cannot be.
-        TableError: The table cannot be used.
+        TypeError: An option is unknown.
+        ValueError: An option has an invalid value.
+        TableError: The table has problems, or there is no such table.
 
     Example:
         >>> import gymnasium as gym
@@ -86,7 +92,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         **options: Any,
     ) -> None:
         self.num_envs = checked_int("num_envs", num_envs, 1, 2**22)
-        self.options = Options.of(options, ("num_envs", "render_mode", "max_episode_steps", *OF_VECTORS))
+        self.options = Options.of(options, ("num_envs", "render_mode", "max_episode_steps", *VECTOR_ONLY))
         self.autoreset_mode = _checked_mode(autoreset_mode)
         self.metadata = {
             "render_modes": ["rgb_array"], "render_fps": self.options.frames_per_second,
@@ -94,19 +100,19 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         }  # fmt: skip
         self.render_mode = checked_render_mode(render_mode, ("rgb_array",))
         threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
-        mode = MODES[self.autoreset_mode]
+        mode = RESET_MODES[self.autoreset_mode]
         self._engine = engine = Engine(self.options, self.num_envs, mode, threads, bool(zero_copy))
         engine.rules["own_boards"] = bool(own_boards)
         boards = len(engine.pool.tables)
         if own_boards and 1 < boards < self.num_envs and not isinstance(self.options.table, (list, tuple)):
             raise ValueError(
                 f"own_boards=True needs a board for each of the {self.num_envs} environments, and there are "
-                f"{boards}: say boards={self.num_envs}"
+                f"{boards}: pass boards={self.num_envs}"
             )
         if max_episode_steps not in (None, -1):
             limit = checked_int("max_episode_steps", max_episode_steps, 1, 2**62)
-            engine.rules["limit"] = min(limit, int(engine.rules["limit"][0]))
-        self.single_observation_space = observation_space(self.options, engine.pool)
+            engine.rules["max_steps"] = min(limit, int(engine.rules["max_steps"][0]))
+        self.single_observation_space = observation_space(self.options, engine.pool.fields)
         self.single_action_space = action_space(self.options)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -114,23 +120,23 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._weights = 1 << np.arange(len(self.options.buttons))
         self._all = np.ones(self.num_envs, np.bool_)
         self._has_begun = False  # all of them
-        self._draws_seed = np.zeros(self.num_envs, np.bool_)  # since np_random was set by hand
+        self._draws_seed = np.zeros(self.num_envs, np.bool_)  # at the next reset, since np_random was set
         self._spec: EnvSpec | None = None
         self._viewer: Viewer | None = None
 
     @property
     def spec(self) -> EnvSpec | None:
-        """How `gymnasium.make_vec` made it, with the steps after which it truncates an episode by itself."""
+        """The spec from `gymnasium.make_vec`, with the number of steps after which episodes are truncated."""
         return self._spec
 
     @spec.setter
     def spec(self, spec: EnvSpec | None) -> None:
-        limit = int(self._engine.rules["limit"][0])
-        self._spec = own_spec(spec, limit if limit < NEVER else None)
+        limit = int(self._engine.rules["max_steps"][0])
+        self._spec = own_spec(spec, limit if limit < NO_LIMIT else None)
 
     @property
     def np_random(self) -> np.random.Generator:
-        """Draws the seeds of environments that are reset without any; set another to use that."""
+        """The generator that draws seeds when environments are reset without any; it can be set."""
         return VectorEnv.np_random.fget(self)  # type: ignore[attr-defined, no-any-return]
 
     @np_random.setter
@@ -140,7 +146,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     @property
     def batch(self) -> WorldBatch:
-        """The worlds; whoever changes them calls `observe` afterwards."""
+        """The worlds; after changing them call `observe`."""
         return self._engine.batch
 
     def reset(
@@ -152,30 +158,31 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """Begin episodes.
 
         Args:
-            seed: Environment i gets seed + i; or one seed each, None to go on with its own; None: all go on.
-            options: ``{"reset_mask": mask}``, bool [env], begins episodes in these environments alone;
-                ``{"board": 12}``, or one for each [env], plays these boards (see `PinballEnv.reset`); None
-                among them: one is drawn.
+            seed: Environment i gets seed + i; or a list of one seed each. None continues an environment's
+                seed.
+            options: ``{"reset_mask": mask}``, bool [env], begins episodes only in these environments;
+                ``{"board": 12}``, or one for each [env], plays these boards (see `PinballEnv.reset`); for
+                None in the list a board is drawn.
 
         Returns:
             The observations, and the counts of events.
 
         Raises:
-            ValueError: The mask or the list of seeds has another length, the mask names none, a seed is no
-                whole number from 0, there is no such board, or an option is unknown.
-            TypeError: The mask is no array of bool.
+            ValueError: The mask or the list of seeds has the wrong length, the mask is empty, a seed is not
+                an integer ≥ 0, there is no such board, or an option is unknown.
+            TypeError: The mask is not a boolean array.
         """
         given = checked_reset_options(options, ("reset_mask", "board"))
         mask = self._checked_mask(given.get("reset_mask"))
-        boards = self._boards(given.get("board"))
-        keys = self._keys(seed)
+        boards = self._requested_boards(given.get("board"))
+        seeds = self._seeds(seed)
         super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
-        self._seed(keys, mask)
-        self._engine.masks[:] = mask
+        self._seed(seeds, mask)
+        self._engine.reset_mask[:] = mask
         self._engine.reset(boards)
         self._has_begun = bool(self._engine.has_begun.all())
         output = self._engine.outputs.last
-        return self._shown(), output.told() if mask.all() else _infos(output.counts, mask)
+        return self._observations(), output.infos_copy() if mask.all() else _masked_infos(output.counts, mask)
 
     def step(
         self, actions: Any
@@ -187,22 +194,24 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
         Returns:
             Observations, rewards, terminations, truncations, each [env], and `infos`: the counts of events so
-            far, as arrays [env]. With SAME_STEP, where episodes have ended, `final_obs` and `final_info` too.
+            far, as arrays [env]. With SAME_STEP also `final_obs` and `final_info` of episodes that have
+            ended.
 
         Raises:
-            ValueError: The actions have another shape, or there is no such action.
-            ResetNeeded: An episode is over that nobody has reset.
+            ValueError: The actions have the wrong shape, one is not in the action space, or a reward callable
+                does not return numbers [env].
+            ResetNeeded: An episode is over and was not reset.
         """
         engine = self._engine
-        self._take(actions)
+        self._set_actions(actions)
         if self.autoreset_mode is AutoresetMode.DISABLED or not self._has_begun:
-            self._refuse_what_is_over()
+            self._refuse_ended_episodes()
         engine.step()
         output = engine.outputs.last
-        infos = output.told()
+        infos = output.infos_copy()
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             self._add_finals(infos, output.terminated | output.truncated)
-        return self._shown(), output.rewards, output.terminated, output.truncated, infos
+        return self._observations(), output.rewards, output.terminated, output.truncated, infos
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """All tables as the window draws them, RGB [row, column, 3] each; None without a render mode."""
@@ -213,15 +222,22 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return tuple(self._viewer.picture(index) for index in range(self.num_envs))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """How `copy` and `pickle` make another: the arrays are known by address and must be made anew."""
+        """Let `copy` and `pickle` rebuild the environments: their arrays are known by address."""
         engine = self._engine
-        chosen = {name: getattr(self.options, name) for name in self.options.__dataclass_fields__}
-        made = (
-            self.num_envs, self.autoreset_mode, engine.owns_output, engine.batch.threads, self.render_mode,
-            None, bool(engine.rules["own_boards"][0]),
+        options = self.options.kwargs()
+        arguments = (
+            self.num_envs, self.autoreset_mode, engine.has_fixed_output, engine.batch.threads,
+            self.render_mode, None, bool(engine.rules["own_boards"][0]),
         )  # fmt: skip
-        kept = {name: value for name, value in vars(self).items() if name not in REMADE}
-        return _made_again, (type(self), made, chosen, int(engine.rules["limit"][0]), self.save_state(), kept)
+        attributes = {name: value for name, value in vars(self).items() if name not in REBUILT}
+        return _rebuild, (
+            type(self),
+            arguments,
+            options,
+            int(engine.rules["max_steps"][0]),
+            self.save_state(),
+            attributes,
+        )
 
     # --- saving and branching
 
@@ -229,7 +245,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """Copy the states of some environments.
 
         Args:
-            index: Which: None (all), a number, a slice, numbers, or a mask.
+            index: Which environments: None (all), a number, a slice, numbers, or a mask.
 
         Returns:
             uint8 [saved, byte]; a row's bytes are what `PinballEnv.save_state` returns.
@@ -237,30 +253,30 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return self._engine.save(resolve_index(index, self.num_envs))
 
     def restore_state(self, state: bytes | NDArray[np.uint8], index: Index = None) -> None:
-        """Put saved states back, bit for bit; `observe` gives the observations.
+        """Restore saved states, bit for bit; `observe` returns the observations.
 
-        One state goes into all chosen environments, which makes them branches of it.
+        A single state is restored into all chosen environments, which makes them branches of it.
 
         Args:
             state: What `save_state` of this or of a single environment returned.
             index: Which environments.
 
         Raises:
-            StateError: The states belong to other boards, another tick rate or stack, or are none. Bytes that
-                somebody has changed are not recognised.
-            ValueError: The index is none, or has another length.
+            StateError: They are not states, or belong to other boards, another tick rate or stack. Bytes that
+                were changed are not detected.
+            ValueError: The index is invalid, or selects another number of environments.
         """
         if isinstance(state, (bytes, bytearray, memoryview)):
             rows = np.frombuffer(state, np.uint8)[None]
         elif isinstance(state, np.ndarray) and state.dtype == np.uint8:
             rows = np.atleast_2d(state)
         else:
-            raise StateError(f"a state is what save_state returned, got {type(state).__name__}")
+            raise StateError(f"state must be what save_state returned, got {type(state).__name__}")
         where = resolve_index(index, self.num_envs)
         count = len(range(*where.indices(self.num_envs))) if isinstance(where, slice) else len(where)
         if len(rows) not in (1, count):
             raise ValueError(
-                f"there are {len(rows)} states for {count} environments; give one, or one for each"
+                f"state must be one state or {count} of them, one for each environment, got {len(rows)}"
             )
         self._engine.restore(rows, where)
         self._has_begun = bool(self._engine.has_begun.all())
@@ -268,14 +284,14 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             self._engine.observe()
 
     def observe(self) -> Any:
-        """The observations of the present states."""
+        """The observations of the current states."""
         self._engine.observe()
-        return self._shown()
+        return self._observations()
 
     def write_to(
         self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
     ) -> bool:
-        """Let all steps from now on write to these arrays; for trainers that bring their own (`zero_copy`).
+        """Make all further steps write to these arrays, for trainers that have their own (`zero_copy`).
 
         Args:
             observations: Of the type and shape of a step's.
@@ -283,9 +299,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             truncated: bool [env].
 
         Returns:
-            Whether they do. Not so, and nothing has changed, if the arrays are of other types or shapes, not
-            in one piece or read-only, or if an observation is a dict or several pictures, which slide along a
-            ring.
+            Whether they do. False, and nothing has changed, if the arrays have other types or shapes, are not
+            contiguous or read-only, or if an observation is a dict or several pictures.
         """
         count = (self.num_envs,)
         if (observations.shape, terminated.shape, truncated.shape) != (
@@ -296,13 +311,13 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     # --- helpers
 
-    def _shown(self) -> Any:
+    def _observations(self) -> Any:
         engine = self._engine
         rows = engine.window if engine.shows_pictures else engine.outputs.last.observations
-        return shown(self.options, engine.pool, rows)
+        return as_observations(self.options, engine.pool.fields, rows)
 
-    def _take(self, actions: Any) -> None:
-        """Check actions and hand them over as numbers."""
+    def _set_actions(self, actions: Any) -> None:
+        """Check actions and store them as numbers."""
         given = as_array(actions)
         buttons = len(self._weights)
         if self.options.actions == "multibinary" and given.shape == (self.num_envs, buttons):
@@ -312,7 +327,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
                 raise ValueError(f"every bit of the actions must be 0 or 1, got {wrong!r}")
             given = bits @ self._weights
         elif given.dtype.kind not in "iub":
-            raise ValueError(f"actions must be whole numbers, got {given.dtype} of the shape {given.shape}")
+            raise ValueError(f"actions must be integers, got {given.dtype} of the shape {given.shape}")
         if given.shape != (self.num_envs,):
             raise ValueError(f"actions must have the shape {self.action_space.shape}, got {given.shape}")
         # Numbers below a power of two have no other bits, and negative ones have a sign.
@@ -322,40 +337,40 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             )
         self._engine.actions[:] = given
 
-    def _refuse_what_is_over(self) -> None:
+    def _refuse_ended_episodes(self) -> None:
         over = np.flatnonzero(self._engine.episodes["over"])
         if len(over):
             raise ResetNeeded(
                 f"{len(over)} episodes are over or have not begun, the first in environment {over[0]}: "
-                'call reset, with options={"reset_mask": terminated | truncated} to begin these alone'
+                'call reset, with options={"reset_mask": terminated | truncated} to begin only these'
             )
 
-    def _keys(self, seed: Any) -> NDArray[np.int64]:
-        """The seed of each environment, int64 [env]; −1: none was given."""
+    def _seeds(self, seed: Any) -> NDArray[np.int64]:
+        """The seed of each environment, int64 [env]; −1: none."""
         if seed is None:
             return np.full(self.num_envs, -1, np.int64)
         if not isinstance(seed, (list, tuple, np.ndarray)) or np.ndim(seed) == 0:
-            first = key_of(seed)
-            return np.array([(first + number) % GREATEST_SEED for number in range(self.num_envs)], np.int64)
+            first = checked_seed(seed)
+            return np.array([(first + number) % SEED_RANGE for number in range(self.num_envs)], np.int64)
         if len(seed) != self.num_envs:
             raise ValueError(f"seed must be one number or {self.num_envs} of them, got {len(seed)}")
-        return np.array([-1 if one is None else key_of(one) for one in seed], np.int64)
+        return np.array([-1 if one is None else checked_seed(one) for one in seed], np.int64)
 
-    def _seed(self, keys: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
-        """Give the masked environments their seeds; those that never had any get random ones."""
-        strangers = mask & (keys < 0) & (self._draws_seed | ~self._engine.has_begun)
+    def _seed(self, seeds: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
+        """Give the masked environments their seeds; those that never had one get random ones."""
+        unseeded = mask & (seeds < 0) & (self._draws_seed | ~self._engine.has_begun)
         self._draws_seed &= ~mask
-        if strangers.any():
-            drawn = self.np_random.integers(GREATEST_SEED, size=self.num_envs, dtype=np.uint64)
-            keys[strangers] = drawn.astype(np.int64)[strangers]
-        where = mask & (keys >= 0)
-        self._engine.seed(keys[where], where)
+        if unseeded.any():
+            drawn = self.np_random.integers(SEED_RANGE, size=self.num_envs, dtype=np.uint64)
+            seeds[unseeded] = drawn.astype(np.int64)[unseeded]
+        where = mask & (seeds >= 0)
+        self._engine.seed(seeds[where], where)
 
-    def _boards(self, wanted: Any) -> NDArray[np.int64]:
+    def _requested_boards(self, requested: Any) -> NDArray[np.int64]:
         """The board of each environment's next episode, int64 [env]; −1: it is drawn."""
-        if wanted is None:
+        if requested is None:
             return np.full(self.num_envs, -1, np.int64)
-        each = [wanted] * self.num_envs if np.ndim(wanted) == 0 else list(wanted)
+        each = [requested] * self.num_envs if np.ndim(requested) == 0 else list(requested)
         if len(each) != self.num_envs:
             raise ValueError(f"board must be one number or {self.num_envs} of them, got {len(each)}")
         pool = self._engine.pool
@@ -365,45 +380,45 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if mask is None:
             return self._all
         if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
-            raise TypeError(f"reset_mask must be an array of bool, got {getattr(mask, 'dtype', type(mask))}")
+            raise TypeError(f"reset_mask must be a boolean array, got {getattr(mask, 'dtype', type(mask))}")
         if mask.shape != (self.num_envs,):
             raise ValueError(f"reset_mask must have the shape ({self.num_envs},), got {mask.shape}")
         if not mask.any():
-            raise ValueError("reset_mask must name at least one environment, got none")
+            raise ValueError("reset_mask must select at least one environment, got none")
         return mask
 
     def _add_finals(self, infos: dict[str, Any], ended: NDArray[np.bool_]) -> None:
-        """What the episodes that ended in this step ended with."""
+        """Add the last observations and counts of the episodes that ended in this step."""
         engine = self._engine
         rows = np.flatnonzero(ended)
         if not len(rows):
             return
         final = np.full(self.num_envs, None, object)
         raw = engine.final_pictures(rows) if engine.shows_pictures else engine.finals[rows]
-        for number, row in enumerate(rows):  # those alone that have ended
-            final[row] = shown_one(self.options, engine.pool, raw[number])
+        for number, row in enumerate(rows):
+            final[row] = as_observation(self.options, engine.pool.fields, raw[number])
         infos["final_obs"], infos["_final_obs"] = final, ended
-        infos["final_info"] = _infos(engine.final_counts, ended)
+        infos["final_info"] = _masked_infos(engine.final_counts, ended)
         infos["_final_info"] = ended.copy()
 
 
-def _made_again(
+def _rebuild(
     make: type[PinballVectorEnv],
-    made: tuple[Any, ...],
-    chosen: dict[str, Any],
-    limit: int,
+    arguments: tuple[Any, ...],
+    options: dict[str, Any],
+    max_steps: int,
     states: NDArray[np.uint8],
-    kept: dict[str, Any],
+    attributes: dict[str, Any],
 ) -> PinballVectorEnv:
-    envs = make(*made, **chosen)
-    envs._engine.rules["limit"] = limit
+    envs = make(*arguments, **options)
+    envs._engine.rules["max_steps"] = max_steps
     envs.restore_state(states)
-    vars(envs).update(kept)
+    vars(envs).update(attributes)
     return envs
 
 
-def _infos(counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
-    """Counts [env, count] as Gymnasium's infos: for each key an array, and where it holds."""
+def _masked_infos(counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
+    """Counts [env, count] as Gymnasium's infos: for each key an array and its mask."""
     counts = np.where(mask[:, None], counts, 0)
     infos: dict[str, Any] = {}
     for name, row in zip(INFO, counts.T, strict=True):

@@ -1,4 +1,4 @@
-"""How does an environment show itself to people? As the window draws it, loaded when first asked for."""
+"""Rendering for people: pictures as the game draws them, and a window. Imports the drawing on first use."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 SIZE = (330, 680)  # width and height [pixel]
 ICON_SIDE = 64  # [pixel]
-MOST_RENDERERS = 8  # kept at once; a board takes some megabytes
+MAX_RENDERERS = 8  # a board takes some megabytes
 
 
 class Screen:
@@ -29,10 +29,10 @@ class Screen:
         rate: Pictures a second; `show` waits until the next one is due.
 
     Raises:
-        NoDisplay: There is no screen, and SDL was not told to do without.
+        NoDisplay: There is no display, and SDL_VIDEODRIVER does not name a driver that needs none.
     """
 
-    _all: ClassVar[list[Screen]] = []  # that are open
+    _all: ClassVar[list[Screen]] = []  # all open ones
 
     def __init__(self, rate: int) -> None:
         import pygame
@@ -50,14 +50,14 @@ class Screen:
 
     @property
     def is_closed(self) -> bool:
-        """Whether somebody has closed it."""
+        """Whether the window was closed."""
         return self._window is None
 
     def show(self, picture: NDArray[np.uint8]) -> None:
-        """Show a picture, RGB [row, column, 3], once it is due."""
+        """Show a picture, RGB [row, column, 3], at the time when it is due."""
         import pygame
 
-        self._answer()
+        self._handle_events()
         if self._window is None:
             return
         pygame.surfarray.blit_array(self._window.get_surface(), picture.swapaxes(0, 1))
@@ -65,17 +65,17 @@ class Screen:
         self._clock.tick(self._rate)
 
     def close(self) -> None:
-        """Close it."""
+        """Close the window."""
         if self._window is not None:
             self._all.remove(self)
             self._window.destroy()
             self._window = None
 
-    def _answer(self) -> None:
-        """Close the windows that somebody wants closed; events come to whichever window asks first."""
+    def _handle_events(self) -> None:
+        """Close the windows that were asked to close; the first window that polls gets the events of all."""
         import pygame
 
-        # A program may read keys and buttons beside this. Asked for WINDOWCLOSE alone, pygame finds none.
+        # Keys and buttons are left for the program. pygame does not find WINDOWCLOSE if asked for it alone.
         left = pygame.KEYDOWN, pygame.KEYUP, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP
         for event in pygame.event.get(exclude=left):
             for screen in self._all.copy():
@@ -86,29 +86,29 @@ class Screen:
 
 
 class Viewer:
-    """Draws worlds of a batch: worlds on the same board share its renderer, but no flash, spark or trail."""
+    """Draws worlds of a batch. Worlds on one board share its renderer, but not flashes, sparks or trails."""
 
     def __init__(self, batch: WorldBatch) -> None:
         self._batch = batch
         self._renderers: dict[int, Renderer] = {}
         self._effects: dict[int, Effects] = {}
-        self._noted: dict[int, tuple[int, int, int]] = {}  # of each world: board, seed, tick
+        self._last_drawn: dict[int, tuple[int, int, int]] = {}  # of each world: board, seed, tick
 
     def picture(self, index: int) -> NDArray[np.uint8]:
-        """World `index` now, RGB [row, column, 3]."""
+        """The current picture of world `index`, RGB [row, column, 3]."""
         from silverball.drawing import Moment
 
         board = int(self._batch.board_of[index])
         renderer = self._renderer(board)
-        renderer.effects = self._follow(index, board)
+        renderer.effects = self._effects_of(index, board)
         return np.array(renderer.array(Moment.of_record(self._batch.state[index], self._batch.tick_rate)))
 
-    def _follow(self, index: int, board: int) -> Effects:
-        """What is still seen of the last moments of a world; nothing of another episode or branch."""
+    def _effects_of(self, index: int, board: int) -> Effects:
+        """The effects of the last moments of a world; a new episode or a restored state clears them."""
         from silverball.drawing.effects import Effects
 
         batch, record = self._batch, self._batch.state[index]
-        before, now = self._noted.get(index), (board, int(record["seed"]), int(record["tick"]))
+        before, now = self._last_drawn.get(index), (board, int(record["seed"]), int(record["tick"]))
         effects = self._effects.get(index)
         if effects is None or before is None or before[:2] != now[:2] or before[2] > now[2]:
             effects = self._effects[index] = Effects(batch.tables[board].board.ball_radius)
@@ -116,14 +116,14 @@ class Viewer:
         if before != now:
             height, names = batch.tables[board].board.height, batch.boards.names[board]
             effects.add_events(read_events(batch.logs[index], names, height), batch.tick_rate)
-            self._noted[index] = now
+            self._last_drawn[index] = now
         return effects
 
     def _renderer(self, board: int) -> Renderer:
         from silverball.drawing import Renderer
 
         if board not in self._renderers:
-            while len(self._renderers) >= MOST_RENDERERS:
+            while len(self._renderers) >= MAX_RENDERERS:
                 del self._renderers[next(iter(self._renderers))]
             self._renderers[board] = Renderer(self._batch.tables[board], SIZE)
         return self._renderers[board]

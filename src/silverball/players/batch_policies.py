@@ -11,12 +11,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.players.planner import BRANCHES, PlannerState, plan_batch
-from silverball.players.planner import ticks_per_decision as planner_ticks
+from silverball.players.planner import BRANCHES, PlannerState, plan_batch, ticks_per_decision as planner_ticks
 from silverball.players.registry import BUILT_IN, CheckedPlayer, check_name
 from silverball.players.simple import PlayerKind
-from silverball.players.trained import press_batch
-from silverball.players.trained import ticks_per_decision as trained_ticks
+from silverball.players.trained import press_batch, ticks_per_decision as trained_ticks
 from silverball.world import World, WorldBatch
 
 

@@ -1,4 +1,4 @@
-"""Which key is meant by a name, on layouts that are made up here?"""
+"""Key names resolved on made-up keyboard layouts."""
 
 from __future__ import annotations
 
@@ -7,15 +7,14 @@ from typing import NamedTuple
 
 import pygame
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from silverball.app import sdl
-from silverball.app.keyboard import US_PLACES, US_SIGNS, Keyboard
-from silverball.app.menus import ACTIONS
+from silverball.app.bindings import ACTIONS
+from silverball.app.keyboard import US_LABELS, US_SCANCODES, Keyboard
 
 USED = {name for line in ACTIONS for name in line.keys}
-SIGNS = sorted(set(US_PLACES) - {"space"})
+SIGNS = sorted(set(US_SCANCODES) - {"space"})
 OTHERS = list("éèçàùöäüßñøåæłщъыэюяфвαβγδשגא:!<*$^")
 
 
@@ -38,18 +37,18 @@ def video():
 
 def keyboard(bears: dict[int, str]) -> Keyboard:
     """A keyboard with these signs; all its other keys are those of a US one."""
-    real = sdl.key_at
+    real = sdl.keycode_at
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sdl, "key_at", lambda place: ord(bears[place]) if place in bears else real(place))
+        patch.setattr(sdl, "keycode_at", lambda place: ord(bears[place]) if place in bears else real(place))
         return Keyboard()
 
 
 def press(bears: dict[int, str], place: int, mod: int = 0) -> Press:
-    return Press(ord(bears.get(place, US_SIGNS.get(place, "\0"))), place, mod)
+    return Press(ord(bears.get(place, US_LABELS.get(place, "\0"))), place, mod)
 
 
 LAYOUTS = st.permutations([*SIGNS, *OTHERS]).map(
-    lambda signs: dict(zip((US_PLACES[sign] for sign in SIGNS), signs, strict=False))
+    lambda signs: dict(zip((US_SCANCODES[sign] for sign in SIGNS), signs, strict=False))
 )
 
 
@@ -58,7 +57,7 @@ def test_on_any_layout_every_name_that_can_be_meant_has_one_key_which_bears_its_
     board = keyboard(bears)
     labels = board.labels(USED)
     signs = USED & set(SIGNS)
-    meant = {place: board.meant(press(bears, place), USED) for place in bears}
+    meant = {place: board.resolve(press(bears, place), USED) for place in bears}
     for name in signs:
         places = [place for place, one in meant.items() if one == name]
         assert len(places) <= 1
@@ -69,106 +68,106 @@ def test_on_any_layout_every_name_that_can_be_meant_has_one_key_which_bears_its_
             assert labels.get(name, name) in (bears[places[0]], name)
 
 
-@given(bears=LAYOUTS, place=st.sampled_from([US_PLACES[sign] for sign in SIGNS]))
+@given(bears=LAYOUTS, place=st.sampled_from([US_SCANCODES[sign] for sign in SIGNS]))
 def test_a_key_that_is_chosen_is_that_key_ever_after(bears, place):
     board = keyboard(bears)
     event = press(bears, place)
-    if not board.meant(event, USED):
-        name = board.name_of(event)
+    if not board.resolve(event, USED):
+        name = board.new_name(event)
         assert name not in USED
-        assert board.meant(event, USED | {name}) == name
+        assert board.resolve(event, USED | {name}) == name
 
 
 def test_a_sign_without_a_font_is_never_called_by_the_sign_of_another_key(monkeypatch):
     monkeypatch.setattr("silverball.app.keyboard.can_show", str.isascii)
-    hebrew = {US_PLACES[sign]: sign for sign in SIGNS} | {US_PLACES["a"]: "n", US_PLACES["n"]: "ש"}
+    hebrew = {US_SCANCODES[sign]: sign for sign in SIGNS} | {US_SCANCODES["a"]: "n", US_SCANCODES["n"]: "ש"}
     assert keyboard(hebrew).labels({"a", "n"}) == {}
-    russian = {US_PLACES["a"]: "ф"}
+    russian = {US_SCANCODES["a"]: "ф"}
     assert keyboard(russian).labels({"q", "ф"}) == {"ф": "a"}
 
 
 def test_on_a_us_keyboard_every_key_is_what_it_bears():
     board = keyboard({})
     for name in USED & set(SIGNS):
-        assert board.meant(press({}, US_PLACES[name]), USED) == name
+        assert board.resolve(press({}, US_SCANCODES[name]), USED) == name
     assert board.labels(USED) == {}
 
 
 def test_a_key_of_another_writing_is_kept_by_its_place_and_works_on_a_latin_keyboard():
-    russian = {US_PLACES["q"]: "й", US_PLACES["a"]: "ф"}
-    name = keyboard(russian).name_of(press(russian, US_PLACES["q"]))
+    russian = {US_SCANCODES["q"]: "й", US_SCANCODES["a"]: "ф"}
+    name = keyboard(russian).new_name(press(russian, US_SCANCODES["q"]))
     assert name == "q"
-    assert keyboard({}).meant(press({}, US_PLACES["q"]), {*USED, name}) == name
+    assert keyboard({}).resolve(press({}, US_SCANCODES["q"]), {*USED, name}) == name
 
 
 def test_names_that_were_kept_before_still_mean_their_keys():
-    french = {US_PLACES["/"]: "!", US_PLACES["a"]: "q", US_PLACES["q"]: "a"}
+    french = {US_SCANCODES["/"]: "!", US_SCANCODES["a"]: "q", US_SCANCODES["q"]: "a"}
     board = keyboard(french)
-    assert board.meant(press(french, US_PLACES["/"]), {*USED, "!"}) == "!"
-    assert board.meant(press(french, US_PLACES["q"]), USED) == "a"
-    assert board.meant(press(french, US_PLACES["a"]), USED) == ""
+    assert board.resolve(press(french, US_SCANCODES["/"]), {*USED, "!"}) == "!"
+    assert board.resolve(press(french, US_SCANCODES["q"]), USED) == "a"
+    assert board.resolve(press(french, US_SCANCODES["a"]), USED) == ""
 
 
 @pytest.mark.parametrize("key", [pygame.K_LSHIFT, pygame.K_LEFT, pygame.K_F1, pygame.K_SPACE, pygame.K_KP5])
 def test_keys_that_bear_no_sign_are_the_same_on_every_layout(key):
     name = pygame.key.name(key)
-    place = next(place for place in range(4, 232) if sdl.key_at(place) == key)
-    for bears in ({}, {US_PLACES["a"]: "ф"}):
+    place = next(place for place in range(4, 232) if sdl.keycode_at(place) == key)
+    for bears in ({}, {US_SCANCODES["a"]: "ф"}):
         event = Press(key, place)
-        assert keyboard(bears).meant(event, {name}) == name
-        assert keyboard(bears).name_of(event) == name
+        assert keyboard(bears).resolve(event, {name}) == name
+        assert keyboard(bears).new_name(event) == name
 
 
 @pytest.mark.parametrize("sign", ["\u200b", "\u0f0b", "\u00a0"])
 def test_the_space_bar_is_itself_whatever_a_layout_writes_with_it(sign):
     bears = {pygame.KSCAN_SPACE: sign}  # Khmer, Dzongkha, and those who like it so
     board = keyboard(bears)
-    assert board.meant(press(bears, pygame.KSCAN_SPACE), USED) == "space"
+    assert board.resolve(press(bears, pygame.KSCAN_SPACE), USED) == "space"
     assert "space" not in board.labels(USED)
 
 
 def test_a_layout_that_changes_without_a_word_is_noticed_at_the_next_press():
     board = keyboard({})
-    event = Press(ord("q"), US_PLACES["a"])
-    assert board.hear(event)
-    assert not board.hear(event)
-    assert board.meant(event, USED | {"q"}) == "q"
+    event = Press(ord("q"), US_SCANCODES["a"])
+    assert board.learn(event)
+    assert not board.learn(event)
+    assert board.resolve(event, USED | {"q"}) == "q"
 
 
 def test_a_press_without_a_place_goes_by_its_sign():
     board = keyboard({})
-    assert board.meant(Press(ord("d"), 0), USED) == "d"
-    assert board.meant(Press(ord("я"), 0), USED) == ""
+    assert board.resolve(Press(ord("d"), 0), USED) == "d"
+    assert board.resolve(Press(ord("я"), 0), USED) == ""
 
 
 @pytest.mark.parametrize(("sign", "name"), [("a", "a"), ("q", ""), ("ф", "a")])
 def test_where_sdl_cannot_be_asked_signs_count_and_places_only_for_other_writings(monkeypatch, sign, name):
-    monkeypatch.setattr(sdl, "key_at", lambda place: None)
+    monkeypatch.setattr(sdl, "keycode_at", lambda place: None)
     board = Keyboard()
-    event = Press(ord(sign), US_PLACES["a"])
-    assert not board.hear(event)
-    assert board.meant(event, USED) == name
+    event = Press(ord(sign), US_SCANCODES["a"])
+    assert not board.learn(event)
+    assert board.resolve(event, USED) == name
     assert board.labels(USED) == {}
 
 
 def test_shift_changes_nothing_but_a_sign_that_is_nowhere_else():
-    french = {US_PLACES[","]: ";", US_PLACES["."]: ":", US_PLACES["m"]: ",", US_PLACES[";"]: "m"}
+    french = {US_SCANCODES[","]: ";", US_SCANCODES["."]: ":", US_SCANCODES["m"]: ",", US_SCANCODES[";"]: "m"}
     board = keyboard(french)
     shift = pygame.KMOD_LSHIFT
-    assert board.meant(press(french, US_PLACES[","], shift), USED) == "."
-    assert board.meant(press(french, US_PLACES["."]), USED) == "."
+    assert board.resolve(press(french, US_SCANCODES[","], shift), USED) == "."
+    assert board.resolve(press(french, US_SCANCODES["."]), USED) == "."
     assert board.labels(USED) == {".": ":"}
-    for place in {US_PLACES[sign] for sign in SIGNS} - {US_PLACES[","]}:
-        assert board.meant(press(french, place, shift), USED) == board.meant(press(french, place), USED)
+    for place in {US_SCANCODES[sign] for sign in SIGNS} - {US_SCANCODES[","]}:
+        assert board.resolve(press(french, place, shift), USED) == board.resolve(press(french, place), USED)
 
 
 def test_the_letters_of_initials_are_typed_on_every_keyboard():
-    russian = {US_PLACES["a"]: "ф", US_PLACES["."]: "ю", US_PLACES["/"]: "."}
+    russian = {US_SCANCODES["a"]: "ф", US_SCANCODES["."]: "ю", US_SCANCODES["/"]: "."}
     board = keyboard(russian)
-    assert board.letter(press(russian, US_PLACES["a"])) == "A"
-    assert board.letter(press(russian, US_PLACES["/"])) == "."
+    assert board.letter(press(russian, US_SCANCODES["a"])) == "A"
+    assert board.letter(press(russian, US_SCANCODES["/"])) == "."
     assert board.letter(Press(pygame.K_SPACE, pygame.KSCAN_SPACE)) == " "
     assert board.letter(Press(pygame.K_KP7, 95)) == "7"
     assert board.letter(Press(pygame.K_LEFT, 80)) == ""
     for letter in string.ascii_uppercase + string.digits + "-":
-        assert keyboard({}).letter(press({}, US_PLACES[letter.lower()])) == letter
+        assert keyboard({}).letter(press({}, US_SCANCODES[letter.lower()])) == letter

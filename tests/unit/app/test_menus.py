@@ -1,16 +1,13 @@
-"""Do the menus ask for what the player chose?"""
+"""The menus: commands, settings and what they draw."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from reading import reads
-from silverball.app.demo_players import PERFORMERS
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
-from silverball.app.menus import page as layout
+from silverball.app.demo_players import DEMO_PLAYERS
+from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry, page_layout
 from silverball.app.menus.commands import (
     Attract,
-    Change,
     EndGame,
     EndReplay,
     Initials,
@@ -22,12 +19,12 @@ from silverball.app.menus.commands import (
     Restart,
     Resume,
     SaveReplay,
+    WatchDemo,
     WatchLast,
-    WatchMachine,
     WatchScore,
 )
 from silverball.app.menus.menus import IDLE, REPEAT_AFTER
-from silverball.app.settings import Settings
+from silverball.app.settings import PlayerSettings, Settings
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 from silverball.game.view import Mode
@@ -47,7 +44,7 @@ def scores(table: str, mode: Mode):
 
 
 def menus_with(settings: Settings | None = None, themes=("neon", "night", "plain")) -> Menus:
-    return Menus(settings or Settings(), TABLES, scores, themes=themes)
+    return Menus(PlayerSettings(settings or Settings()), TABLES, scores, themes=themes)
 
 
 def press(menus: Menus, *buttons: Button):
@@ -79,11 +76,10 @@ def test_play_begins_the_chosen_game_and_closes_the_menus():
 def test_the_mode_is_changed_by_steps_and_kept():
     menus = menus_with(Settings(mode="arcade"))
     choose(menus, "MODE")
-    command = press(menus, RIGHT)
-    assert isinstance(command, Change)
-    assert command.settings.mode == "free"
+    press(menus, RIGHT)
+    assert menus.context.settings.current.mode == "free"
     press(menus, START)
-    assert menus.settings.mode == "free"
+    assert menus.context.settings.current.mode == "free"
     assert menus.page == "main"
 
 
@@ -91,19 +87,18 @@ def test_going_back_from_a_value_brings_the_old_one_again():
     menus = menus_with(Settings(volume=7))
     choose(menus, "SETTINGS")
     choose(menus, "VOLUME")
-    assert press(menus, RIGHT, RIGHT).settings.volume == 9
-    command = press(menus, BACK)
-    assert command == Change(Settings(volume=7))
-    assert menus.settings.volume == 7
+    press(menus, RIGHT, RIGHT)
+    assert menus.context.settings.current.volume == 9
+    press(menus, BACK)
+    assert menus.context.settings.current.volume == 7
 
 
 def test_the_volume_ends_at_its_ends():
     menus = menus_with(Settings(volume=9))
     choose(menus, "SETTINGS")
     choose(menus, "VOLUME")
-    press(menus, RIGHT)
-    assert press(menus, RIGHT) is None
-    assert menus.settings.volume == 10
+    press(menus, RIGHT, RIGHT)
+    assert menus.context.settings.current.volume == 10
 
 
 @pytest.mark.parametrize(
@@ -120,7 +115,9 @@ def test_every_setting_goes_through_all_its_values(label, field, values):
     menus = menus_with()
     choose(menus, "SETTINGS")
     choose(menus, label)
-    seen = {getattr(press(menus, RIGHT).settings, field) for _ in values}
+    seen = set()
+    menus.context.settings.subscribe(lambda before, after: seen.add(getattr(after, field)))
+    press(menus, *[RIGHT] * len(values))
     assert seen == values
 
 
@@ -128,13 +125,15 @@ def test_a_theme_that_is_no_longer_there_can_be_replaced():
     menus = menus_with(Settings(theme="gone"))
     choose(menus, "SETTINGS")
     choose(menus, "COLOURS")
-    assert press(menus, RIGHT).settings.theme in ("neon", "night", "plain")
+    press(menus, RIGHT)
+    assert menus.context.settings.current.theme in ("neon", "night", "plain")
 
 
 def test_a_table_is_chosen_and_played():
     menus = menus_with()
     choose(menus, "TABLE")
-    assert choose(menus, "CLASSIC").settings.table == "classic"
+    choose(menus, "CLASSIC")
+    assert menus.context.settings.current.table == "classic"
     assert menus.page == "main"
     assert choose(menus, "PLAY") == Play(Mode.ARCADE, "classic", None)
 
@@ -167,7 +166,7 @@ def test_a_seed_is_entered_by_digits_and_used_for_random_boards_only():
 
 def test_the_board_of_the_last_game_can_be_played_again():
     menus = menus_with(Settings(table="random"))
-    menus.know(last_seed=4711)
+    menus.context.last_seed = 4711
     choose(menus, "TABLE")
     choose(menus, "BOARD SEED")
     choose(menus, "THE SAME")
@@ -175,29 +174,29 @@ def test_the_board_of_the_last_game_can_be_played_again():
     assert choose(menus, "PLAY") == Play(Mode.ARCADE, "random", 4711)
 
 
-@pytest.mark.parametrize("performer", PERFORMERS)
-def test_every_performer_can_be_watched_on_the_chosen_table(performer):
+@pytest.mark.parametrize("demo_player", DEMO_PLAYERS)
+def test_every_performer_can_be_watched_on_the_chosen_table(demo_player):
     menus = menus_with(Settings(table="random"))
     choose(menus, "WATCH")
-    for _ in PERFORMERS:
-        if reads(menus.draw(LATER), performer.label):
+    for _ in DEMO_PLAYERS:
+        if reads(menus.draw(LATER), demo_player.label):
             break
         press(menus, RIGHT)
-    assert reads(menus.draw(LATER), f"{performer.hint} ON")
-    assert press(menus, START) == WatchMachine(performer.name)
+    assert reads(menus.draw(LATER), f"{demo_player.hint} ON")
+    assert press(menus, START) == WatchDemo(demo_player.name)
 
 
 def test_the_attract_pages_tell_who_plays():
     menus = menus_with()
     menus.open_attract()
-    for performer in PERFORMERS:
-        menus.know(performer=performer)
-        assert any(reads(menus.draw(at / 2), performer.label) for at in range(60))
+    for demo_player in DEMO_PLAYERS:
+        menus.context.demo_player = demo_player
+        assert any(reads(menus.draw(at / 2), demo_player.label) for at in range(60))
 
 
 def test_what_can_be_watched():
     menus = menus_with()
-    menus.know(has_last_game=True)
+    menus.context.has_last_game = True
     choose(menus, "WATCH")
     assert choose(menus, "LAST GAME") == WatchLast()
     menus = menus_with()
@@ -212,27 +211,27 @@ def test_after_watching_the_page_is_open_from_which_it_began():
     menus.open_over(500)
     choose(menus, "WATCH IT")
     assert not menus.is_open
-    menus.open_transport(ReplayFace(0.0, 30.0))
+    menus.open_transport(ReplayStatus(0.0, 30.0))
     assert press(menus, BACK) == EndReplay()
     assert menus.page == "over"
 
 
 def test_the_replay_page_asks_for_speed_hold_and_jumps():
     menus = menus_with()
-    menus.open_transport(ReplayFace(5.0, 30.0))
+    menus.open_transport(ReplayStatus(5.0, 30.0))
     assert press(menus, RIGHT) == ReplaySpeed(1)
     assert press(menus, LEFT) == ReplaySpeed(-1)
     assert press(menus, START) == ReplayPause()
-    menus.show_replay(ReplayFace(5.0, 30.0, paused=True))
+    menus.update_replay(ReplayStatus(5.0, 30.0, is_held=True))
     assert isinstance(press(menus, RIGHT), ReplayJump)
     assert press(menus, LEFT).seconds < 0.0
-    menus.show_replay(ReplayFace(30.0, 30.0))
+    menus.update_replay(ReplayStatus(30.0, 30.0))
     assert press(menus, START) == EndReplay()
 
 
 def test_the_replay_page_shows_time_and_speed_below_the_score():
     menus = menus_with()
-    menus.open_transport(ReplayFace(65.0, 130.0, 0.25))
+    menus.open_transport(ReplayStatus(65.0, 130.0, 0.25))
     game = Dots()
     game.text("4,567", 30, 4)
     dots = menus.draw(1.0, game)
@@ -264,7 +263,7 @@ def test_after_a_game_one_plays_again_watches_or_saves():
     menus.open_over(1234)
     assert reads(menus.draw(0.3), "SCORE 1,234")
     assert choose(menus, "SAVE REPLAY") == SaveReplay()
-    menus.say("saved as game.txt")
+    menus.show_message("saved as game.txt")
     assert reads(menus.draw(0.7), "SAVED AS GAME.TXT")
     assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "classic", None)
 
@@ -286,7 +285,7 @@ def test_initials_are_turned_deleted_and_kept():
     press(menus, BACK)  # the last A again
     press(menus, RIGHT, START)  # B
     assert press(menus, START) == Initials("DAB")
-    assert menus.settings.initials == "DAB"
+    assert menus.context.settings.current.initials == "DAB"
 
 
 def test_leaving_the_initials_keeps_the_score_under_those_of_last_time():
@@ -354,7 +353,7 @@ def test_no_show_starts_at_the_end_of_a_long_game():
 def test_a_long_message_stays_until_it_can_be_read_to_its_end():
     menus = menus_with()
     menus.tick(1.0)
-    menus.say("the replay could not be saved because the disk is full")
+    menus.show_message("the replay could not be saved because the disk is full")
     frames = [menus.draw(1.0 + tick / 5) for tick in range(60)]
     assert any(reads(dots, "THE REPLAY") for dots in frames)
     assert any(reads(dots, "IS FULL") for dots in frames)
@@ -363,7 +362,7 @@ def test_a_long_message_stays_until_it_can_be_read_to_its_end():
 
 def test_the_replay_page_tells_whose_game_it_is_and_how_to_leave():
     menus = menus_with()
-    menus.open_transport(ReplayFace(0.0, 30.0, title="abc"))
+    menus.open_transport(ReplayStatus(0.0, 30.0, title="abc"))
     frames = [menus.draw(tick / 2) for tick in range(60)]
     for text in ("ABC", "SPEED", "BOTH PADDLES HELD: LEAVE", "0:00"):
         assert any(reads(dots, text) for dots in frames), text
@@ -404,9 +403,11 @@ def test_texts_that_are_too_long_scroll_from_their_first_dot_to_their_last(text,
                 sheet[row][at + column] = bool(glyph[row, column])
         at += glyph.shape[1] + NORMAL.gap
     starts, ends = Dots(), Dots()
-    layout.marquee(starts, text, 3, left, left + room, NORMAL, 0.0, "left")
-    moving = max(whole - room, 0) / layout.SCROLL_SPEED
-    layout.marquee(ends, text, 3, left, left + room, NORMAL, layout.SCROLL_WAIT + moving + 0.5, "left")
+    page_layout.marquee(starts, text, 3, left, left + room, NORMAL, 0.0, "left")
+    moving = max(whole - room, 0) / page_layout.SCROLL_SPEED
+    page_layout.marquee(
+        ends, text, 3, left, left + room, NORMAL, page_layout.SCROLL_WAIT + moving + 0.5, "left"
+    )
     shown = min(whole, room)
     first = [[bool(dot) for dot in row] for row in starts.pixels[3:12, left : left + shown]]
     last = [[bool(dot) for dot in row] for row in ends.pixels[3:12, left : left + shown]]
@@ -452,19 +453,19 @@ def test_the_title_tells_which_of_many_choices_is_shown(count):
     pictures = set()
     for index in range(count):
         dots = Dots()
-        layout.title(dots, "TABLE", index, count)
+        page_layout.title(dots, "TABLE", index, count)
         pictures.add(dots.pixels.tobytes())
         assert reads(dots, "TABLE")
-        assert reads(dots, f"{index + 1}/{count}") == (count > layout.MOST_MARKS)
+        assert reads(dots, f"{index + 1}/{count}") == (count > page_layout.MAX_MARKS)
     assert len(pictures) == count
 
 
 def test_a_paddle_that_is_held_hurries_through_a_long_list():
     many = [TableEntry(f"t{number}", f"T{number}") for number in range(500)]
-    menus = Menus(Settings(table="t0"), many, scores)
+    menus = Menus(PlayerSettings(Settings(table="t0")), many, scores)
     choose(menus, "TABLE")
     menus.tick(1.0)
     menus.press(RIGHT)
     for tick in range(12 * 60):
         menus.tick(1.0 + tick / 60)
-    assert menus._desk.pages[-1].index > 250  # within twelve seconds
+    assert menus.context.pages[-1].index > 250  # within twelve seconds

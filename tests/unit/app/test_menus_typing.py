@@ -1,16 +1,15 @@
-"""Can initials and seeds be typed, and are paddle keys that bear letters still paddles until then?"""
+"""Typing initials and seeds; paddle keys with letters stay paddles until another letter is typed."""
 
 import string
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from reading import reads
 from silverball.app.menus import Button, Menus, TableEntry
-from silverball.app.menus.commands import Initials, SeeBoard
+from silverball.app.menus.commands import Initials, ShowBoard
 from silverball.app.menus.entry import LETTERS
-from silverball.app.settings import Settings
+from silverball.app.settings import PlayerSettings, Settings
 
 LEFT, RIGHT, START, BACK = Button
 BUTTONS = {"a": LEFT, "d": RIGHT, " ": START}  # the keys that are buttons of the menus too
@@ -19,7 +18,7 @@ OTHERS = {"return": START, "left": LEFT, "right": RIGHT, "left shift": LEFT}
 
 def initials_page(initials="OLD") -> Menus:
     menus = Menus(
-        Settings(initials=initials, table="random"),
+        PlayerSettings(Settings(initials=initials, table="random")),
         (TableEntry("random", "Random", "", True),),
         lambda *_: (),
     )
@@ -45,7 +44,7 @@ def hit(menus: Menus, *keys: str):
 
 
 def text(menus: Menus) -> str:
-    return menus._desk.pages[-1].text
+    return menus.context.pages[-1].text
 
 
 @pytest.mark.parametrize("done", ["return", " "])
@@ -151,8 +150,8 @@ def test_a_seed_is_typed_by_its_digits():
     assert menus.page == "seed"
     assert hit(menus, "return") is None
     hit(menus, "4", "x", "7", "1", "backspace", "1")
-    assert hit(menus, "return") == SeeBoard(471)
-    assert menus.seed == 471
+    assert hit(menus, "return") == ShowBoard(471)
+    assert menus.context.seed == 471
 
 
 def test_the_page_says_that_letters_can_be_typed_and_which_keys_turn():

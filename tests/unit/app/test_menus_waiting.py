@@ -1,13 +1,13 @@
-"""Which pages wait for ever for somebody who has gone, and what becomes of the others?"""
+"""Idle menus: which pages wait forever, and what the others do."""
 
 import pytest
 
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
+from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry
 from silverball.app.menus.commands import Attract, Initials
-from silverball.app.menus.entry import SIGN_PATIENCE
+from silverball.app.menus.entry import SIGN_TIMEOUT
 from silverball.app.menus.menus import IDLE
-from silverball.app.menus.transport import STUDY
-from silverball.app.settings import Settings
+from silverball.app.menus.transport import HELD_EXTRA_TIME
+from silverball.app.settings import PlayerSettings, Settings
 from silverball.game.view import Mode
 
 LEFT, RIGHT, START, BACK = Button
@@ -22,20 +22,21 @@ def menus_at(root: str, *labels: str) -> Menus:
     def scores(table: str, mode: Mode):
         return ROWS if mode is Mode.ARCADE else ()
 
-    menus = Menus(Settings(initials="OLD"), TABLES, scores, themes=("neon", "night"))
-    menus.know(last_seed=7, has_last_game=True)
+    menus = Menus(PlayerSettings(Settings(initials="OLD")), TABLES, scores, themes=("neon", "night"))
+    menus.context.last_seed = 7
+    menus.context.has_last_game = True
     {
         "main": menus.open_main,
         "pause": menus.open_pause,
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
-        "replay": lambda: menus.open_transport(ReplayFace(3.0, 60.0)),
-        "held replay": lambda: menus.open_transport(ReplayFace(3.0, 60.0, paused=True)),
-        "ended replay": lambda: menus.open_transport(ReplayFace(60.0, 60.0)),
+        "replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
+        "held replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_held=True)),
+        "ended replay": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     menus.tick(1.0)
     for label in labels:
-        page = menus._desk.pages[-1]
+        page = menus.context.pages[-1]
         found = [item.label for item in page._items()].index(label)
         for _ in range((found - page.index) % len(page._items())):
             press(menus, RIGHT)
@@ -51,7 +52,7 @@ def press(menus: Menus, *buttons: Button) -> None:
 
 def wait(menus: Menus, seconds: float) -> list[object]:
     """The commands that come while nobody touches anything."""
-    start = menus._desk.now
+    start = menus.context.now
     ticks = (menus.tick(start + STEP * count) for count in range(1, round(seconds / STEP) + 1))
     return [command for command in ticks if command is not None]
 
@@ -83,7 +84,7 @@ def test_a_page_that_was_left_alone_gives_way_to_the_show(way):
     menus = menus_at(*way)
     if way != ("main",):
         assert menus.page != "main" or way[-1] == "MODE"
-    assert not wait(menus, 0.8 * SIGN_PATIENCE)
+    assert not wait(menus, 0.8 * SIGN_TIMEOUT)
     assert wait(menus, IDLE)[-1] == Attract(True)
     assert menus.page == "attract"
     assert not wait(menus, 20 * IDLE)
@@ -115,7 +116,7 @@ def test_a_replay_waits_while_it_goes_on_and_for_minutes_while_it_is_held():
     menus = menus_at("replay")
     assert not wait(menus, 100 * IDLE)
     menus = menus_at("held replay")
-    assert not wait(menus, STUDY)
+    assert not wait(menus, HELD_EXTRA_TIME)
     assert wait(menus, 2 * IDLE) == [Attract(True)]
 
 
@@ -137,9 +138,9 @@ def test_initials_that_nobody_finishes_are_taken_as_they_stand_and_the_score_is_
     press(menus, *buttons)
     for letter in letters:
         menus.type(letter, letter, is_button=False)
-    assert not wait(menus, 0.9 * SIGN_PATIENCE)
+    assert not wait(menus, 0.9 * SIGN_TIMEOUT)
     assert wait(menus, IDLE) == [Initials(signed), Attract(True)]
-    assert menus.settings.initials == signed
+    assert menus.context.settings.current.initials == signed
     assert not wait(menus, 3 * IDLE)
 
 
@@ -147,16 +148,16 @@ def test_initials_that_nobody_finishes_are_taken_as_they_stand_and_the_score_is_
 def test_every_touch_gives_the_player_the_whole_time_again(touch):
     menus = menus_at("initials")
     for _ in range(5):
-        assert not wait(menus, 0.9 * SIGN_PATIENCE)
+        assert not wait(menus, 0.9 * SIGN_TIMEOUT)
         touch(menus)
     assert menus.page == "initials"
-    assert wait(menus, 1.1 * SIGN_PATIENCE)
+    assert wait(menus, 1.1 * SIGN_TIMEOUT)
 
 
 def test_a_paddle_that_is_held_is_a_touch():
     menus = menus_at("initials")
     menus.press(RIGHT)
-    assert not wait(menus, 2 * SIGN_PATIENCE)
+    assert not wait(menus, 2 * SIGN_TIMEOUT)
     assert menus.page == "initials"
 
 

@@ -1,4 +1,4 @@
-"""Can every page be reached and left with three buttons alone, and drawn at any time?
+"""Every page can be reached and left with three buttons, and drawn at any time.
 
 The whole graph is walked, breadth first: from each page that a window can open, every button is pressed in
 every state. Since states hold functions they cannot be copied; each is reached anew by its presses.
@@ -9,18 +9,18 @@ from collections import deque
 import numpy as np
 import pytest
 
-from silverball.app.menus import Button, Menus, ReplayFace, ScoreRow, TableEntry
+from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry
 from silverball.app.menus.commands import (
     EndReplay,
     Play,
     Quit,
     Restart,
     Resume,
+    WatchDemo,
     WatchLast,
-    WatchMachine,
     WatchScore,
 )
-from silverball.app.settings import Settings
+from silverball.app.settings import PlayerSettings, Settings
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH
 from silverball.game.view import Mode
 
@@ -31,7 +31,7 @@ TABLES = (
     TableEntry("tables/long.toml", "A table whose name is longer than any display", "Größe: 中"),
 )
 ROWS = (ScoreRow("ABC", 123_456_789, "2026-11-25", "k1"), ScoreRow("D.F", 4_560, "2026-11-24", "k2"))
-LEAVES = (Play, Resume, Restart, Quit, EndReplay, WatchLast, WatchMachine, WatchScore)
+LEAVES = (Play, Resume, Restart, Quit, EndReplay, WatchLast, WatchDemo, WatchScore)
 
 
 def fresh(root: str, with_scores: bool = True) -> Menus:
@@ -40,18 +40,19 @@ def fresh(root: str, with_scores: bool = True) -> Menus:
     def scores(table: str, mode: Mode):
         return ROWS if with_scores and table in ("classic", "random") and mode is Mode.ARCADE else ()
 
-    menus = Menus(Settings(), TABLES, scores, themes=("neon", "night"))
+    menus = Menus(PlayerSettings(Settings()), TABLES, scores, themes=("neon", "night"))
     if with_scores:
-        menus.know(last_seed=77, has_last_game=True)
+        menus.context.last_seed = 77
+        menus.context.has_last_game = True
     {
         "main": menus.open_main,
         "attract": menus.open_attract,
         "pause": menus.open_pause,
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
-        "transport": lambda: menus.open_transport(ReplayFace(3.0, 60.0)),
-        "held transport": lambda: menus.open_transport(ReplayFace(3.0, 60.0, paused=True)),
-        "ended transport": lambda: menus.open_transport(ReplayFace(60.0, 60.0)),
+        "transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
+        "held transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_held=True)),
+        "ended transport": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     return menus
 
@@ -105,7 +106,7 @@ def test_every_page_of_the_main_menu_is_reached_and_left_with_three_buttons(main
     edges, _ = main_walk
     pages = {page for state in edges if state != "out" for page, _ in state}
     assert pages == {
-        "main", "table", "board", "seed", "watch", "champions", "scores", "settings",
+        "main", "table", "board", "seed", "watch", "high_scores", "scores", "settings",
         "keys", "keys of an action", "pad", "pad of an action", "capture",
     }  # fmt: skip
     back = leading_to(edges, lambda state: state != "out" and len(state) == 1 and state[0][0] == "main")

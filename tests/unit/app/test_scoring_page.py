@@ -3,8 +3,7 @@
 import re
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from silverball.app.scoring import how_to_score, quick_shoves
 from silverball.game.builtin_rules import ArcadeRules

@@ -1,4 +1,4 @@
-"""Through pygame's own mixer: no device, a device that swallows all, and one that writes it into a file."""
+"""Sounds through pygame's mixer: without a device, with a dummy, and with one that writes a file."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from silverball.app.sound.sounds import master_volume
 from silverball.app.sound.synth import RATE
 from silverball.app.sound.voices import Note
 from silverball.game.view import GameEvent, GameEventKind
+from silverball.table import Cylinder, Table, load_table
 from silverball.world.events import Event
 
 WIDTH, TICKS = 10.0, 240
@@ -41,8 +42,9 @@ def dummy(monkeypatch):
     """Open sounds on a device that swallows everything."""
     monkeypatch.setenv("SDL_AUDIODRIVER", "dummy")
     sounds = Sounds(LOUD)
+    sounds.begin_game(_classic())
     sounds.open()
-    assert sounds.trouble == ""
+    assert sounds.warning == ""
     sounds.wait()
     yield sounds
     sounds.close()
@@ -53,24 +55,22 @@ def dummy(monkeypatch):
 
 def use_all(sounds: Sounds) -> None:
     """Call everything that a window calls."""
-    sounds.begin(_classic())
-    sounds.change(Settings(volume=3))
-    sounds.tell([GameEvent(GameEventKind.TILT, 1)])
-    sounds.note([hit(), hit("cylinder[0]")], TICKS, WIDTH)
-    sounds.buttons(True, False)
-    sounds.rolling([(1, 0.0, 0.0, 10.0)], 1 / 60, WIDTH)
-    sounds.menu("choose")
+    sounds.begin_game(_classic())
+    sounds.apply_settings(Settings(volume=3))
+    sounds.play_game_events([GameEvent(GameEventKind.TILT, 1)])
+    sounds.play_events([hit(), hit("cylinder[0]")], TICKS, WIDTH)
+    sounds.set_buttons(True, False)
+    sounds.set_rolling([(1, 0.0, 0.0, 10.0)], 1 / 60, WIDTH)
+    sounds.play_menu("choose")
     sounds.pause()
     sounds.resume()
-    sounds.rolling([], 1 / 60, WIDTH)
+    sounds.set_rolling([], 1 / 60, WIDTH)
     sounds.wait()
     sounds.close()
     sounds.close()
 
 
 def _classic():
-    from silverball.table import load_table
-
     return load_table("classic")
 
 
@@ -78,8 +78,8 @@ def test_without_a_device_it_is_silent_and_says_why_in_one_sentence(monkeypatch,
     monkeypatch.setenv("SDL_AUDIODRIVER", "nonexistent")
     sounds = Sounds(LOUD)
     sounds.open()
-    assert sounds.trouble.startswith("no sound: no audio device could be opened (")
-    assert "\n" not in sounds.trouble
+    assert sounds.warning.startswith("no sound: no audio device could be opened (")
+    assert "\n" not in sounds.warning
     use_all(sounds)
     assert sounds.voices == 0
     assert capfd.readouterr().err == ""
@@ -93,14 +93,14 @@ def test_without_pygames_mixer_it_is_silent(monkeypatch):
     monkeypatch.setattr(pygame, "mixer", Missing())
     sounds = Sounds(LOUD)
     sounds.open()
-    assert "mixer module not available" in sounds.trouble
+    assert "mixer module not available" in sounds.warning
     use_all(sounds)
 
 
 def test_before_it_is_opened_it_is_silent_without_a_complaint():
     sounds = Sounds(LOUD)
     use_all(sounds)
-    assert sounds.trouble == ""
+    assert sounds.warning == ""
 
 
 def test_a_device_that_refuses_a_small_buffer_gets_a_larger_one(monkeypatch):
@@ -117,7 +117,7 @@ def test_a_device_that_refuses_a_small_buffer_gets_a_larger_one(monkeypatch):
     monkeypatch.setattr(pygame.mixer, "init", refuse_small)
     sounds = Sounds(LOUD)
     sounds.open()
-    assert sounds.trouble == ""
+    assert sounds.warning == ""
     assert tried == sorted(tried)
     assert len(tried) > 1
     sounds.close()
@@ -128,7 +128,7 @@ def test_sounds_can_be_closed_and_opened_again(dummy):
     assert pygame.mixer.get_init() is None
     dummy.open()
     dummy.wait()
-    dummy.menu("choose")
+    dummy.play_menu("choose")
     assert dummy.voices == 1
 
 
@@ -140,22 +140,23 @@ def test_the_device_is_stereo_of_16_bits(dummy):
 
 
 def test_what_happens_is_played(dummy):
-    dummy.note([hit(), hit("cylinder[1]")], TICKS, WIDTH)
-    dummy.buttons(True, True)
-    dummy.menu("move")
+    dummy.play_events([hit(), hit("cylinder[1]")], TICKS, WIDTH)
+    dummy.set_buttons(True, True)
+    dummy.play_menu("move")
     assert dummy.voices == 5
 
 
 def test_a_storm_of_a_thousand_events_has_few_voices(dummy):
+    dummy.begin_game(Table(cylinder=tuple(Cylinder(center=(0.0, 0.0), radius=1.0) for _ in range(40))))
     parts = [f"cylinder[{number}]" for number in range(40)]
     for frame in range(100):
         events = [
             hit(parts[(10 * frame + number) % 40], ball=number % 2, tick=4 * frame, speed=5.0 + number % 7)
             for number in range(10)
         ]
-        dummy.note(events, TICKS, WIDTH)
-        dummy.buttons(frame % 2 == 0, frame % 2 == 1)
-        dummy.rolling([(1, 0.0, -3.0, 15.0), (2, 0.0, 3.0, 7.0)], 1 / 60, WIDTH)
+        dummy.play_events(events, TICKS, WIDTH)
+        dummy.set_buttons(frame % 2 == 0, frame % 2 == 1)
+        dummy.set_rolling([(1, 0.0, -3.0, 15.0), (2, 0.0, 3.0, 7.0)], 1 / 60, WIDTH)
         assert dummy.voices <= HIT_CHANNELS + 2 * LANES
     assert dummy.voices > 4
     assert pygame.mixer.get_num_channels() == TOO_MUCH
@@ -163,20 +164,20 @@ def test_a_storm_of_a_thousand_events_has_few_voices(dummy):
 
 def test_the_oldest_sounds_make_room(dummy):
     for number in range(3 * HIT_CHANNELS):
-        dummy.note([hit("cylinder[0]", ball=number, tick=100 * number)], TICKS, WIDTH)
+        dummy.play_events([hit("cylinder[0]", ball=number, tick=100 * number)], TICKS, WIDTH)
         time.sleep(0.03)  # two frames: what fades is gone
     before = dummy.voices
-    dummy.menu("choose")
+    dummy.play_menu("choose")
     assert dummy.voices == before + 1 <= HIT_CHANNELS
 
 
 def test_muted_nothing_is_played_and_what_was_playing_ends(dummy):
-    dummy.menu("high_score")
-    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    dummy.play_menu("high_score")
+    dummy.set_rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
     assert dummy.voices > 1
-    dummy.change(Settings(muted=True))
-    dummy.note([hit()], TICKS, WIDTH)
-    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    dummy.apply_settings(Settings(muted=True))
+    dummy.play_events([hit()], TICKS, WIDTH)
+    dummy.set_rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
     deadline = time.monotonic() + 5.0
     while dummy.voices and time.monotonic() < deadline:
         time.sleep(0.01)
@@ -185,18 +186,18 @@ def test_muted_nothing_is_played_and_what_was_playing_ends(dummy):
 
 def test_a_pause_ends_rolling_but_menus_are_heard(dummy):
     ball = [(1, 0.0, 0.0, 10.0)]
-    dummy.rolling(ball, 0.1, WIDTH)
+    dummy.set_rolling(ball, 0.1, WIDTH)
     assert dummy.voices > 0
     dummy.pause()
     deadline = time.monotonic() + 5.0
     while dummy.voices and time.monotonic() < deadline:
         time.sleep(0.01)
-    dummy.rolling(ball, 0.1, WIDTH)
+    dummy.set_rolling(ball, 0.1, WIDTH)
     assert dummy.voices == 0
-    dummy.menu("move")
+    dummy.play_menu("move")
     assert dummy.voices == 1
     dummy.resume()
-    dummy.rolling(ball, 0.1, WIDTH)
+    dummy.set_rolling(ball, 0.1, WIDTH)
     assert dummy.voices > 1
 
 
@@ -218,7 +219,7 @@ def disk(tmp_path, monkeypatch):
     monkeypatch.setenv("SDL_DISKAUDIOFILE", str(tmp_path / "played.raw"))
     sounds = Sounds(LOUD)
     sounds.open()
-    assert sounds.trouble == ""
+    assert sounds.warning == ""
     sounds.wait()
     yield sounds, tmp_path / "played.raw"
     sounds.close()
@@ -236,12 +237,13 @@ def played(file: Path) -> np.ndarray:
 
 def test_a_scripted_scene_is_heard_when_and_where_it_happens(disk):
     sounds, file = disk
+    sounds.begin_game(_classic())
     scene = [("board.left", -4.5), ("cylinder[0]", 0.0), ("triangular_prism[0]", 4.5), ("paddle.left", -2.0)]
     times = []
     for number, (part, z) in enumerate(scene):
         time.sleep(0.2)
         before = written(file)
-        sounds.note([hit(part, tick=number, z=z)], TICKS, WIDTH)
+        sounds.play_events([hit(part, tick=number, z=z)], TICKS, WIDTH)
         times.append((before, written(file)))
         time.sleep(0.15)
         sounds._mixer.fade_all()
@@ -302,7 +304,7 @@ def test_rolling_has_no_clicks_in_the_real_mixer(disk):
     sounds, file = disk
 
     def a_frame(balls) -> None:
-        sounds.rolling(balls, 1 / 60, WIDTH)
+        sounds.set_rolling(balls, 1 / 60, WIDTH)
         before, deadline = written(file), time.monotonic() + 5.0
         while (
             written(file) == before and time.monotonic() < deadline
@@ -323,9 +325,9 @@ def test_rolling_has_no_clicks_in_the_real_mixer(disk):
 
 def test_volume_zero_writes_silence(disk):
     sounds, file = disk
-    sounds.change(Settings(volume=0))
-    sounds.note([hit()], TICKS, WIDTH)
-    sounds.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    sounds.apply_settings(Settings(volume=0))
+    sounds.play_events([hit()], TICKS, WIDTH)
+    sounds.set_rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
     time.sleep(0.2)
     sounds.close()
     assert len(played(file)) > 0
@@ -338,7 +340,7 @@ def test_a_program_that_ends_without_closing_ends_well():
         from silverball.app.sound import Sounds
         sounds = Sounds(Settings())
         sounds.open()
-        print("open", sounds.trouble)
+        print("open", sounds.warning)
     """
     done = subprocess.run(
         [sys.executable, "-c", textwrap.dedent(script)],
@@ -361,10 +363,10 @@ def test_sounds_do_not_wait_for_the_physics():
 
 
 def test_a_device_that_goes_away_in_the_middle_ends_the_sounds_and_nothing_else(dummy):
-    dummy.rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
+    dummy.set_rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
     pygame.mixer.quit()
-    dummy.note([hit()], TICKS, WIDTH)
-    assert dummy.trouble.startswith("no sound any more: the audio device is gone (")
+    dummy.play_events([hit()], TICKS, WIDTH)
+    assert dummy.warning.startswith("no sound any more: the audio device is gone (")
     use_all(dummy)
 
 

@@ -79,7 +79,7 @@ def test_a_harder_hit_is_louder():
 def test_the_paddles_news_and_menus_are_heard():
     for change in (
         {"buttons": (True, False)},
-        {"news": (GameEvent(GameEventKind.TILT, 0),)},
+        {"game_events": (GameEvent(GameEventKind.TILT, 0),)},
         {"menu": "choose"},
     ):
         assert mix(0.5, {3: change}).any()
@@ -121,7 +121,7 @@ def game(seconds: float) -> np.ndarray:
             world.create_ball()
             events += world.events[-1:]
         world.step(*buttons, ticks=4)
-        film.note(world, [*events, *world.events], buttons)
+        film.add_picture(world, [*events, *world.events], buttons)
     track = film.track()
     assert track.rate == RATE
     assert len(track.samples) == round(seconds * RATE)

@@ -1,4 +1,4 @@
-"""What is played for what happens: strengths, places, steps of the scale, and limits."""
+"""The notes of events: strengths, panning, steps of the scale, and limits."""
 
 from __future__ import annotations
 
@@ -7,23 +7,30 @@ from itertools import pairwise
 
 import pytest
 
-from silverball.app.sound.panning import FULL_SPEED, pan, strength_of
+from silverball.app.sound.levels import FULL_SPEED, pan, strength_of
 from silverball.app.sound.rolling import _SILENT, LANES, ROLL_SPEEDS, Rolling
-from silverball.app.sound.scale import BELL_STEPS
+from silverball.app.sound.synth import BELL_STEPS
 from silverball.app.sound.voices import (
-    AGAIN_SECONDS,
+    MAX_AT_ONCE,
+    MAX_NEW,
     MENU,
-    MOST_AT_ONCE,
-    MOST_NEW,
+    REPEAT_SECONDS,
     RUN_SECONDS,
     Voices,
     step_of,
 )
 from silverball.game.view import GameEvent, GameEventKind
-from silverball.table import Table, load_table
+from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, load_table
 from silverball.world.events import Event
 
 RATE, WIDTH = 240, 10.0
+TABLE = Table(
+    name="Every kind of part",
+    paddle=load_table("classic").paddle,
+    slant_wall=tuple(SlantWall(start=(0.0, 0.0), end=(1.0, 0.0)) for _ in range(8)),
+    triangular_prism=tuple(TriangularPrism(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))) for _ in range(8)),
+    cylinder=tuple(Cylinder(center=(0.0, 0.0), radius=1.0) for _ in range(8)),
+)
 FRAME = 1.0 / 60.0
 
 
@@ -32,7 +39,7 @@ def event(kind="hit", part="board.left", *, ball=1, tick=0, z=0.0, speed=10.0) -
 
 
 def notes_of(*events: Event, voices: Voices | None = None):
-    return (voices or Voices()).hits(events, RATE, WIDTH)
+    return (voices or Voices(TABLE)).world_events(events, RATE, WIDTH)
 
 
 def strength(note) -> float:
@@ -67,16 +74,16 @@ def test_every_part_of_a_real_game_is_heard():
     table = sb.generate_table(seed=7)
     world = sb.World(table, seed=7)
     kinds, heard = set(), set()
-    voices = Voices()
+    voices = Voices(TABLE)
     for tick in range(240 * 20):
         if len(world.balls) < 2:
             world.create_ball()
-            voices.hits(world.events[-1:], RATE, WIDTH)
+            voices.world_events(world.events[-1:], RATE, WIDTH)
         world.step(left=tick % 100 < 40, right=tick % 130 < 50)
         for one in world.events:
             if one.kind in ("hit", "ball_hit") and one.speed > 3.0:
                 kinds.add(one.part.partition("[")[0].partition(".")[0])
-        heard |= {note.key.name for note in voices.hits(world.events, RATE, WIDTH)}
+        heard |= {note.key.name for note in voices.world_events(world.events, RATE, WIDTH)}
     sound = {"board": "wall", "triangular_prism": "prism", "paddle": "paddle_hit", "ball": "balls"}
     assert len(kinds) >= 5
     assert {sound.get(kind, kind) for kind in kinds} <= heard
@@ -123,7 +130,7 @@ def test_a_touched_cylinder_does_not_ring_as_one_that_kicks():
 
 
 def test_blows_in_a_row_take_turns_of_the_variations():
-    voices = Voices()
+    voices = Voices(TABLE)
     keys = [notes_of(event(tick=240 * number), voices=voices)[0].key for number in range(6)]
     assert all(one != other for one, other in pairwise(keys))
 
@@ -142,24 +149,24 @@ def steps(voices: Voices, ticks, part="cylinder[0]") -> list[int]:
 
 def test_hits_in_a_row_climb_the_scale():
     gap = round(0.5 * RUN_SECONDS * RATE)
-    assert steps(Voices(), range(0, 10 * gap, gap)) == list(range(10))
+    assert steps(Voices(TABLE), range(0, 10 * gap, gap)) == list(range(10))
 
 
 def test_a_run_ends_when_the_next_hit_is_late():
     late = round(1.1 * RUN_SECONDS * RATE)
-    assert steps(Voices(), [0, 100, 200, 200 + late]) == [0, 1, 2, 0]
+    assert steps(Voices(TABLE), [0, 100, 200, 200 + late]) == [0, 1, 2, 0]
 
 
 def test_prisms_climb_too_but_walls_do_not():
-    voices = Voices()
+    voices = Voices(TABLE)
     notes_of(event(part="triangular_prism[1]", tick=0), event(part="board.left", tick=50), voices=voices)
     assert steps(voices, [100]) == [1]
 
 
 def test_the_game_knows_better_how_many_hits_were_in_a_row():
-    voices = Voices()
+    voices = Voices(TABLE)
     assert steps(voices, [0]) == [0]
-    voices.news([GameEvent(GameEventKind.COMBO, 100, 7)])
+    voices.game_events([GameEvent(GameEventKind.COMBO, 100, 7)])
     assert steps(voices, [100, 150]) == [6, 7]
 
 
@@ -169,9 +176,9 @@ def test_a_long_run_goes_round_the_upper_octave():
 
 
 def test_another_game_begins_at_the_bottom_of_the_scale():
-    voices = Voices()
+    voices = Voices(TABLE)
     assert steps(voices, [0, 100]) == [0, 1]
-    voices.begin(None)
+    voices.begin_game(TABLE)
     assert steps(voices, [150]) == [0]
 
 
@@ -182,17 +189,17 @@ def test_of_many_hits_in_a_frame_the_loudest_are_heard():
     events = [event(part=f"cylinder[{number}]", ball=number, speed=1.0 + number) for number in range(12)]
     events += [event("ball_hit", "ball", ball=99, speed=21.0)]
     notes = notes_of(*events)
-    assert len(notes) == MOST_NEW
+    assert len(notes) == MAX_NEW
     assert notes[0].key.name == "balls"
 
 
 def test_the_hits_of_a_frame_never_add_up_to_more_than_fits():
     notes = notes_of(*(event(part=f"slant_wall[{number}]", ball=number, speed=22.0) for number in range(4)))
-    assert sum(map(strength, notes)) == pytest.approx(MOST_AT_ONCE)
+    assert sum(map(strength, notes)) == pytest.approx(MAX_AT_ONCE)
 
 
 def test_a_ball_that_rattles_in_a_corner_gets_softer_and_makes_no_storm():
-    voices = Voices()
+    voices = Voices(TABLE)
     frames = []
     for frame in range(60):
         events = [
@@ -201,7 +208,7 @@ def test_a_ball_that_rattles_in_a_corner_gets_softer_and_makes_no_storm():
         ]
         frames.append(notes_of(*events, voices=voices))
     notes = [note for frame in frames for note in frame]
-    assert len(notes) <= 2 / AGAIN_SECONDS + 2  # two walls for a second
+    assert len(notes) <= 2 / REPEAT_SECONDS + 2  # two walls for a second
     assert strength(notes[-1]) < 0.3 * strength(notes[0])
 
 
@@ -211,7 +218,7 @@ def test_a_much_harder_hit_on_the_same_part_is_heard_at_once():
 
 
 def test_a_world_that_begins_again_is_heard_again():
-    voices = Voices()
+    voices = Voices(TABLE)
     notes_of(event(tick=100_000), voices=voices)
     assert len(notes_of(event(tick=1), voices=voices)) == 1
 
@@ -224,50 +231,52 @@ def names(notes) -> list[str]:
 
 
 def test_a_button_pulls_the_coil_and_the_paddle_reaches_its_stop_after_its_stroke():
-    voices = Voices()
-    voices.begin(Table.model_validate({"paddle": [{"side": "left", "pivot": [-7.0, -2.5], "stroke": 0.05}]}))
+    voices = Voices(TABLE)
+    voices.begin_game(
+        Table.model_validate({"paddle": [{"side": "left", "pivot": [-7.0, -2.5], "stroke": 0.05}]})
+    )
     assert names(voices.buttons(True, False)) == ["coil left"]
     assert voices.buttons(True, False) == []
-    assert voices.pass_time(0.04) == []
-    (stop,) = voices.pass_time(0.04)
+    assert voices.advance(0.04) == []
+    (stop,) = voices.advance(0.04)
     assert names([stop]) == ["stop left"]
     assert stop.ago == pytest.approx(0.03)
-    assert voices.pass_time(10.0) == []
+    assert voices.advance(10.0) == []
 
 
 def test_a_paddle_that_falls_back_stops_more_softly():
-    voices = Voices()
+    voices = Voices(TABLE)
     voices.buttons(False, True)
-    (up,) = voices.pass_time(1.0)
+    (up,) = voices.advance(1.0)
     voices.buttons(False, False)
-    (back,) = voices.pass_time(1.0)
+    (back,) = voices.advance(1.0)
     assert names([up, back]) == ["stop right", "stop right"]
     assert strength(back) < 0.7 * strength(up)
     assert (up.key.layer, back.key.layer) == (1, 0)
 
 
 def test_a_button_let_go_halfway_makes_only_the_way_back():
-    voices = Voices()
+    voices = Voices(TABLE)
     voices.buttons(True, False)
-    voices.pass_time(0.03)
+    voices.advance(0.03)
     voices.buttons(False, False)
-    (back,) = voices.pass_time(0.05)
+    (back,) = voices.advance(0.05)
     assert back.ago == pytest.approx(0.02)
 
 
 def test_a_table_without_a_paddle_has_no_coil_on_that_side():
-    voices = Voices()
-    voices.begin(load_table("classic").model_copy(update={"paddle": ()}))
+    voices = Voices(TABLE)
+    voices.begin_game(load_table("classic").model_copy(update={"paddle": ()}))
     assert voices.buttons(True, True) == []
-    assert voices.pass_time(1.0) == []
+    assert voices.advance(1.0) == []
 
 
 def test_dead_paddles_are_silent_until_the_next_ball():
-    voices = Voices()
-    voices.news([GameEvent(GameEventKind.TILT, 5)])
+    voices = Voices(TABLE)
+    voices.game_events([GameEvent(GameEventKind.TILT, 5)])
     assert voices.buttons(True, True) == []
     voices.buttons(False, False)
-    voices.news([GameEvent(GameEventKind.BALL_READY, 500, 2)])
+    voices.game_events([GameEvent(GameEventKind.BALL_READY, 500, 2)])
     assert names(voices.buttons(True, True)) == ["coil left", "coil right"]
 
 
@@ -280,13 +289,13 @@ def test_dead_paddles_are_silent_until_the_next_ball():
         (GameEventKind.BALL_SAVED, "ball_saved"),
         (GameEventKind.WARNING, "warning"),
         (GameEventKind.TILT, "tilt"),
-        (GameEventKind.UNSTUCK, "un_stuck"),
+        (GameEventKind.UNSTUCK, "unstuck"),
         (GameEventKind.DOUBLE_ON, "double_on"),
         (GameEventKind.OVER, "game_over"),
     ],
 )
 def test_news_has_its_sound(kind, name):
-    (note,) = Voices().news([GameEvent(kind, 1)])
+    (note,) = Voices(TABLE).game_events([GameEvent(kind, 1)])
     assert note.key.name == name
     assert note.left == pytest.approx(note.right)
 
@@ -299,11 +308,11 @@ def test_points_alone_make_no_sound_of_their_own():
         GameEventKind.BALL_LOST,
         GameEventKind.DOUBLE_OFF,
     ]
-    assert Voices().news([GameEvent(kind, 1) for kind in quiet]) == []
+    assert Voices(TABLE).game_events([GameEvent(kind, 1) for kind in quiet]) == []
 
 
 def test_menus_have_their_sounds_and_anything_else_is_silent():
-    voices = Voices()
+    voices = Voices(TABLE)
     assert [voices.menu(what)[0].key.name for what in MENU] == list(MENU.values())
     assert voices.menu("dance") == []
 

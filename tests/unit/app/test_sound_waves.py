@@ -1,4 +1,4 @@
-"""Waves of the bank: finite, without clicks and offset, at the pitches and the loudness that are promised."""
+"""Waves of the bank: finite, without clicks and offset, at the specified pitches and loudness."""
 
 from __future__ import annotations
 
@@ -9,12 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from silverball.app.sound.bank import FULL, PEAK, Key, make_bank
-from silverball.app.sound.loudness import loudness
-from silverball.app.sound.recipes import RECIPES
+from silverball.app.sound.bank import FULL, PEAK, RECIPES, Key, make_bank
+from silverball.app.sound.levels import loudness
 from silverball.app.sound.rolling import ROLL_LEVEL, ROLL_SPEEDS, roll_pitch
-from silverball.app.sound.scale import BELL_STEPS, pitch_of
-from silverball.app.sound.synth import RATE, Partial, finished, noise, ring, soft_limit
+from silverball.app.sound.synth import BELL_STEPS, RATE, Partial, finished, noise, pitch_of, ring, soft_limit
 
 BANK = make_bank()
 KEYS = list(BANK.waves)

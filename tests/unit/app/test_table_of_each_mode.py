@@ -1,4 +1,4 @@
-"""Has each game a table of its own, and does it begin with the right one?"""
+"""Each mode has its own table and begins with it."""
 
 import pytest
 
@@ -51,11 +51,11 @@ def test_a_table_that_makes_no_sense_gives_way_to_the_default(table, mode):
 def test_the_menu_shows_the_table_of_the_game_that_it_offers(tmp_path):
     with Store(tmp_path) as store:
         program = Program(store, Settings(), Catalog(store, tmp_path))
-        assert program.recipe.name == "Classic"
+        assert program.board.recipe.name == "Classic"
         program.press_menu(Button.RIGHT)  # from PLAY to MODE
         program.press_menu(Button.START)
         program.press_menu(Button.RIGHT)
-        assert program.settings.mode == "free"
-        assert program.recipe.name == "Original"
+        assert program.settings.current.mode == "free"
+        assert program.board.recipe.name == "Original"
         program.press_menu(Button.RIGHT)
-        assert program.recipe.name == "Classic"
+        assert program.board.recipe.name == "Classic"

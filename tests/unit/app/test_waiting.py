@@ -9,8 +9,8 @@ import pytest
 
 from reading import reads
 from silverball.app import startup
-from silverball.app.menus.page import MIDDLE_Y
-from silverball.app.progress_bar import LEAST_SHARE, LINE_Y, Progress, draw_line, draw_page
+from silverball.app.menus.page_layout import MIDDLE_Y
+from silverball.app.startup import LINE_Y, MIN_SHARE, Progress, draw_line, draw_page
 from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.physics import kernel
 from silverball.table import load_table
@@ -33,16 +33,16 @@ def test_the_bar_is_as_long_as_the_share_that_is_compiled(share):
 def test_the_time_so_far_and_in_all_is_always_there():
     for seconds in np.arange(0.0, 20.0, 0.7):
         progress = Progress(seconds, 0.25)
-        assert progress.words == f"{seconds:.0f}/{max(seconds / 0.25, seconds + 1.0):.0f} S"
-        assert reads(draw_page(seconds, progress), progress.words)
+        assert progress.text == f"{seconds:.0f}/{max(seconds / 0.25, seconds + 1.0):.0f} S"
+        assert reads(draw_page(seconds, progress), progress.text)
         menu = Dots()
         draw_line(menu, progress)
-        assert reads(menu, f"COMPILING {progress.words}")
+        assert reads(menu, f"COMPILING {progress.text}")
 
 
 def test_nobody_is_told_a_time_that_nobody_knows():
-    assert Progress(4.0, LEAST_SHARE / 2).words == "4 S"
-    assert Progress(30.0, 1.0).words == "30/31 S"
+    assert Progress(4.0, MIN_SHARE / 2).text == "4 S"
+    assert Progress(30.0, 1.0).text == "30/31 S"
 
 
 def test_a_long_time_does_not_reach_into_the_marks_of_the_menu():

@@ -7,8 +7,8 @@ import pytest
 from evenings import Evening
 from own_players import LEFTY, Swatter, install
 from silverball.app import player_warmup
-from silverball.app.demo_players import HINT, PERFORMERS, performers
-from silverball.app.player_warmup import Rehearsal
+from silverball.app.demo_players import DEMO_PLAYERS, HINT, demo_players
+from silverball.app.player_warmup import PlayerWarmup
 from silverball.players import player_names, register
 from silverball.table import load_table
 
@@ -25,8 +25,8 @@ class Failing:
 @pytest.fixture
 def evening(tmp_path):
     made = Evening(tmp_path / "scores")
-    made.program.get_ready()
-    made.program.cast.is_ready = lambda name: True
+    made.program.finish_loading()
+    made.program.demo_players.is_ready = lambda name: True
     made.program.menus.close()
     yield made
     made.store.close()
@@ -34,39 +34,39 @@ def evening(tmp_path):
 
 def test_registered_players_are_offered_after_the_built_in_ones() -> None:
     register("swatter", Swatter)
-    *first, last = performers()
-    assert tuple(first) == PERFORMERS
+    *first, last = demo_players()
+    assert tuple(first) == DEMO_PLAYERS
     assert (last.name, last.label, last.hint) == ("swatter", "SWATTER", HINT)
 
 
 def test_a_registered_player_is_watched_once_it_is_ready(evening, site) -> None:
     install(site, "left-hand", "lefty = left_hand:Lefty", LEFTY)
-    assert performers() == PERFORMERS
+    assert demo_players() == DEMO_PLAYERS
     player_names()  # as the window does in its thread
-    evening.program.show_off("lefty")
+    evening.program.start_demo("lefty")
     evening.go(0.5)
-    assert evening.program.stage.player.name == "lefty"
-    assert evening.program.display.performer == "LEFTY"
-    assert evening.program.stage.game.tick > 0
+    assert evening.program.session.player.name == "lefty"
+    assert evening.program.display.player_label == "LEFTY"
+    assert evening.program.session.game.tick > 0
 
 
 def test_a_watched_player_that_fails_brings_the_menu_back_and_its_sentence(evening) -> None:
     register("mine", Failing)
-    evening.program.show_off("mine")
+    evening.program.start_demo("mine")
     evening.go(0.5)
-    assert evening.program.stage is None
+    assert evening.program.session is None
     assert evening.program.menus.is_open
 
 
 def test_the_window_gets_registered_players_ready_and_tells_of_one_that_fails(monkeypatch, site) -> None:
     monkeypatch.setattr(player_warmup, "HEAD_START", 0.0)
-    monkeypatch.setattr(player_warmup, "is_there", lambda performer: not performer.kernel)
-    monkeypatch.setattr(Rehearsal, "_compile", lambda self: False)
+    monkeypatch.setattr(player_warmup, "is_compiled_on_disk", lambda player: not player.kernel)
+    monkeypatch.setattr(PlayerWarmup, "_compile", lambda self: False)
     install(site, "left-hand", "lefty = left_hand:Lefty", LEFTY)
     register("mine", Failing)
 
-    def rehearsed() -> Rehearsal:
-        rehearsal = Rehearsal(load_table("classic"))
+    def rehearsed() -> PlayerWarmup:
+        rehearsal = PlayerWarmup(load_table("classic"))
         rehearsal.wait(300.0)
         return rehearsal
 

@@ -1,4 +1,4 @@
-"""Where Ctrl-C may raise, and how a command then ends."""
+"""Points at which Ctrl-C may raise, and how a command then ends."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ run_until_stopped(command)
 
 
 def ended(command: str, before: str = "") -> tuple[int, str, str]:
-    """How a process ends whose command has this body: exit code, output, errors."""
+    """Run a process whose command has this body; returns its exit code, output and errors."""
     body = "\n".join(f"    {line}" for line in command.strip().splitlines())
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT.format(before=before, command=body)],
@@ -121,7 +121,7 @@ time.sleep(30)
 
 
 def frame_in(call) -> list[bool]:
-    """What is said of the place from which `call` calls what it is given."""
+    """Whether the place from which `call` calls its argument is safe."""
     said: list[bool] = []
     call(lambda *_: said.append(signals._is_safe(sys._getframe())))
     return said

@@ -9,8 +9,7 @@ import time
 import numpy as np
 import pytest
 
-from silverball.drawing import Moment, Renderer, warm_up
-from silverball.drawing import background as background_module
+from silverball.drawing import Moment, Renderer, background as background_module, warm_up
 from silverball.drawing.picture_cache import PictureCache
 from silverball.table import load_table
 

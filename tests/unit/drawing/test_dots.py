@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots, blend, picture, scroll, wipe
 from silverball.drawing.dotmatrix.fonts import BOLD, FONTS, HUGE, NORMAL, TINY, fitting

@@ -9,9 +9,12 @@ import sys
 import numpy as np
 import pytest
 
-from silverball.drawing import Moment, Renderer
-from silverball.drawing import picture_cache as cache_module
-from silverball.drawing import picture_provider as provider_module
+from silverball.drawing import (
+    Moment,
+    Renderer,
+    picture_cache as cache_module,
+    picture_provider as provider_module,
+)
 from silverball.drawing.picture_cache import ENDING, PictureCache, key_of
 from silverball.table import generate_table, load_table
 

@@ -1,8 +1,7 @@
 """Broken lines stay within their width at every size, and no letter is lost."""
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from silverball.drawing.text import line, text_width, wrapped
 

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import pytest
 from games import IN_POCKET, POCKET, bare, bumper, frantic_game, put, reflex_game
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from boards import CLASSIC, PADDLES
 from silverball.errors import StateError

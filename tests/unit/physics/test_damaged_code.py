@@ -13,8 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from silverball.physics import code_cache as codecache
-from silverball.physics import kernel
+from silverball.physics import code_cache as codecache, kernel
 
 
 def tripled_and(number, more):

@@ -11,8 +11,7 @@ import sys
 from pathlib import Path
 
 import silverball
-from silverball.physics import code_cache as codecache
-from silverball.physics import kernel
+from silverball.physics import code_cache as codecache, kernel
 
 PACKAGE = Path(silverball.__file__).parent
 

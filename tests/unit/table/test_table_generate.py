@@ -15,10 +15,10 @@ from silverball.table import (
     generate_table,
     load_table,
     parse_table,
+    placement as placing,
     save_table,
     table_digest,
 )
-from silverball.table import placement as placing
 from silverball.table.placement import try_recipe
 
 RECIPE = load_table("random")

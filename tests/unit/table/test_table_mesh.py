@@ -8,8 +8,15 @@ import numpy as np
 import pytest
 
 from silverball.errors import TableError
-from silverball.table import Cylinder, TriangularPrism, dump_table, load_table, parse_table, table_digest
-from silverball.table import mesh as meshes
+from silverball.table import (
+    Cylinder,
+    TriangularPrism,
+    dump_table,
+    load_table,
+    mesh as meshes,
+    parse_table,
+    table_digest,
+)
 from silverball.table.mesh import (
     MESH_LIMIT,
     circle_footprint,

@@ -3,8 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from pydantic import ValidationError
 
 from silverball.table import Board, Cylinder, Paddle, SlantWall, Table, TriangularPrism

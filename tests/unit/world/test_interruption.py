@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 
 import silverball as sb
-from silverball.world import batch as batches
-from silverball.world import threads
-from silverball.world import world as worlds
+from silverball.world import batch as batches, threads, world as worlds
 
 FOREVER = 2**40  # ticks, which no machine plays while the tests run
 

@@ -8,8 +8,7 @@ import struct
 
 import numpy as np
 import pytest
-from hypothesis import event, given, settings
-from hypothesis import strategies as st
+from hypothesis import event, given, settings, strategies as st
 
 from boards import CONTACTS, PADDLES, edited, full_table, launched, place, table_of
 from silverball.errors import FaultError, StateError

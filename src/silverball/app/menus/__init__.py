@@ -1,40 +1,20 @@
-"""Which menus are there, and what do they ask for? Pages of dots, worked with the paddle buttons and Space.
+"""The menus: pages of dots on the score display, operated with the paddle buttons and Space.
 
-`Menus` is all that a window needs: it passes buttons in, shows the dots that come out, and does what the
-commands say (`commands.py`).
+`Menus` is the interface for the program: it takes buttons, draws dots and returns commands (`commands.py`).
 """
 
-from silverball.app.bindings import (
-    ACTIONS,
-    ActionLine,
-    action_by_key,
-    action_by_name,
-    action_by_pad,
-    capital,
-    keys_of,
-    pad_of,
-    shown,
-)
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import JoystickEntry, ScoreRow, TableEntry
+from silverball.app.menus.context import JoystickEntry, MenuContext, ScoreRow, TableEntry
 from silverball.app.menus.menus import Menus
-from silverball.app.menus.transport import ReplayFace
+from silverball.app.menus.transport import ReplayStatus
 
 __all__ = [
-    "ACTIONS",
-    "ActionLine",
     "Button",
     "Command",
     "JoystickEntry",
+    "MenuContext",
     "Menus",
-    "ReplayFace",
+    "ReplayStatus",
     "ScoreRow",
     "TableEntry",
-    "action_by_key",
-    "action_by_name",
-    "action_by_pad",
-    "capital",
-    "keys_of",
-    "pad_of",
-    "shown",
 ]

@@ -1,61 +1,61 @@
-"""What does the display show when nobody is there? Name, best scores, how to begin, and tips, in turn."""
+"""The attract mode: title, best scores, how to begin, and tips take turns while nobody is active."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 
-from silverball.app.bindings import keys_of
-from silverball.app.menus import page as layout
+from silverball.app.bindings import keys_for
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Attract, Button, Command
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.app.menus.high_scores import MODES
 from silverball.drawing.dotmatrix.animations import draw_ball
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, scroll, wipe
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 
 PAGE_TIME = 4.0  # [s]
-CHANGE_TIME = 0.5  # [s] of it, in which one page gives way to the next
+CHANGE_TIME = 0.5  # [s] of it for the transition to the next page
 NAME = "SILVERBALL"
 
 
 class AttractPage(Page):
-    """Pages that turn by themselves; any button leads to the main menu."""
+    """Pages that take turns; any button leads to the main menu."""
 
     name = "attract"
     repeats = False
-    quiet = False
+    allows_attract = False
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
-        """Somebody is there."""
-        desk.back()
+    def press(self, button: Button, context: MenuContext) -> Command | None:
+        """Go back to the main menu."""
+        context.back()
         return Attract(False)
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
-        """The page whose turn it is."""
-        pages = self._pages(desk)
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
+        """Draw the current page, or the transition to it."""
+        pages = self._pages(context)
         turn, at = divmod(max(seconds - self.shown_at, 0.0), PAGE_TIME)
-        now = pages[int(turn) % len(pages)](desk, at)
+        now = pages[int(turn) % len(pages)](context, at)
         if turn < 1.0 or at >= CHANGE_TIME:
             return now
-        before = pages[(int(turn) - 1) % len(pages)](desk, PAGE_TIME + at)
+        before = pages[(int(turn) - 1) % len(pages)](context, PAGE_TIME + at)
         share = at / CHANGE_TIME
         return wipe(before, now, share, "right") if int(turn) % 2 else scroll(before, now, share, "up")
 
-    def _pages(self, desk: Desk) -> list[Callable[[Desk, float], Dots]]:
-        pages: list[Callable[[Desk, float], Dots]] = [title_picture, _start_picture]
-        if desk.performer is not None:
-            pages.append(_performer_picture)
-        for board in range(min(len(desk.boards()), 3)):
-            pages.append(lambda desk, at, board=board: _best_picture(desk, at, board))  # type: ignore[misc]
+    def _pages(self, context: MenuContext) -> list[Callable[[MenuContext, float], Dots]]:
+        pages: list[Callable[[MenuContext, float], Dots]] = [title_picture, _start_picture]
+        if context.demo_player is not None:
+            pages.append(_demo_player_picture)
+        for index in range(min(len(context.score_lists), 3)):
+            pages.append(lambda context, at, index=index: _best_picture(context, at, index))  # type: ignore[misc]
             pages.append(_start_picture)
-        for tip in range(len(_tips(desk))):
-            pages.append(lambda desk, at, tip=tip: _tip_picture(desk, at, tip))  # type: ignore[misc]
+        for tip in range(len(_tips(context))):
+            pages.append(lambda context, at, tip=tip: _tip_picture(context, at, tip))  # type: ignore[misc]
         return pages
 
 
-def title_picture(desk: Desk, at: float) -> Dots:
-    """The name; a ball rolls over it and leaves it behind."""
+def title_picture(context: MenuContext, at: float) -> Dots:
+    """Draw the title, uncovered by a ball that rolls across."""
     dots = Dots()
     width = BOLD.width(NAME)
     left = (WIDTH - width) // 2
@@ -63,70 +63,70 @@ def title_picture(desk: Desk, at: float) -> Dots:
     dots.text(NAME, left, 8, BOLD, window=(0, max(ball + 5, 0)))
     if ball < WIDTH:
         draw_ball(dots, ball + 4, 13 - 5.0 * abs(math.sin(4.0 * at)))
-    # A light runs over the letters once they stand.
+    # A light sweeps over the letters once they are complete.
     shine = round((at - 2.2) * 130.0)
     if 0 <= shine < WIDTH + 12:
         for row in range(8, 19):
             edge = shine - (row - 8) // 2
             here = dots.pixels[row, max(edge - 6, 0) : max(edge, 0)]
             here[here > 0] = 90
-    dots.line(left, 22, left + min(max(ball - left, 0), width), 22, layout.HALF)
+    dots.line(left, 22, left + min(max(ball - left, 0), width), 22, page_layout.HALF)
     if at > 1.6:
-        dots.text("A PINBALL TABLE", WIDTH // 2, 25, NORMAL, "center", layout.HALF)
+        dots.text("A PINBALL TABLE", WIDTH // 2, 25, NORMAL, "center", page_layout.HALF)
     return dots
 
 
-def _start_picture(desk: Desk, at: float) -> Dots:
+def _start_picture(context: MenuContext, at: float) -> Dots:
     dots = Dots()
-    key = desk.key("create")
-    if layout.blinks(at, 1.0):
+    key = context.key_label("create")
+    if page_layout.is_blink_on(at, 1.0):
         dots.text(f"PRESS {key}", WIDTH // 2, 6, BOLD, "center")
-    entry = desk.table()
-    text = f"{MODES[desk.mode()]} · {entry.title.upper()}"
-    layout.marquee(dots, text, 23, 0, WIDTH, NORMAL, at, brightness=layout.HALF)
+    entry = context.table
+    text = f"{MODES[context.mode]} · {entry.title.upper()}"
+    page_layout.marquee(dots, text, 23, 0, WIDTH, NORMAL, at, brightness=page_layout.HALF)
     return dots
 
 
-def _performer_picture(desk: Desk, at: float) -> Dots:
-    """Who plays behind these pages."""
+def _demo_player_picture(context: MenuContext, at: float) -> Dots:
+    """Draw who plays the demo behind these pages."""
     dots = Dots()
-    assert desk.performer is not None
-    layout.title(dots, "NOW PLAYING", seconds=at)
-    layout.middle(dots, desk.performer.label, at)
-    layout.foot(dots, (desk.performer.hint,), at)
+    assert context.demo_player is not None
+    page_layout.title(dots, "NOW PLAYING", seconds=at)
+    page_layout.middle(dots, context.demo_player.label, at)
+    page_layout.foot(dots, (context.demo_player.hint,), at)
     return dots
 
 
-def _best_picture(desk: Desk, at: float, board: int) -> Dots:
-    """The three best of a score table, one after the other."""
+def _best_picture(context: MenuContext, at: float, index: int) -> Dots:
+    """Draw the three best scores of a list, one after the other."""
     dots = Dots()
-    boards = desk.boards()
-    entry, mode, rows = boards[min(board, len(boards) - 1)]
-    layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", seconds=at)
+    score_lists = context.score_lists
+    entry, mode, rows = score_lists[min(index, len(score_lists) - 1)]
+    page_layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", seconds=at)
     place = min(int(at / PAGE_TIME * 3.0), min(len(rows), 3) - 1)
     row = rows[place]
-    dots.text(f"{place + 1}", 6, 14, BOLD, "left", layout.HALF)
+    dots.text(f"{place + 1}", 6, 14, BOLD, "left", page_layout.HALF)
     dots.text(row.initials, 24, 14, BOLD)
     dots.number(row.score, WIDTH - 2, 14, 94, (BOLD, NORMAL), "right")
-    dots.line(0, HEIGHT - 2, round((WIDTH - 1) * min(at / PAGE_TIME, 1.0)), HEIGHT - 2, layout.FAINT)
+    dots.line(0, HEIGHT - 2, round((WIDTH - 1) * min(at / PAGE_TIME, 1.0)), HEIGHT - 2, page_layout.FAINT)
     return dots
 
 
-def _tips(desk: Desk) -> list[tuple[str, str]]:
-    """What a key does, and the key."""
+def _tips(context: MenuContext) -> list[tuple[str, str]]:
+    """Return the labels of the main actions, each with its keys."""
     tips = []
-    for line in desk.actions:
-        keys = keys_of(desk.settings, line)
-        if keys and line.action in ("left", "right", "create", "jitter", "help"):
-            tips.append((line.label, "  ".join(desk.shown(key) for key in keys[:2])))
+    for binding in context.actions:
+        keys = keys_for(context.settings.current, binding)
+        if keys and binding.action in ("left", "right", "create", "jitter", "help"):
+            tips.append((binding.label, "  ".join(context.button_label(key) for key in keys[:2])))
     return tips
 
 
-def _tip_picture(desk: Desk, at: float, tip: int) -> Dots:
+def _tip_picture(context: MenuContext, at: float, tip: int) -> Dots:
     dots = Dots()
-    tips = _tips(desk)
+    tips = _tips(context)
     label, keys = tips[min(tip, len(tips) - 1)]
-    layout.marquee(dots, keys, 3, 0, WIDTH, BOLD, at)
-    dots.line(60, 18, 99, 18, layout.FAINT)
-    layout.marquee(dots, label, 22, 0, WIDTH, NORMAL, at, brightness=190)
+    page_layout.marquee(dots, keys, 3, 0, WIDTH, BOLD, at)
+    dots.line(60, 18, 99, 18, page_layout.FAINT)
+    page_layout.marquee(dots, label, 22, 0, WIDTH, NORMAL, at, brightness=190)
     return dots

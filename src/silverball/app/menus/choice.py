@@ -1,7 +1,7 @@
-"""How is one thing chosen among several? One is shown, the paddles turn to the others, Space takes it.
+"""Pages on which one item is chosen: the paddles turn through the items, and Space chooses.
 
-An item either does something (`Item.choose`) or holds a value (`Item.value`). Space on a value lets the
-paddles change it, Space again keeps it, and "back" brings the old one again.
+An item either performs an action (`Item.choose`) or holds a setting (`Item.value`). Space on a setting lets
+the paddles change it, Space again keeps the new value, and "back" restores the old one.
 """
 
 from __future__ import annotations
@@ -9,52 +9,53 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Sequence
 from typing import Any, NamedTuple
 
-from silverball.app.menus import page as layout
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 
 
 class Value(NamedTuple):
-    """A setting that is changed by steps.
+    """A setting that is changed in steps.
 
     Attributes:
         field: Its name in the settings.
-        choices: Its values, the least first.
-        shown: They as the player reads them.
-        wraps: Whether the first follows the last.
-        hints: What there is to say about each of them.
+        choices: Its values, in ascending order.
+        labels: The displayed values.
+        wraps: Whether the first value follows the last.
+        hints: A hint for each value.
     """
 
     field: str
     choices: tuple[Any, ...]
-    shown: tuple[str, ...]
+    labels: tuple[str, ...]
     wraps: bool = True
     hints: tuple[str, ...] = ()
 
-    def place(self, desk: Desk) -> int:
-        """Which value is set; the first one if it is none of them."""
-        value = getattr(desk.settings, self.field)
+    def current_index(self, context: MenuContext) -> int:
+        """Return the index of the current value; 0 if it is not among the choices."""
+        value = getattr(context.settings.current, self.field)
         return self.choices.index(value) if value in self.choices else 0
 
-    def stepped(self, desk: Desk, step: int) -> Command | None:
-        """Set the next value (+1) or the one before (-1)."""
+    def step(self, context: MenuContext, step: int) -> None:
+        """Set the next value (+1) or the previous one (-1)."""
         last = len(self.choices) - 1
-        index = self.place(desk) + step
+        index = self.current_index(context) + step
         index = index % (last + 1) if self.wraps else min(max(index, 0), last)
-        return None if index == self.place(desk) else desk.change(**{self.field: self.choices[index]})
+        if index != self.current_index(context):
+            context.settings.change(**{self.field: self.choices[index]})
 
 
 class Item(NamedTuple):
-    """One thing to choose.
+    """An item of a page.
 
     Attributes:
-        label: What stands in the middle.
-        hint: What it is or does.
-        choose: What Space does; it may open or leave pages.
-        value: The setting that Space lets the paddles change.
-        key: What tells it from others on a page to which items come while it is open.
-        does: What Space does, in a word.
+        label: Shown in the middle.
+        hint: A short description.
+        choose: Called by Space; it may open or close pages.
+        value: The setting that Space makes editable.
+        key: Identifies it on a page whose items change while it is open.
+        verb: What Space does, in a word or two.
     """
 
     label: str
@@ -62,19 +63,19 @@ class Item(NamedTuple):
     choose: Callable[[], Command | None] | None = None
     value: Value | None = None
     key: str = ""
-    does: str = "CHOOSE"
+    verb: str = "CHOOSE"
 
 
 class ChoicePage(Page):
     """A page of items.
 
     Args:
-        name: What tells it from other pages.
-        title: What stands above.
-        items: What can be chosen now; asked anew whenever it is needed, since settings change.
-        start: The item that is shown first.
-        back: What "back" does instead of showing the page below.
-        quiet: Whether the program may play by itself while this page, or one opened from it, is open.
+        name: Identifies it.
+        title: Shown above the items.
+        items: Returns the current items; called on every use, since settings change.
+        start: Index of the item shown first.
+        back: Called by "back" instead of showing the page below.
+        allows_attract: See `Page`.
     """
 
     def __init__(
@@ -84,68 +85,68 @@ class ChoicePage(Page):
         items: Callable[[], Sequence[Item]],
         start: int = 0,
         back: Callable[[], Command | None] | None = None,
-        quiet: bool = True,
+        allows_attract: bool = True,
     ) -> None:
         self.name = name
-        self.quiet = quiet
+        self.allows_attract = allows_attract
         self.index = start
-        self._key: str | None = None  # of the item that is shown, None before any was
+        self._key: str | None = None  # of the visible item; None at first
         self._title = title
         self._items = items
         self._back = back
-        self._kept: Any = None  # the value before it was changed
+        self._old_value: Any = None  # of the setting that is being edited
         self._is_editing = False
         self._moved_at = -1.0
         self._direction = 0
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
-        """Turn, choose, or go back."""
-        items = self._listed()
+    def press(self, button: Button, context: MenuContext) -> Command | None:
+        """Turn to the next item, choose, or go back."""
+        items = self._current_items()
         if self._is_editing:
             value = items[self.index].value
             if value is not None:
-                return self._edit(button, desk, value)
+                return self._edit(button, context, value)
         if button is Button.BACK:
-            return self._leave(desk)
+            return self._leave(context)
         if button is Button.START:
-            return self._choose(items[self.index], desk)
+            return self._choose(items[self.index], context)
         step = -1 if button is Button.LEFT else 1
         self.index = (self.index + step) % len(items)
         self._key = items[self.index].key
-        self.shown_at, self._moved_at, self._direction = desk.now, desk.now, step
+        self.shown_at, self._moved_at, self._direction = context.now, context.now, step
         return None
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
-        """The title, the item, and what there is to say about it."""
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
+        """Draw the title, the visible item, and its hint."""
         dots = Dots()
-        items = self._listed()
+        items = self._current_items()
         index = self.index
         item = items[index]
-        since = seconds - self.shown_at
+        elapsed = seconds - self.shown_at
         heading = self._title if isinstance(self._title, str) else self._title()
         if self._is_editing and item.value is not None:
-            _draw_value(dots, item, desk, since)
+            _draw_value(dots, item, context, elapsed)
             return dots
-        layout.title(dots, heading, index, len(items), since)
-        shift = layout.slide(seconds - self._moved_at, self._direction) if self._moved_at >= 0.0 else 0
-        layout.middle(dots, item.label, since, shift)
+        page_layout.title(dots, heading, index, len(items), elapsed)
+        shift = page_layout.slide(seconds - self._moved_at, self._direction) if self._moved_at >= 0.0 else 0
+        page_layout.middle(dots, item.label, elapsed, shift)
         if len(items) > 1:
-            layout.arrows(dots, seconds)
-        layout.foot(dots, self._help(item, desk), since)
+            page_layout.arrows(dots, seconds)
+        page_layout.foot(dots, self._help(item, context), elapsed)
         return dots
 
     def signature(self) -> Hashable:
-        """Which item, and whether its value is being changed."""
+        """Return which item is visible, and whether its value is being edited."""
         return self.index, self._is_editing
 
-    def _help(self, item: Item, desk: Desk) -> tuple[str, ...]:
-        key = desk.key("create")
+    def _help(self, item: Item, context: MenuContext) -> tuple[str, ...]:
+        key = context.key_label("create")
         if item.value is None:
-            return (item.hint, "" if item.choose is None else f"{key}: {item.does}   ◄ ►: NEXT")
-        return f"IS {item.value.shown[item.value.place(desk)]} – {key}: CHANGE", item.hint
+            return (item.hint, "" if item.choose is None else f"{key}: {item.verb}   ◄ ►: NEXT")
+        return f"IS {item.value.labels[item.value.current_index(context)]} – {key}: CHANGE", item.hint
 
-    def _listed(self) -> Sequence[Item]:
-        """The items; the one that was shown stays shown where others have come or gone before it."""
+    def _current_items(self) -> Sequence[Item]:
+        """Return the items; the visible one stays visible if items before it appear or disappear."""
         items = self._items()
         self.index = min(self.index, len(items) - 1)
         if self._key != items[self.index].key:
@@ -154,45 +155,49 @@ class ChoicePage(Page):
         self._key = items[self.index].key
         return items
 
-    def _choose(self, item: Item, desk: Desk) -> Command | None:
+    def _choose(self, item: Item, context: MenuContext) -> Command | None:
         if item.value is not None:
             self._is_editing = True
-            self._kept = getattr(desk.settings, item.value.field)
-            self.shown_at = desk.now
+            self._old_value = getattr(context.settings.current, item.value.field)
+            self.shown_at = context.now
             return None
         return item.choose() if item.choose is not None else None
 
-    def _edit(self, button: Button, desk: Desk, value: Value) -> Command | None:
-        self.shown_at = desk.now
+    def _edit(self, button: Button, context: MenuContext, value: Value) -> Command | None:
+        self.shown_at = context.now
         if button is Button.START:
             self._is_editing = False
             return None
         if button is Button.BACK:
             self._is_editing = False
-            return desk.change(**{value.field: self._kept})
-        return value.stepped(desk, -1 if button is Button.LEFT else 1)
+            context.settings.change(**{value.field: self._old_value})
+        else:
+            value.step(context, -1 if button is Button.LEFT else 1)
+        return None
 
-    def _leave(self, desk: Desk) -> Command | None:
+    def _leave(self, context: MenuContext) -> Command | None:
         if self._back is not None:
             return self._back()
-        desk.back()
+        context.back()
         return None
 
 
-def _draw_value(dots: Dots, item: Item, desk: Desk, since: float) -> None:
+def _draw_value(dots: Dots, item: Item, context: MenuContext, elapsed: float) -> None:
     value = item.value
     assert value is not None
-    index = value.place(desk)
-    layout.title(dots, item.label, seconds=since)
-    layout.middle(dots, value.shown[index], since)
-    layout.arrows(dots, since, strong=True)
+    index = value.current_index(context)
+    page_layout.title(dots, item.label, seconds=elapsed)
+    page_layout.middle(dots, value.labels[index], elapsed)
+    page_layout.arrows(dots, elapsed, strong=True)
     if value.wraps:
-        layout.foot(
+        page_layout.foot(
             dots,
-            (value.hints[index] if value.hints else "", f"◄ ►: CHANGE   {desk.key('create')}: KEEP"),
-            since,
+            (value.hints[index] if value.hints else "", f"◄ ►: CHANGE   {context.key_label('create')}: KEEP"),
+            elapsed,
         )
     else:
-        # A scale shows how far it is set.
+        # A meter shows the value on its scale.
         last = len(value.choices) - 1
-        layout.meter(dots, layout.MARGIN, layout.FOOT_Y, WIDTH - 2 * layout.MARGIN, index / max(last, 1))
+        page_layout.meter(
+            dots, page_layout.MARGIN, page_layout.FOOT_Y, WIDTH - 2 * page_layout.MARGIN, index / max(last, 1)
+        )

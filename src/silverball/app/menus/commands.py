@@ -1,7 +1,7 @@
-"""What can a menu be told, and what can it ask for? Its buttons and its commands.
+"""The buttons of the menus, and the commands with which menus ask the program to act.
 
-Commands are frozen dataclasses and not tuples, because two empty tuples are equal: `Quit()` must never be
-taken for `Resume()`. The window matches them by class.
+Commands are frozen dataclasses, not tuples, because two empty tuples are equal and `Quit()` must never equal
+`Resume()`. `command_handlers.py` dispatches on their class.
 """
 
 from __future__ import annotations
@@ -10,17 +10,16 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TypeAlias
 
-from silverball.app.settings import Settings
 from silverball.game.view import Mode
 
 
 class Button(StrEnum):
-    """What works a menu; keys, gamepads and the paddles of a real machine all come down to these."""
+    """The buttons that operate a menu; keys, gamepads and real paddle buttons are all mapped to these."""
 
-    LEFT = "left"  # left paddle: the one before, up, less
-    RIGHT = "right"  # right paddle: the next one, down, more
+    LEFT = "left"  # left paddle: previous, up, less
+    RIGHT = "right"  # right paddle: next, down, more
     START = "start"  # Space: choose
-    BACK = "back"  # Esc, or both paddles held for a second: one page up
+    BACK = "back"  # Esc, or both paddles held for a second: to the page below
 
 
 @dataclass(frozen=True)
@@ -28,9 +27,9 @@ class Play:
     """Begin a game; the menu has closed itself.
 
     Attributes:
-        mode: Which game.
+        mode: Of the game.
         table: As in the settings: a built-in name or a path.
-        seed: Of the board; None: a new one, or the table has no random board.
+        seed: Of the board; None: a new one, or the table has no random parts.
     """
 
     mode: Mode
@@ -40,51 +39,44 @@ class Play:
 
 @dataclass(frozen=True)
 class WatchLast:
-    """Show the last game again; the menu has closed itself."""
+    """Replay the last game; the menu has closed itself."""
 
 
 @dataclass(frozen=True)
 class WatchScore:
-    """Show the game of a high score; the menu has closed itself.
+    """Replay the game of a high score; the menu has closed itself.
 
     Attributes:
-        key: The `ScoreRow.key` of it.
+        key: Its `ScoreRow.key`.
     """
 
     key: str
 
 
 @dataclass(frozen=True)
-class WatchMachine:
-    """Let the program play the chosen table and watch it; the menu has closed itself.
+class WatchDemo:
+    """Start a demo on the chosen table; the menu has closed itself.
 
     Attributes:
-        player: The name of the player to watch.
+        player: Name of the player to watch.
     """
 
     player: str
 
 
 @dataclass(frozen=True)
-class Change:
-    """Use and keep these settings. They come with every step of a value, so that it can be seen and heard."""
-
-    settings: Settings
-
-
-@dataclass(frozen=True)
-class SeeBoard:
-    """Show the board of the chosen table that a seed makes.
+class ShowBoard:
+    """Show the board that a seed makes of the chosen table.
 
     Attributes:
-        seed: None: another one.
+        seed: None draws one.
     """
 
     seed: int | None
 
 
 @dataclass(frozen=True)
-class TellTrouble:
+class ShowTableProblem:
     """Tell why a table cannot be played.
 
     Attributes:
@@ -103,27 +95,27 @@ class Quit:
 
 @dataclass(frozen=True)
 class Resume:
-    """Go on with the paused game; the menu has closed itself."""
+    """Continue the paused game; the menu has closed itself."""
 
 
 @dataclass(frozen=True)
 class Restart:
-    """Give the paused game up and begin it anew on the same board; the menu has closed itself."""
+    """Give up the paused game and begin again on the same board; the menu has closed itself."""
 
 
 @dataclass(frozen=True)
 class EndGame:
-    """Give the paused game up, or put the one away that is over. The main menu is open."""
+    """Give up the paused game, or remove one that is over. The main menu is open."""
 
 
 @dataclass(frozen=True)
 class SaveReplay:
-    """Keep the game that has just ended as a file; answer with `Menus.say`."""
+    """Save the game that has just ended as a file; report with `Menus.show_message`."""
 
 
 @dataclass(frozen=True)
 class Initials:
-    """The score that has just been made belongs to these three characters; they are in the settings too."""
+    """Assign the latest score to these three characters, which are in the settings too."""
 
     text: str
 
@@ -137,15 +129,15 @@ class ReplaySpeed:
 
 @dataclass(frozen=True)
 class ReplayPause:
-    """Hold the replay, or go on with it."""
+    """Hold the replay, or continue it."""
 
 
 @dataclass(frozen=True)
 class ReplayJump:
-    """Go back or ahead in the replay.
+    """Jump back or ahead in the replay.
 
     Attributes:
-        seconds: How far, negative for back [s].
+        seconds: How far; negative is back [s].
     """
 
     seconds: float
@@ -153,12 +145,12 @@ class ReplayJump:
 
 @dataclass(frozen=True)
 class EndReplay:
-    """Watch no longer. The page from which it was opened, or the main menu, is open again."""
+    """Stop watching. The page from which the replay was opened, or the main menu, is open again."""
 
 
 @dataclass(frozen=True)
 class Attract:
-    """Nobody is there (on), so let the program play behind the menu; or somebody has come back."""
+    """Start the attract mode, in which a demo plays behind the menu, or end it."""
 
     on: bool
 
@@ -167,10 +159,9 @@ Command: TypeAlias = (
     Play
     | WatchLast
     | WatchScore
-    | WatchMachine
-    | Change
-    | SeeBoard
-    | TellTrouble
+    | WatchDemo
+    | ShowBoard
+    | ShowTableProblem
     | Quit
     | Resume
     | Restart

@@ -1,8 +1,8 @@
-"""How are initials and numbers entered? The paddles turn a letter and Space takes it, or a keyboard types it.
+"""Pages for initials and numbers: the paddles turn a letter and Space takes it, or a keyboard types it.
 
-Behind the last letter stands END; "◄" among the letters deletes one. Keys that are paddle buttons and bear a
-letter, A and D, turn letters until any other letter has been typed, or backspace pressed; then they are
-letters like all others, until a button that bears none (an arrow, Shift, a gamepad's) turns again.
+END follows the last letter; "◄" among the letters deletes one. Keys that are paddle buttons and also letters,
+A and D, turn letters until another letter or backspace is typed; then they type like all others, until a
+button without a letter (an arrow, Shift, a gamepad button) turns again.
 """
 
 from __future__ import annotations
@@ -10,33 +10,33 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Callable, Hashable
 
-from silverball.app.bindings import keys_of
-from silverball.app.menus import page as layout
+from silverball.app.bindings import keys_for
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 
 DELETE, END = "◄", "END"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.- "
 BACKSPACE = "backspace"
-SIGN_PATIENCE = 25.0  # [s] without a touch after which a score is signed as offered
-HELP_TURN = 2.5  # [s] after which the help says the next thing
-LARGE_MOST = 3  # letters that are written twice as large, the help beside them
-HELP_X, END_WIDTH = 68, 29  # [dot] where it may begin then, and how much of it END takes
+SIGN_TIMEOUT = 25.0  # [s] without a button, after which a score gets the offered initials
+HELP_TURN = 2.5  # [s] for each help text
+MAX_LARGE = 3  # letters that are drawn in double size, with the help beside them
+HELP_X, END_WIDTH = 68, 29  # [dot] where that help may begin, and how much of it END covers
 
 
 class LettersPage(Page):
     """A page on which a text is entered letter by letter.
 
     Args:
-        name: What tells it from other pages.
-        title: What stands above.
-        letters: Those to choose from.
-        most: How many there can be.
-        done: What to do with the text.
-        least: How many there must be.
-        start: Offered to begin with, letter by letter.
+        name: Identifies it.
+        title: Shown above the letters.
+        letters: The letters to choose from.
+        max_length: Of the text.
+        done: Called with the text.
+        min_length: Of the text; None: the greatest length.
+        offered: A text that is offered letter by letter.
     """
 
     def __init__(
@@ -44,35 +44,35 @@ class LettersPage(Page):
         name: str,
         title: str,
         letters: str,
-        most: int,
+        max_length: int,
         done: Callable[[str], Command | None],
-        least: int | None = None,
-        start: str = "",
+        min_length: int | None = None,
+        offered: str = "",
     ) -> None:
         self.name = name
         self._title = title
         self._letters = letters
-        self._most = most
-        self._least = most if least is None else least
+        self._max_length = max_length
+        self._min_length = max_length if min_length is None else min_length
         self._done = done
-        self._offered = start
+        self._offered = offered
         self.text = ""
         self._turn = 0
-        self._is_typed = False  # whether keys that are paddle buttons too are letters
+        self._is_typed = False  # whether keys that are paddle buttons type letters
         self._offer()
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """What the paddles turn through at this place."""
-        letters = tuple(self._letters) if len(self.text) < self._most else ()
-        end = (END,) if len(self.text) >= self._least else ()
+        """What the paddles turn through at the current place."""
+        letters = tuple(self._letters) if len(self.text) < self._max_length else ()
+        end = (END,) if len(self.text) >= self._min_length else ()
         return (*letters, *end, *((DELETE,) if self.text else ()))
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
-        """Turn the letter, take it, or take the last one back."""
+    def press(self, button: Button, context: MenuContext) -> Command | None:
+        """Turn the letter, take it, or delete the last one."""
         if self._is_typed and button is Button.START:
             text = self._completed()
-            return self._done(text) if len(text) >= self._least else None
+            return self._done(text) if len(text) >= self._min_length else None
         if self._is_typed:
             self._is_typed = False
             self._offer()
@@ -82,7 +82,7 @@ class LettersPage(Page):
         elif button is Button.RIGHT:
             self._turn = (self._turn + 1) % len(self.choices)
         elif button is Button.BACK or choice == DELETE:
-            return self._delete(desk)
+            return self._delete(context)
         elif choice == END:
             return self._done(self.text)
         else:
@@ -90,23 +90,25 @@ class LettersPage(Page):
             self._offer()
         return None
 
-    def type(self, written: str, key: str, desk: Desk, *, is_button: bool) -> bool:
-        """A key was pressed; whether it was meant for the text.
+    def type(self, written: str, key: str, context: MenuContext, *, is_button: bool) -> bool:
+        """Handle a key that was pressed; return whether the text used it.
 
         Args:
-            written: What the key writes; empty if that is not known.
+            written: The character that the key types; empty if unknown.
             key: The name of the key.
-            desk: Is told if this cannot be entered here.
-            is_button: Whether it is a button of the menus as well.
+            context: Shows a message if the character is not allowed here.
+            is_button: Whether the key is also a button of the menus.
         """
         if key == BACKSPACE:
             self.text = self.text[:-1]
         elif " " in (written, key) or key == "space" or (is_button and not self._is_typed):
             return False
-        elif letter := _typed(written, key, self._letters):
-            self.text = (self.text + letter)[: self._most]
+        elif letter := _letter_of(written, key, self._letters):
+            self.text = (self.text + letter)[: self._max_length]
         elif written.isprintable() and written:
-            desk.say("ONLY DIGITS" if self._letters.isdigit() else "ONLY LETTERS, DIGITS, . AND -")
+            context.show_message(
+                "ONLY DIGITS" if self._letters.isdigit() else "ONLY LETTERS, DIGITS, . AND -"
+            )
             return True
         else:
             return False
@@ -114,109 +116,111 @@ class LettersPage(Page):
         self._turn = 0
         return True
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
-        """The text so far, the letter that turns, and what the buttons do."""
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
+        """Draw the text so far, the current letter, and what the buttons do."""
         dots = Dots()
-        layout.title(dots, self._title, seconds=seconds)
-        help_ = self._help(desk, seconds)
-        if self._most <= LARGE_MOST:
+        page_layout.title(dots, self._title, seconds=seconds)
+        help_ = self._help(context, seconds)
+        if self._max_length <= MAX_LARGE:
             self._draw_places(dots, 4, 8, 2, seconds)
             ends = not self._is_typed and self.choices[self._turn] == END
             for line, y in zip(help_, (11, 22), strict=True):
                 room = WIDTH - HELP_X - (END_WIDTH if ends else 0)
                 left = WIDTH - min(NORMAL.width(line), room)
-                layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
+                page_layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
         else:
-            self._draw_places(dots, (WIDTH - 28 - self._most * 11) // 2, layout.MIDDLE_Y, 1, seconds)
-            layout.foot(dots, ("   ".join(help_),), seconds)
+            self._draw_places(
+                dots, (WIDTH - 28 - self._max_length * 11) // 2, page_layout.MIDDLE_Y, 1, seconds
+            )
+            page_layout.foot(dots, ("   ".join(help_),), seconds)
         return dots
 
-    def _help(self, desk: Desk, seconds: float) -> tuple[str, str]:
-        """What the buttons do, and in turn what the keys of a keyboard do."""
-        start = desk.key("create")
+    def _help(self, context: MenuContext, seconds: float) -> tuple[str, str]:
+        """Return two lines of help: what the buttons do, alternating with what the keyboard does."""
+        start = context.key_label("create")
         is_first = seconds % (2 * HELP_TURN) < HELP_TURN
         if self._is_typed:
             return ("TYPE ON", f"{start}: DONE") if is_first else ("◄ ►: TURN", "BACKSP.: DEL")
-        does = {END: "DONE", DELETE: "DELETE"}.get(self.choices[self._turn], "TAKE")
-        return (_turning_keys(desk), f"{start}: {does}") if is_first else ("ALL OTHER", "KEYS: TYPE")
+        verb = {END: "DONE", DELETE: "DELETE"}.get(self.choices[self._turn], "TAKE")
+        return (_turning_keys(context), f"{start}: {verb}") if is_first else ("ALL OTHER", "KEYS: TYPE")
 
     def _draw_places(self, dots: Dots, left: int, y: int, scale: int, seconds: float) -> None:
-        """A place for every letter, each underlined, and END behind them."""
+        """Draw an underlined place for every letter, and END after them."""
         choice = "" if self._is_typed else self.choices[self._turn]
         count, step = len(self.text), scale * 9 + 2
-        for place in range(self._most):
+        for place in range(self._max_length):
             x = left + place * step
             here = choice if place == count and choice not in (END, DELETE) else ""
             letter = self.text[place] if place < count else here
-            light = FULL if here or choice == END or self._is_typed else layout.HALF
+            light = FULL if here or choice == END or self._is_typed else page_layout.HALF
             dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
-            if place != count or not self._is_typed or layout.blinks(seconds):
-                dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else layout.HALF)
-        if choice == END and layout.blinks(seconds):
+            if place != count or not self._is_typed or page_layout.is_blink_on(seconds):
+                dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else page_layout.HALF)
+        if choice == END and page_layout.is_blink_on(seconds):
             dots.text(END, left + count * step + 2, y + 11 * scale - 11, BOLD)
-        if choice == DELETE and layout.blinks(seconds):
+        if choice == DELETE and page_layout.is_blink_on(seconds):
             x = left + (count - 1) * step
             dots.invert(x - 1, y, step, 11 * scale)
 
     def signature(self) -> Hashable:
-        """How many letters there are, and which one turns."""
+        """Return how many letters there are, and which one is offered."""
         return len(self.text), self._turn, self._is_typed
 
     def _completed(self) -> str:
-        """The text as it is to be taken if nothing more comes."""
+        """Return the text as it is used if nothing more is entered."""
         return self.text
 
-    def _delete(self, desk: Desk) -> Command | None:
+    def _delete(self, context: MenuContext) -> Command | None:
         if not self.text:
-            return self._give_up(desk)
+            return self._leave(context)
         last = self.text[-1]
         self.text = self.text[:-1]
         self._turn = self.choices.index(last) if last in self.choices else 0
         return None
 
-    def _give_up(self, desk: Desk) -> Command | None:
-        desk.back()
+    def _leave(self, context: MenuContext) -> Command | None:
+        context.back()
         return None
 
     def _offer(self) -> None:
-        """Begin with the letter that was entered last time, or with END where nothing can follow."""
+        """Select the offered letter of the current place, or END where nothing can follow."""
         place = len(self.text)
         offered = self._offered[place] if place < len(self._offered) else ""
         self._turn = self.choices.index(offered) if offered and offered in self.choices else 0
 
 
 class InitialsPage(LettersPage):
-    """Whose score is it? Where nobody says so, it is signed as offered.
+    """The initials of a new high score; after a timeout the offered ones are used.
 
     Args:
         score: The score.
-        rank: Its place in the table, from 1.
-        start: The initials that were entered last.
-        done: What to do with the initials.
+        rank: Its rank in the high scores, from 1.
+        offered: The initials that were entered last.
+        done: Called with the initials.
     """
 
-    quiet = False  # the score is signed first, then the program may play
+    allows_attract = False  # the score gets its initials first
 
-    def __init__(self, score: int, rank: int, start: str, done: Callable[[str], Command | None]) -> None:
-        super().__init__("initials", f"NO. {rank} WITH {score:,}", LETTERS, 3, done, start=start)
+    def __init__(self, score: int, rank: int, offered: str, done: Callable[[str], Command | None]) -> None:
+        super().__init__("initials", f"NO. {rank} WITH {score:,}", LETTERS, 3, done, offered=offered)
 
-    def _give_up(self, desk: Desk) -> Command | None:
-        # A score is never lost: who leaves at once gets the initials of last time.
+    def _leave(self, context: MenuContext) -> Command | None:
+        # A score is never lost: without an entry it gets the offered initials.
         return self._done(self._offered)
 
-    def tick(self, desk: Desk) -> Command | None:
-        """Whoever made the score may have gone; the next one must not sign it."""
-        return self._done(self._completed()) if desk.idle >= SIGN_PATIENCE else None
+    def tick(self, context: MenuContext) -> Command | None:
+        """Use the offered initials after a timeout, so that the next player cannot sign the score."""
+        return self._done(self._completed()) if context.idle >= SIGN_TIMEOUT else None
 
     def _completed(self) -> str:
         if self._is_typed and self.text:
-            return self.text.ljust(self._most)
+            return self.text.ljust(self._max_length)
         return self.text + self._offered[len(self.text) :]
 
 
-def _typed(written: str, key: str, letters: str) -> str:
-    """The letter that a key means: what it writes, without accents, else what it is called; empty if none."""
-    for text in (written, key.removeprefix("[").removesuffix("]")):  # in brackets those of the number pad
+def _letter_of(written: str, key: str, letters: str) -> str:
+    """Return the letter that a key types, without accents, or else its name; empty if neither is a letter."""
+    for text in (written, key.removeprefix("[").removesuffix("]")):  # keypad keys have names in brackets
         if len(text) == 1:
             letter = unicodedata.normalize("NFKD", text).upper()[:1]
             if letter in letters:
@@ -224,8 +228,13 @@ def _typed(written: str, key: str, letters: str) -> str:
     return ""
 
 
-def _turning_keys(desk: Desk) -> str:
-    """Which buttons turn, those that bear letters named."""
-    sides = [line for line in desk.actions if line.action in ("left", "right")]
-    letters = [desk.shown(key) for line in sides for key in keys_of(desk.settings, line) if len(key) == 1]
+def _turning_keys(context: MenuContext) -> str:
+    """Return a help text with the letter keys that turn."""
+    sides = [binding for binding in context.actions if binding.action in ("left", "right")]
+    letters = [
+        context.button_label(key)
+        for binding in sides
+        for key in keys_for(context.settings.current, binding)
+        if len(key) == 1
+    ]
     return " ".join([*letters[:2], "◄ ►: TURN"])

@@ -1,86 +1,77 @@
-"""How does a window work the menus? Buttons and time go in, dots and commands come out.
+"""The menus as the window uses them: buttons and time go in, dots and commands come out.
 
     menus = Menus(settings, tables, scores)            # the main menu is open
-    menus.tick(seconds)                                # once a picture, by any clock that never goes back
-    command = menus.press(Button.START)                # None, or something to do
+    menus.tick(seconds)                                # once a frame, by any monotonic clock
+    command = menus.press(Button.START)                # None, or a command to execute
     panel.draw(screen, menus.draw(seconds))
 
-No clock, no window and no keyboard in here: the same presses at the same times show the same dots.
+This module has no clock, window or keyboard: the same presses at the same times draw the same dots.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Sequence
 
-from silverball.app.bindings import ACTIONS, ActionLine, Kind
-from silverball.app.demo_players import Performer
-from silverball.app.menus import page as layout
+from silverball.app.bindings import ACTIONS, ActionBinding, DeviceKind
+from silverball.app.menus import page_layout
 from silverball.app.menus.attract import AttractPage
 from silverball.app.menus.commands import Attract, Button, Command, EndReplay, Initials
-from silverball.app.menus.desk import Desk, JoystickEntry, ScoreRow, TableEntry
+from silverball.app.menus.context import MenuContext, ScoreRow, TableEntry
 from silverball.app.menus.entry import InitialsPage, LettersPage
-from silverball.app.menus.front import main_page
-from silverball.app.menus.game_pages import over_page, pause_page
+from silverball.app.menus.pages import main_page, over_page, pause_page
 from silverball.app.menus.remap import CapturePage
-from silverball.app.menus.transport import ReplayFace, TransportPage
-from silverball.app.settings import Settings
+from silverball.app.menus.transport import ReplayStatus, TransportPage
+from silverball.app.settings import PlayerSettings
 from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import NORMAL
 from silverball.game.view import Mode
 
-REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it counts again
+REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it repeats
 REPEAT_EVERY = 0.09  # [s]
-HURRY_AFTER, HURRY_EVERY = 4.0, 0.03  # [s] who holds it for so long has a long way to go
+FAST_REPEAT_AFTER, FAST_REPEAT_EVERY = 4.0, 0.03  # [s] for long lists
 BACK_AFTER = 1.0  # [s] for which both paddle buttons are held to go back
-IDLE = 30.0  # [s] without a button, after which the program plays by itself
+IDLE = 30.0  # [s] without a button, after which the attract mode begins
 
 
 class Menus:
-    """All pages, worked with three buttons.
+    """All menu pages, operated with three buttons.
 
     Args:
-        settings: As they are now.
-        tables: All tables that can be chosen.
-        scores: The best scores of a table and a mode, the best first. It is asked while pages are drawn,
-            so it should answer from memory.
+        settings: The player's settings.
+        tables: All tables to choose from.
+        scores: The scores of a table and a mode, best first. It is called while pages are drawn, so it should
+            answer from memory.
         actions: All actions that have keys.
         themes: Names of all themes.
+
+    Attributes:
+        context: The state that all pages share.
     """
 
     def __init__(
         self,
-        settings: Settings,
+        settings: PlayerSettings,
         tables: Sequence[TableEntry],
         scores: Callable[[str, Mode], Sequence[ScoreRow]],
-        actions: Sequence[ActionLine] = ACTIONS,
+        actions: Sequence[ActionBinding] = ACTIONS,
         themes: Sequence[str] = ("neon",),
     ) -> None:
-        self._desk = Desk(settings, tables, scores, actions, themes)
+        self.context = MenuContext(settings, tables, scores, actions, themes)
         self._down: dict[Button, float] = {}  # since when the paddle buttons are held
-        self._next = 0.0  # when the button that is held counts again
-        self._is_spent = False  # both were held: they do nothing more until they are released
-        self._touched: float | None = None  # the last button, or the first tick of an opened page
+        self._next_repeat = 0.0
+        self._is_spent = False  # both were held: they do nothing until both are released
+        self._active_at: float | None = None  # the last button, or the first tick of an opened page
         self.open_main()
 
     @property
-    def settings(self) -> Settings:
-        """The settings with all that was changed here."""
-        return self._desk.settings
-
-    @property
-    def seed(self) -> int | None:
-        """The seed that was chosen for random boards; None: another one for every game."""
-        return self._desk.seed
-
-    @property
     def is_open(self) -> bool:
-        """Whether a page is shown; else the buttons are the game's."""
-        return bool(self._desk.pages)
+        """Whether a page is shown; otherwise the buttons belong to the game."""
+        return bool(self.context.pages)
 
     @property
     def page(self) -> str:
-        """The name of the page that is shown; empty if none is."""
-        return self._desk.pages[-1].name if self._desk.pages else ""
+        """The name of the visible page; empty if there is none."""
+        return self.context.pages[-1].name if self.context.pages else ""
 
     @property
     def wants_key(self) -> bool:
@@ -94,233 +85,193 @@ class Menus:
 
     @property
     def wants_text(self) -> bool:
-        """Whether keys that bear letters are for `type`."""
-        return bool(self._desk.pages) and isinstance(self._desk.pages[-1], LettersPage)
+        """Whether keys with letters belong to `type`."""
+        return bool(self.context.pages) and isinstance(self.context.pages[-1], LettersPage)
 
     @property
     def signature(self) -> Hashable:
-        """What tells states apart in which buttons do different things."""
-        return tuple((page.name, page.signature()) for page in self._desk.pages)
+        """A value that differs between states in which buttons do different things."""
+        return tuple((page.name, page.signature()) for page in self.context.pages)
 
     def press(self, button: Button) -> Command | None:
-        """A button went down."""
-        desk = self._desk
-        self._touched = desk.now
-        if not desk.pages:
+        """Handle a button that went down."""
+        context = self.context
+        self._active_at = context.now
+        if not context.pages:
             return None
         if button in (Button.LEFT, Button.RIGHT):
-            self._down[button] = desk.now
-            self._next = desk.now + REPEAT_AFTER
-        return self._pass_on(button)
+            self._down[button] = context.now
+            self._next_repeat = context.now + REPEAT_AFTER
+        return self._press_page(button)
 
     def release(self, button: Button) -> None:
-        """A button came up."""
+        """Handle a button that came up."""
         self._down.pop(button, None)
         if not self._down:
             self._is_spent = False
 
     def release_all(self) -> None:
-        """The window no longer hears the buttons."""
+        """Release all buttons: the window has lost the focus."""
         self._down.clear()
         self._is_spent = False
 
-    def capture(self, name: str, kind: Kind | None = None) -> Command | None:
-        """The key or button that was asked for.
+    def capture(self, name: str, kind: DeviceKind | None = None) -> Command | None:
+        """Handle the key or button that the open page asked for.
 
         Args:
             name: Its name.
-            kind: Whose name that is; None: of what was asked for.
+            kind: The kind of device that the name belongs to; None: the kind that the page asked for.
         """
-        desk = self._desk
-        self._touched = desk.now
-        page = desk.pages[-1] if desk.pages else None
-        return page.capture(desk, name, kind or page.kind) if isinstance(page, CapturePage) else None
+        context = self.context
+        self._active_at = context.now
+        page = context.pages[-1] if context.pages else None
+        return page.capture(context, name, kind or page.kind) if isinstance(page, CapturePage) else None
 
     def type(self, written: str, key: str, *, is_button: bool) -> bool:
-        """A key was pressed while a text is entered; whether it was meant for that.
+        """Handle a key that was pressed while a text is entered; return whether the text used it.
 
         Args:
-            written: What the key writes; empty if that is not known.
+            written: The character that the key types; empty if unknown.
             key: The name of the key.
-            is_button: Whether it is a button of the menus as well.
+            is_button: Whether the key is also a button of the menus.
         """
-        desk = self._desk
-        page = desk.pages[-1] if desk.pages else None
-        if not isinstance(page, LettersPage) or not page.type(written, key, desk, is_button=is_button):
+        context = self.context
+        page = context.pages[-1] if context.pages else None
+        if not isinstance(page, LettersPage) or not page.type(written, key, context, is_button=is_button):
             return False
-        self._touched = desk.now
+        self._active_at = context.now
         return True
 
     def tick(self, seconds: float) -> Command | None:
-        """Time has gone on: held buttons count again, and pages end by themselves.
+        """Repeat held buttons, let pages time out, and begin the attract mode when nobody is active.
 
         Args:
-            seconds: By a clock that never goes back [s].
+            seconds: Of a monotonic clock [s].
         """
-        desk = self._desk
-        desk.now = max(seconds, desk.now)
-        if self._touched is None:
-            self._touched = desk.now
-        if not desk.pages:
+        context = self.context
+        context.now = max(seconds, context.now)
+        if self._active_at is None:
+            self._active_at = context.now
+        if not context.pages:
             return None
         if self._down:
-            self._touched = desk.now
-        desk.idle = desk.now - self._touched
-        page = desk.pages[-1]
-        command = page.tick(desk)
-        if command is not None or not desk.pages:
+            self._active_at = context.now
+        context.idle = context.now - self._active_at
+        page = context.pages[-1]
+        command = page.tick(context)
+        if command is not None or not context.pages:
             return command
         if self._down:
-            return self._held()
-        if all(one.quiet for one in desk.pages) and desk.idle >= IDLE + page.extra_patience:
+            return self._repeat_held()
+        if all(one.allows_attract for one in context.pages) and context.idle >= IDLE + page.extra_idle_time:
             return self.open_attract()
         return None
 
     def draw(self, seconds: float, below: Dots | None = None) -> Dots:
-        """What is to be seen.
+        """Draw the visible page.
 
         Args:
-            seconds: By the clock of `tick` [s].
-            below: What the game shows; the line of a replay stands below it.
+            seconds: Of the clock of `tick` [s].
+            below: The display of the game; the transport line of a replay is drawn below it.
         """
         game = Dots() if below is None else below
-        if not self._desk.pages:
+        if not self.context.pages:
             return game.copy()
-        dots = self._desk.pages[-1].draw(self._desk, seconds, game)
-        message, since = self._desk.message(seconds)
+        dots = self.context.pages[-1].draw(self.context, seconds, game)
+        message, since = self.context.message(seconds)
         if message:
-            dots.box(0, layout.FOOT_Y - 1, WIDTH, HEIGHT - layout.FOOT_Y + 1, 0)
-            light = layout.HALF if since < 0.6 and since % 0.2 < 0.1 else FULL  # it flashes to be noticed
-            layout.marquee(dots, message, layout.FOOT_Y, 0, WIDTH, NORMAL, since, brightness=light)
+            dots.box(0, page_layout.FOOT_Y - 1, WIDTH, HEIGHT - page_layout.FOOT_Y + 1, 0)
+            light = page_layout.HALF if since < 0.6 and since % 0.2 < 0.1 else FULL  # flashes at first
+            page_layout.marquee(dots, message, page_layout.FOOT_Y, 0, WIDTH, NORMAL, since, brightness=light)
         return dots
 
-    def say(self, text: str) -> None:
-        """Show a short message on the page that is open."""
-        self._desk.say(text.upper())
+    def show_message(self, text: str) -> None:
+        """Show a short message on the open page."""
+        self.context.show_message(text.upper())
 
     def open_main(self) -> None:
         """Show the main menu."""
-        self._touched = None
-        self._desk.close()
-        self._desk.open(main_page(self._desk))
+        self._active_at = None
+        self.context.close()
+        self.context.open(main_page(self.context))
 
     def open_attract(self) -> Command:
-        """Show the pages for those who only pass by; the main menu is below them."""
+        """Show the pages of the attract mode, with the main menu below them."""
         self.open_main()
-        self._desk.open(AttractPage())
+        self.context.open(AttractPage())
         return Attract(True)
 
     def open_pause(self) -> None:
-        """The game is paused."""
-        self._touched = None
-        self._desk.close()
-        self._desk.open(pause_page(self._desk))
+        """Show the pause page."""
+        self._active_at = None
+        self.context.close()
+        self.context.open(pause_page(self.context))
 
     def open_over(self, score: int, rank: int | None = None) -> None:
-        """The game is over.
+        """Show the page after a game.
 
         Args:
             score: Its points.
-            rank: Its place in the score table, from 1; None if it has none. With one, initials come first.
+            rank: Its rank in the high scores, from 1, which asks for initials first; None without a rank.
         """
-        desk = self._desk
-        desk.has_last_game = True
-        self._touched = None
-        desk.close()
-        desk.open(over_page(desk, score))
+        context, settings = self.context, self.context.settings
+        context.has_last_game = True
+        self._active_at = None
+        context.close()
+        context.open(over_page(context, score))
 
         def done(text: str) -> Command:
-            desk.back()
-            desk.change(initials=text)
+            context.back()
+            settings.change(initials=text)
             return Initials(text)
 
         if rank is not None:
-            desk.open(InitialsPage(score, rank, desk.settings.initials, done))
+            context.open(InitialsPage(score, rank, context.settings.current.initials, done))
 
-    def open_transport(self, face: ReplayFace) -> None:
-        """A replay is shown."""
-        self._touched = None
-        self._desk.pages.clear()  # not closed: one comes back to the pages from which it was opened
-        self._desk.open(TransportPage(face))
+    def open_transport(self, status: ReplayStatus) -> None:
+        """Show the transport line of a replay."""
+        self._active_at = None
+        self.context.pages.clear()  # not close(): the suspended pages return after the replay
+        self.context.open(TransportPage(status))
 
-    def show_replay(self, face: ReplayFace) -> None:
-        """Where the replay stands now."""
-        page = self._desk.pages[-1] if self._desk.pages else None
+    def update_replay(self, status: ReplayStatus) -> None:
+        """Tell the transport line where the replay is now."""
+        page = self.context.pages[-1] if self.context.pages else None
         if isinstance(page, TransportPage):
-            page.face = face
+            page.status = status
 
     def reopen(self) -> None:
-        """Nothing more to watch: show the page from which it was opened, or the main menu."""
-        self._touched = None
-        if not self._desk.come_back():
+        """Show the pages that a replay or a demo has hidden, or the main menu."""
+        self._active_at = None
+        if not self.context.resume():
             self.open_main()
 
     def close(self) -> None:
-        """Show the game."""
-        self._desk.close()
-
-    def use(self, settings: Settings) -> None:
-        """The settings were changed elsewhere, by a key for example."""
-        self._desk.use(settings)
-
-    def know(
-        self,
-        tables: Sequence[TableEntry] | None = None,
-        last_seed: int | None = None,
-        has_last_game: bool | None = None,
-        performer: Performer | None = None,
-        joysticks: Sequence[JoystickEntry] | None = None,
-        labels: Mapping[str, str] | None = None,
-    ) -> None:
-        """Learn what has changed; what is None stays.
-
-        Args:
-            tables: All tables that can be chosen.
-            last_seed: Of the board that is being played.
-            has_last_game: Whether there is a last game to watch.
-            performer: Who plays while the program plays by itself.
-            joysticks: Those that are plugged in.
-            labels: What stands on keys on the layout in use, by their names, where it is something else.
-        """
-        if tables is not None:
-            self._desk.tables = tables
-        if last_seed is not None:
-            self._desk.last_seed = last_seed
-        if has_last_game is not None:
-            self._desk.has_last_game = has_last_game
-        if performer is not None:
-            self._desk.performer = performer
-        if joysticks is not None:
-            self._desk.joysticks = joysticks
-        if labels is not None:
-            self._desk.labels = labels
-
-    def key(self, action: str) -> str:
-        """The first key of an action as the display writes it."""
-        return self._desk.key(action)
+        """Close all pages."""
+        self.context.close()
 
     def _wants(self, kind: str) -> bool:
-        page = self._desk.pages[-1] if self._desk.pages else None
+        page = self.context.pages[-1] if self.context.pages else None
         return isinstance(page, CapturePage) and page.kind == kind
 
-    def _pass_on(self, button: Button) -> Command | None:
-        command = self._desk.pages[-1].press(button, self._desk)
+    def _press_page(self, button: Button) -> Command | None:
+        command = self.context.pages[-1].press(button, self.context)
         if isinstance(command, EndReplay):
             self.reopen()
-        if not self._desk.pages:
+        if not self.context.pages:
             self.release_all()
         return command
 
-    def _held(self) -> Command | None:
-        """Both paddle buttons held go back once; one of them counts again and again."""
-        now = self._desk.now
+    def _repeat_held(self) -> Command | None:
+        """Go back once if both paddle buttons are held; repeat a single one."""
+        now = self.context.now
         if len(self._down) > 1:
             if not self._is_spent and now - max(self._down.values()) >= BACK_AFTER:
                 self._is_spent = True
-                return self._pass_on(Button.BACK)
+                return self._press_page(Button.BACK)
             return None
-        if self._is_spent or not self._desk.pages[-1].repeats or now < self._next:
+        if self._is_spent or not self.context.pages[-1].repeats or now < self._next_repeat:
             return None
-        every = REPEAT_EVERY if now - max(self._down.values()) < HURRY_AFTER else HURRY_EVERY
-        self._next = max(self._next + every, now)
-        return self._pass_on(next(iter(self._down)))
+        every = REPEAT_EVERY if now - max(self._down.values()) < FAST_REPEAT_AFTER else FAST_REPEAT_EVERY
+        self._next_repeat = max(self._next_repeat + every, now)
+        return self._press_page(next(iter(self._down)))

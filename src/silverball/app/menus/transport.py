@@ -1,11 +1,11 @@
-"""How is a replay worked? A line below the score shows time and speed; the paddles change it, or jump."""
+"""The transport line of a replay: time and speed below the score; the paddles change the speed or jump."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable
 from typing import NamedTuple
 
-from silverball.app.menus import page as layout
+from silverball.app.menus import page_layout
 from silverball.app.menus.commands import (
     Button,
     Command,
@@ -14,31 +14,31 @@ from silverball.app.menus.commands import (
     ReplayPause,
     ReplaySpeed,
 )
-from silverball.app.menus.desk import Desk, Page
+from silverball.app.menus.context import MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import NORMAL
 
 JUMP = 5.0  # [s]
-STUDY = 270.0  # [s] for which a replay may be held beyond what other pages wait
-HELP_TIME = 3.0  # [s] for which the help stands
-SPEEDS = {0.25: "1/4×", 0.5: "1/2×"}  # as glyphs they would be too small to read
+HELD_EXTRA_TIME = 270.0  # [s] for which a held replay stays open longer than other pages
+HELP_TIME = 3.0  # [s] for each help text
+SPEEDS = {0.25: "1/4×", 0.5: "1/2×"}  # the glyphs ¼ and ½ would be too small to read
 
 
-class ReplayFace(NamedTuple):
-    """Where a replay stands.
+class ReplayStatus(NamedTuple):
+    """The state of a replay.
 
     Attributes:
-        time: Of the game shown [s].
+        time: Of the game on screen [s].
         length: Of the whole game [s].
-        speed: 1 is as it was played.
-        paused: Whether it is held.
-        title: Whose game it is.
+        speed: Seconds of play per second; 1 is as played.
+        is_held: Whether it is held.
+        title: Shown in the line of help.
     """
 
     time: float = 0.0
     length: float = 0.0
     speed: float = 1.0
-    paused: bool = False
+    is_held: bool = False
     title: str = "REPLAY"
 
 
@@ -46,80 +46,80 @@ class TransportPage(Page):
     """The page of a replay: Space holds it; the paddles change its speed, or jump while it is held.
 
     Attributes:
-        face: Where the replay stands; the window keeps it true.
+        status: The state of the replay, updated by the program.
     """
 
     name = "transport"
     repeats = True
 
-    def __init__(self, face: ReplayFace) -> None:
-        self.face = face
+    def __init__(self, status: ReplayStatus) -> None:
+        self.status = status
 
     @property
-    def quiet(self) -> bool:  # type: ignore[override]
-        """Not while the replay goes on: somebody looks on."""
-        return self.face.paused or self._is_over()
+    def allows_attract(self) -> bool:  # type: ignore[override]
+        """Only while the replay is held or over: otherwise somebody is watching."""
+        return self.status.is_held or self._is_over()
 
     @property
-    def extra_patience(self) -> float:  # type: ignore[override]
-        """A replay that is held is being studied."""
-        return 0.0 if self._is_over() else STUDY
+    def extra_idle_time(self) -> float:  # type: ignore[override]
+        """Longer for a held replay, which somebody may be studying."""
+        return 0.0 if self._is_over() else HELD_EXTRA_TIME
 
-    def press(self, button: Button, desk: Desk) -> Command | None:
-        """Ask the window for what the button means; it alone knows the replay."""
-        self.shown_at = desk.now
+    def press(self, button: Button, context: MenuContext) -> Command | None:
+        """Ask the program to hold, change the speed, jump or leave."""
+        self.shown_at = context.now
         if button is Button.START:
             return EndReplay() if self._is_over() else ReplayPause()
         if button is Button.BACK:
             return EndReplay()
         step = -1 if button is Button.LEFT else 1
-        return ReplayJump(step * JUMP) if self.face.paused or self._is_over() else ReplaySpeed(step)
+        return ReplayJump(step * JUMP) if self.status.is_held or self._is_over() else ReplaySpeed(step)
 
-    def draw(self, desk: Desk, seconds: float, below: Dots) -> Dots:
-        """What the game shows, and below it the line of the replay."""
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
+        """Draw the display of the game, and the transport line below it."""
         dots = Dots()
-        layout.under(dots, below)
-        # Where it stands matters most, so the help waits until nobody has touched anything for a while.
+        page_layout.copy_above_foot(dots, below)
+        # The position matters most, so the help waits until no button was pressed for a while.
         since = max(seconds - self.shown_at, 0.0)
-        texts = {2: self.face.title.upper(), 4: self._help(desk), 6: "BOTH PADDLES HELD: LEAVE"}
+        texts = {2: self.status.title.upper(), 4: self._help(context), 6: "BOTH PADDLES HELD: LEAVE"}
         text = texts.get(int(since / HELP_TIME) % 8, "")
         if text:
-            layout.foot(dots, (text,), since % HELP_TIME)
+            page_layout.foot(dots, (text,), since % HELP_TIME)
         else:
             self._draw_line(dots, seconds)
         return dots
 
     def signature(self) -> Hashable:
-        """Whether the paddles jump."""
-        return self.face.paused, self._is_over()
+        """Return whether the paddles jump."""
+        return self.status.is_held, self._is_over()
 
     def _is_over(self) -> bool:
-        return self.face.time >= self.face.length
+        return self.status.time >= self.status.length
 
-    def _help(self, desk: Desk) -> str:
-        key = desk.key("create")
+    def _help(self, context: MenuContext) -> str:
+        key = context.key_label("create")
         if self._is_over():
             return f"◄►: BACK   {key}: LEAVE"
-        return f"◄►: JUMP   {key}: GO ON" if self.face.paused else f"◄►: SPEED   {key}: HOLD"
+        return f"◄►: JUMP   {key}: GO ON" if self.status.is_held else f"◄►: SPEED   {key}: HOLD"
 
     def _draw_line(self, dots: Dots, seconds: float) -> None:
-        face, y = self.face, layout.FOOT_Y
-        if face.paused:
-            if layout.blinks(seconds, 1.0):
+        status, y = self.status, page_layout.FOOT_Y
+        if status.is_held:
+            if page_layout.is_blink_on(seconds, 1.0):
                 dots.box(0, y, 2, 7)
                 dots.box(4, y, 2, 7)
         else:
             dots.text("►", 0, y, NORMAL)
-        end = 9 + dots.text(_clock(face.time), 9, y, NORMAL)
-        right = WIDTH - dots.text(_speed(face.speed), WIDTH, y, NORMAL, "right") - 4
-        share = face.time / face.length if face.length > 0.0 else 1.0
-        layout.meter(dots, end + 4, y + 1, right - end - 4, share)
+        end = 9 + dots.text(_time_text(status.time), 9, y, NORMAL)
+        right = WIDTH - dots.text(_speed_text(status.speed), WIDTH, y, NORMAL, "right") - 4
+        fraction = status.time / status.length if status.length > 0.0 else 1.0
+        page_layout.meter(dots, end + 4, y + 1, right - end - 4, fraction)
 
 
-def _clock(seconds: float) -> str:
+def _time_text(seconds: float) -> str:
     whole = max(int(seconds), 0)
     return f"{whole // 60}:{whole % 60:02d}"
 
 
-def _speed(speed: float) -> str:
+def _speed_text(speed: float) -> str:
     return SPEEDS.get(speed, f"{speed:g}×")

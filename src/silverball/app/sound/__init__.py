@@ -1,8 +1,8 @@
-"""What does the game sound like? Everything is synthesised at start; nothing is loaded.
+"""Sound: everything is synthesised at start; nothing is loaded from files.
 
-`Sounds` (sounds.py) is for a window, `FilmSound` for a film. Sounds are recipes (`recipes.py`, `hits.py`,
-`tunes.py`, `rolling.py`) on top of `synth.py`; `bank.py` makes them all at their loudness; `voices.py`
-decides which are heard; `mixer.py` plays them.
+`Sounds` plays sounds for a window, `FilmSound` collects them for a film. Sounds are recipes (`hits.py`,
+`tunes.py`, `rolling.py`) on top of `synth.py`; `bank.py` makes them all at the right loudness; `voices.py`
+selects them; `mixer.py` plays them.
 """
 
 from silverball.app.sound.mixdown import FilmSound, Frame, mixdown, rolling_balls, write_wav

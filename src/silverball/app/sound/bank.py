@@ -1,18 +1,21 @@
-"""Where are all sounds? In a bank: every wave of every recipe, made once, at its right loudness.
+"""The bank of sounds: the table of all recipes, and every wave of them, made once at its right loudness.
 
-Waves are int16, shape [sample], mono; the place between left and right is given when one is played.
+A sound has layers (how hard the blow was, or which step of the scale) and in each layer some variations, so
+that no two blows in a row play the same wave. Waves are int16, shape `[sample]`, mono; playing pans
+them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.app.sound.loudness import loudness
-from silverball.app.sound.recipes import RECIPES
+from silverball.app.sound import hits, tunes
+from silverball.app.sound.levels import loudness
 from silverball.app.sound.rolling import (
     ROLL_LEVEL,
     ROLL_SECONDS,
@@ -21,17 +24,62 @@ from silverball.app.sound.rolling import (
     roll_spectrum,
     roll_wobble,
 )
-from silverball.app.sound.synth import Wave, finished, looped, soft_limit
+from silverball.app.sound.synth import BELL_STEPS, Wave, finished, looped, soft_limit
+
+
+class Recipe(NamedTuple):
+    """How to make a sound.
+
+    Attributes:
+        make: Makes the wave of a layer with the random generator of a variation.
+        level: Loudness of its loudest moment at full strength [dB], see `loudness`.
+        layers: Number of layers.
+        variations: Number of variations of each layer.
+    """
+
+    make: Callable[[int, np.random.Generator], Wave]
+    level: float
+    layers: int = 1
+    variations: int = 1
+
+
+RECIPES: dict[str, Recipe] = {
+    "wall": Recipe(hits.wall, -20.0, 2, 3),
+    "slant_wall": Recipe(hits.slant_wall, -20.0, 2, 3),
+    "prism": Recipe(hits.prism, -18.0, 2, 3),
+    "cylinder": Recipe(hits.cylinder, -17.0, BELL_STEPS, 2),
+    "coil": Recipe(hits.coil, -23.0, 1, 3),
+    "stop": Recipe(hits.stop, -22.0, 2, 3),
+    "paddle_hit": Recipe(hits.paddle_hit, -20.0, 2, 3),
+    "balls": Recipe(hits.balls, -21.0, 2, 3),
+    "created": Recipe(hits.created, -19.0, 1, 2),
+    "shove": Recipe(hits.shove, -20.0, 1, 2),
+    "drain": Recipe(hits.drain, -18.0, 1, 2),
+    "ball_saved": Recipe(tunes.ball_saved, -18.0),
+    "warning": Recipe(tunes.warning, -18.0),
+    "tilt": Recipe(tunes.tilt, -16.0),
+    "unstuck": Recipe(tunes.unstuck, -20.0),
+    "double_on": Recipe(tunes.double_on, -18.0),
+    "game_over": Recipe(tunes.game_over, -18.0),
+    "high_score": Recipe(tunes.high_score, -16.0),
+    "menu_move": Recipe(tunes.menu_move, -25.0, 1, 2),
+    "menu_choose": Recipe(tunes.menu_choose, -22.0),
+    "menu_back": Recipe(tunes.menu_back, -23.0),
+    "menu_refuse": Recipe(tunes.menu_refuse, -22.0),
+    "attract": Recipe(tunes.attract, -22.0),
+}
+"""All sounds except the rolling of a ball, which is in `rolling.py`."""
+
 
 Samples: TypeAlias = NDArray[np.int16]
 
 FULL = 32767.0
 PEAK = 0.5
-"""No wave is higher, so that two of the loudest fit together without any limiting."""
+"""Peak of all waves, so that two of the loudest add up without limiting."""
 
 
 class Key(NamedTuple):
-    """Which wave of the bank: the recipe's name, layer and variation."""
+    """Identifies a wave of the bank: the name of the recipe, layer and variation."""
 
     name: str
     layer: int = 0
@@ -42,8 +90,8 @@ class Bank(NamedTuple):
     """All sounds.
 
     Attributes:
-        waves: By key.
-        loops: Rolling, one for each speed of `ROLL_SPEEDS`; seamless.
+        waves: All waves, by key.
+        loops: Seamless loops of rolling, one per speed of `ROLL_SPEEDS`.
     """
 
     waves: dict[Key, Samples]
@@ -57,14 +105,12 @@ class Bank(NamedTuple):
 
 @lru_cache(maxsize=1)
 def make_bank() -> Bank:
-    """Make all sounds; the same every time."""
+    """Make all sounds; the result is always the same."""
     waves = {}
     for number, (name, recipe) in enumerate(RECIPES.items()):
         for layer in range(recipe.layers):
             for variation in range(recipe.variations):
-                random = np.random.default_rng(
-                    [number, variation]
-                )  # layers differ in the blow, not in the thing
+                random = np.random.default_rng([number, variation])  # the same for all layers
                 wave = finished(recipe.make(layer, random))
                 waves[Key(name, layer, variation)] = to_samples(levelled(wave, recipe.level))
     loops = (to_samples(levelled(roll_loop(number), ROLL_LEVEL)) for number in range(len(ROLL_SPEEDS)))
@@ -72,19 +118,19 @@ def make_bank() -> Bank:
 
 
 def roll_loop(number: int) -> Wave:
-    """The loop of rolling at a speed of `ROLL_SPEEDS`."""
+    """Make the loop of rolling for one of `ROLL_SPEEDS`."""
     speed = ROLL_SPEEDS[number]
     loop = looped(roll_spectrum(roll_pitch(speed)), ROLL_SECONDS, number)
     return (loop * roll_wobble(speed)).astype(np.float32)
 
 
 def levelled(wave: Wave, level: float) -> Wave:
-    """A wave of a loudness [dB], or as loud as it can be below `PEAK`."""
+    """Scale a wave to a loudness [dB], limited to `PEAK`."""
     wave = wave * np.float32(10.0 ** ((level - loudness(wave)) / 20.0))
     return PEAK * soft_limit(wave / PEAK)
 
 
 def to_samples(wave: Wave) -> Samples:
-    """A wave in whole numbers."""
+    """Convert a wave to int16."""
     samples: Samples = np.rint(wave * FULL).astype(np.int16)
     return samples

@@ -1,15 +1,29 @@
-"""What do the things on the board sound like? One function each, from the layer to a wave.
+"""Recipes for the sounds of the board: one function each, from a layer to a wave.
 
-A layer is how hard the blow was (0 soft, 1 hard), or for a cylinder the step of the scale. The generator
-draws what makes no two blows alike.
+A layer is how hard the blow was (0 soft, 1 hard), or for a cylinder the step of the scale. The random
+generator makes no two blows alike.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from silverball.app.sound.scale import BAR, BELL, SKIN, TUNED_BAR, pitch_of
-from silverball.app.sound.synth import Partial, Wave, envelope, glide, mix, noise, puff, ring, struck
+from silverball.app.sound.synth import (
+    BAR,
+    BELL,
+    SKIN,
+    TUNED_BAR,
+    Partial,
+    Wave,
+    envelope,
+    glide,
+    mix,
+    noise,
+    pitch_of,
+    puff,
+    ring,
+    struck,
+)
 
 
 def wall(layer: int, random: np.random.Generator) -> Wave:
@@ -37,7 +51,7 @@ def slant_wall(layer: int, random: np.random.Generator) -> Wave:
 
 
 def prism(layer: int, random: np.random.Generator) -> Wave:
-    """A marimba bar, which takes the blow away: a warm, dry note of the low scale and a rubber thud."""
+    """A marimba bar: a warm, dry note of the low scale and a rubber thud."""
     step = (-5, -3, -2)[int(random.integers(3))]
     bar = struck(
         pitch_of(step),
@@ -60,21 +74,21 @@ def cylinder(layer: int, random: np.random.Generator) -> Wave:
         bell = struck(
             pitch_of(layer + above), BELL, 0.95, brightness=0.5, damping=0.7, detune=0.002, random=random
         )
-        bell.append(Partial(pitch_of(layer + above) * 1.003, 0.35, 0.8))  # beats slowly with the lowest
+        bell.append(Partial(pitch_of(layer + above) * 1.003, 0.35, 0.8))  # beating with the lowest partial
         layers.append((0.012 * above, strength, ring(bell, 0.95)))
     thump = ring([Partial(104.0, 1.0, 0.14), Partial(147.0, 0.5, 0.09)], 0.16)
     return mix(0.95, *layers, (0.0, 0.8, thump), (0.0, 0.1, puff(0.03, 400.0, 2500.0, 0.02, random)))
 
 
 def coil(layer: int, random: np.random.Generator) -> Wave:
-    """The coil of a paddle pulls: a dull clack with a trace of the hum of the mains."""
+    """The coil of a paddle: a dull clack with a trace of mains hum."""
     clack = puff(0.05, 240.0, 1500.0, 0.045, random, rise=0.0015)
     pull = ring([Partial(118.0 * random.uniform(0.97, 1.03), 1.0, 0.09), Partial(236.0, 0.4, 0.06)], 0.11)
     return mix(0.12, (0.0, 0.5, clack), (0.0, 0.9, pull))
 
 
 def stop(layer: int, random: np.random.Generator) -> Wave:
-    """The paddle reaches its stop: layer 0 falls back onto felt, layer 1 is thrown up against wood."""
+    """A paddle at its stop: layer 0 falls back onto felt, layer 1 is thrown up against wood."""
     body = struck(
         (230.0, 340.0)[layer],
         BAR,
@@ -116,7 +130,7 @@ def balls(layer: int, random: np.random.Generator) -> Wave:
 
 
 def created(layer: int, random: np.random.Generator) -> Wave:
-    """A ball comes into the lane: the plunger's knock, the ball rushing up, and two quiet notes."""
+    """A new ball in the lane: the knock of the plunger, the ball rushing up, and two quiet notes."""
     rush = noise(0.42, 180.0, 700.0, random) * envelope(0.42, 0.16, 0.5)
     knock = ring(struck(140.0, BAR, 0.16, brightness=0.4, damping=0.8, random=random), 0.2)
     low, high = (
@@ -126,13 +140,13 @@ def created(layer: int, random: np.random.Generator) -> Wave:
 
 
 def shove(layer: int, random: np.random.Generator) -> Wave:
-    """A hand against the cabinet: a low, soft thump and a rattle within."""
+    """A hand against the cabinet: a low, soft thump and a rattle inside."""
     body = ring(struck(98.0, SKIN, 0.24, brightness=0.65, damping=0.7, detune=0.03, random=random), 0.3)
     return mix(0.32, (0.0, 1.0, body), (0.03, 0.12, puff(0.16, 300.0, 1200.0, 0.14, random, rise=0.02)))
 
 
 def drain(layer: int, random: np.random.Generator) -> Wave:
-    """The ball falls into the trough: a hollow knock, a second one lower down, and two falling notes."""
+    """A ball in the gutter: a hollow knock, a second one lower down, and two falling notes."""
     first, second = (
         ring(struck(pitch, BAR, 0.3, brightness=0.35, damping=0.9, detune=0.02, random=random), 0.35)
         for pitch in (123.0, 98.0)

@@ -1,7 +1,7 @@
-"""How does a film get its sound? All notes and loops of a game, added up where they belong.
+"""The sound of a film: all notes and loops of a game, added up at their exact times.
 
-The same voices as in the window, but with every hit at its exact sample and rolling that changes smoothly;
-the same frames always give the same samples.
+The voices are those of the window, but every hit is at its exact sample, and rolling changes smoothly; the
+same frames always give the same samples.
 """
 
 from __future__ import annotations
@@ -25,18 +25,18 @@ if TYPE_CHECKING:
     from silverball.world import Event, World
 
 VOLUME = 0.8
-"""Strength of a film's sound: a film should not be louder than others."""
+"""Strength of a film's sound."""
 
 
-LONGEST_FRAME = RATE // 2  # [sample] in which strengths change evenly; in a longer frame, then no more
+MAX_FADE = RATE // 2  # [sample] over which strengths change; in longer frames they then stay
 
 
 class Soundtrack(NamedTuple):
     """The sound of a film.
 
     Attributes:
-        samples: int16 [sample, 2], left and right.
-        rate: Samples a second.
+        samples: int16 `[sample, 2]`, left and right.
+        rate: Samples per second.
     """
 
     samples: NDArray[np.int16]
@@ -44,16 +44,16 @@ class Soundtrack(NamedTuple):
 
 
 class Frame(NamedTuple):
-    """What is heard of one picture's time.
+    """The sound events of one frame of the film.
 
     Attributes:
-        time: In the film, at its end [s].
-        world_time: In the world [s]; the film may be slower, or begin later.
-        events: Since the picture before.
-        balls: On the board.
+        time: End of the frame in the film [s].
+        world_time: Time of the world at that moment [s]; the film may be slower, or begin later.
+        events: Of the world, since the previous frame.
+        balls: All balls on the board.
         buttons: Whether the left and the right paddle button are down.
-        news: Of the game, since the picture before.
-        menu: What a menu says, see `Sounds.menu`.
+        game_events: Since the previous frame.
+        menu: A menu sound, see `Sounds.play_menu`.
     """
 
     time: float
@@ -61,7 +61,7 @@ class Frame(NamedTuple):
     events: tuple[Event, ...] = ()
     balls: tuple[RollingBall, ...] = ()
     buttons: tuple[bool, bool] = (False, False)
-    news: tuple[GameEvent, ...] = ()
+    game_events: tuple[GameEvent, ...] = ()
     menu: str = ""
 
     @classmethod
@@ -71,44 +71,44 @@ class Frame(NamedTuple):
         time: float,
         events: Iterable[Event],
         buttons: tuple[bool, bool] = (False, False),
-        news: Iterable[GameEvent] = (),
+        game_events: Iterable[GameEvent] = (),
     ) -> Self:
-        """The frame that ends with a world as it is now, at a time in the film [s]."""
-        return cls(time, world.time, tuple(events), rolling_balls(world), buttons, tuple(news))
+        """Return the frame that ends with the current state of a world, at a time in the film [s]."""
+        return cls(time, world.time, tuple(events), rolling_balls(world), buttons, tuple(game_events))
 
 
 class FilmSound:
-    """Collects what is heard of a film, picture by picture.
+    """Collects the sound of a film, frame by frame.
 
     Args:
-        table: On which is played.
+        table: The board.
         tick_rate: Ticks per second of the world.
-        picture_rate: Pictures per second of the film.
+        frame_rate: Frames per second of the film.
     """
 
-    def __init__(self, table: Table, tick_rate: int, picture_rate: float) -> None:
-        self._table, self._tick_rate, self._picture_rate = table, tick_rate, picture_rate
+    def __init__(self, table: Table, tick_rate: int, frame_rate: float) -> None:
+        self._table, self._tick_rate, self._frame_rate = table, tick_rate, frame_rate
         self._frames: list[Frame] = []
 
-    def note(
+    def add_picture(
         self,
         world: World,
         events: Iterable[Event],
         buttons: tuple[bool, bool] = (False, False),
-        news: Iterable[GameEvent] = (),
+        game_events: Iterable[GameEvent] = (),
     ) -> None:
-        """The next picture: a world as it is now, what happened since the last one, the buttons now."""
-        time = (len(self._frames) + 1) / self._picture_rate
-        self._frames.append(Frame.of(world, time, events, buttons, news))
+        """Add a frame: the current state of a world, the events since the last frame, and the buttons."""
+        time = (len(self._frames) + 1) / self._frame_rate
+        self._frames.append(Frame.of(world, time, events, buttons, game_events))
 
     def track(self) -> Soundtrack:
-        """The sound of all pictures so far, for `write_film`."""
-        seconds = len(self._frames) / self._picture_rate
+        """Return the sound of all frames so far, for `write_film`."""
+        seconds = len(self._frames) / self._frame_rate
         return Soundtrack(mixdown(self._frames, seconds, self._table, self._tick_rate), RATE)
 
 
 def rolling_balls(world: World) -> tuple[RollingBall, ...]:
-    """The balls of a world, as rolling wants to know them."""
+    """Return the balls of a world for `Rolling`."""
     return tuple(
         RollingBall(
             ball.id, ball.position[0], ball.position[2], float(np.hypot(ball.velocity[0], ball.velocity[2]))
@@ -118,35 +118,34 @@ def rolling_balls(world: World) -> tuple[RollingBall, ...]:
 
 
 def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: int) -> Samples:
-    """The sound of a film: int16 [sample, 2], left and right, `RATE` samples a second.
+    """Return the sound of a film: int16 `[sample, 2]`, left and right, `RATE` samples per second.
 
     Args:
-        frames: One for every picture, in the order of time.
-        seconds: Length of the film; what rings on after it is cut off with a short fade.
-        table: On which is played.
+        frames: All frames in order.
+        seconds: Length of the film; longer sounds end with a short fade.
+        table: The board.
         tick_rate: Ticks per second of the world.
     """
     bank = make_bank()
-    loops = [single(np.concatenate([loop, loop[:LONGEST_FRAME]]) / FULL) for loop in bank.loops]
+    loops = [single(np.concatenate([loop, loop[:MAX_FADE]]) / FULL) for loop in bank.loops]
     total = np.zeros((2, max(round(seconds * RATE), 1)), np.float32)
     width = table.board.width
-    voices, rolling = Voices(), Rolling()
-    voices.begin(table)
+    voices, rolling = Voices(table), Rolling()
     gains: Gains = {}
     before = 0.0
     for frame in frames:
         dt = max(frame.time - before, 0.0)
-        notes = voices.news(frame.news)
-        notes += voices.hits(frame.events, tick_rate, width, frame.world_time)
-        # The buttons went down when the frame began: what they do is due within it.
+        notes = voices.game_events(frame.game_events)
+        notes += voices.world_events(frame.events, tick_rate, width, frame.world_time)
+        # The buttons were pressed at the beginning of the frame.
         notes += [note._replace(ago=dt) for note in voices.buttons(*frame.buttons)]
-        notes += voices.pass_time(dt) + voices.menu(frame.menu)
+        notes += voices.advance(dt) + voices.menu(frame.menu)
         for note in notes:
             _add_note(total, bank, note, frame.time - min(note.ago, dt))
         following = rolling.update(frame.balls, dt, width)
         begin, end = (min(round(time * RATE), total.shape[1]) for time in (before, frame.time))
-        for start in range(begin, end, LONGEST_FRAME):
-            _add_rolling(total, loops, (gains, following), slice(start, min(start + LONGEST_FRAME, end)))
+        for start in range(begin, end, MAX_FADE):
+            _add_rolling(total, loops, (gains, following), slice(start, min(start + MAX_FADE, end)))
             gains = following
         gains, before = following, max(frame.time, before)
     _fade_out(total)
@@ -154,7 +153,7 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
 
 
 def write_wav(path: Path, samples: Samples) -> None:
-    """Write int16 [sample, 2] as a WAV file.
+    """Write int16 `[sample, 2]` as a WAV file.
 
     Raises:
         OSError: It cannot be written.
@@ -174,12 +173,12 @@ def _add_note(total: Wave, bank: Bank, note: Note, time: float) -> None:
 
 
 def _add_rolling(total: Wave, loops: list[Wave], gains: tuple[Gains, Gains], span: slice) -> None:
-    """Add the loops to a span of samples, with strengths that change evenly from one to the other."""
+    """Add the loops to a span of samples, with strengths that change linearly between two gains."""
     count = span.stop - span.start
     share = np.arange(count, dtype=np.float32) / np.float32(max(count, 1))
     for lane, loop in sorted(gains[0].keys() | gains[1].keys()):
-        length = len(loops[loop]) - LONGEST_FRAME
-        # Lanes start at different places of the loop, or two balls of one speed would sound like one.
+        length = len(loops[loop]) - MAX_FADE
+        # Lanes start at different places of the loop, so that two balls of one speed do not sound like one.
         begin = (span.start + lane * length // LANES) % length
         piece = loops[loop][begin : begin + count]
         firsts, lasts = (one.get((lane, loop), (0.0, 0.0)) for one in gains)

@@ -1,8 +1,8 @@
-"""How do notes reach the loudspeakers? Through the channels of pygame's mixer.
+"""Plays notes on the channels of pygame's mixer.
 
-Strengths are set on a channel while it is idle, before its sound starts: a mixer thread that comes in between
-would otherwise play the first few milliseconds at full strength.
-Should somebody have closed pygame's mixer meanwhile, that first call says so; `play` alone would crash.
+Strengths are set on a channel while it is idle, before its sound starts: otherwise the mixer thread could
+play the first few milliseconds at full strength. If the mixer was closed meanwhile, that first call raises an
+error; `play` alone would crash.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from silverball.app.sound.synth import RATE
 from silverball.app.sound.voices import Note
 
 BUFFERS = (512, 1024, 2048)
-"""Sizes of the device's buffer [sample], the first that it takes: 512 are 11 ms. Smaller ones crackle while
-the physics is compiled."""
+"""Sizes of the device's buffer [sample], tried in order; 512 are 11 ms. Smaller ones crackle while the
+physics is compiled."""
 
 HIT_CHANNELS = 20
-_SPARE = 4  # channels that are kept free for the next frame
-_FADE = 15  # [ms] in which a sound that has to go fades
+_SPARE = 4  # channels kept free for the next frame
+_FADE = 15  # [ms] to fade out a sound
 
 
 class Mixer:
     """An open sound device.
 
     Raises:
-        pygame.error: There is none.
+        pygame.error: There is no sound device.
     """
 
     def __init__(self) -> None:
@@ -41,7 +41,7 @@ class Mixer:
         pygame.mixer.set_num_channels(HIT_CHANNELS + LANES * len(ROLL_SPEEDS))
         channels = [pygame.mixer.Channel(number) for number in range(pygame.mixer.get_num_channels())]
         self._free = channels[:HIT_CHANNELS]
-        self._busy: deque[pygame.mixer.Channel] = deque()  # the oldest first
+        self._busy: deque[pygame.mixer.Channel] = deque()  # oldest first
         self._fading: list[pygame.mixer.Channel] = []
         self._roll = channels[HIT_CHANNELS:]
         self._rolling: dict[int, tuple[float, float]] = {}
@@ -49,10 +49,10 @@ class Mixer:
         self._loops: list[pygame.mixer.Sound] = []
 
     def _open(self) -> None:
-        pygame.mixer.quit()  # whoever opened it before may have asked for another rate
+        pygame.mixer.quit()  # it may have been opened with another rate
         for number, buffer in enumerate(BUFFERS):
             try:
-                with _without_messages():
+                with _without_stderr():
                     pygame.mixer.init(RATE, -16, 2, buffer, allowedchanges=0)
                 return
             except pygame.error:
@@ -60,7 +60,7 @@ class Mixer:
                     raise
 
     def load(self, bank: Bank) -> None:
-        """Hand the waves to the mixer; may be called from a thread."""
+        """Load the waves into the mixer; may be called from a thread."""
         loops = [_sound(loop) for loop in bank.loops]
         self._sounds = {key: _sound(wave) for key, wave in bank.waves.items()}
         self._loops = loops
@@ -72,13 +72,13 @@ class Mixer:
 
     @property
     def voices(self) -> int:
-        """How many sounds are being played, rolling included."""
+        """The number of playing sounds, including rolling."""
         return sum(channel.get_busy() for channel in [*self._busy, *self._fading, *self._roll])
 
     def play(self, note: Note, volume: float) -> None:
-        """Begin a note, if a channel is free."""
+        """Play a note, if a channel is free."""
         left, right = volume * note.left, volume * note.right
-        if max(left, right) < 1.0 / 255.0 or not self.is_loaded:  # the mixer's own steps
+        if max(left, right) < 1.0 / 255.0 or not self.is_loaded:  # the resolution of the mixer
             return
         self._tidy()
         if not self._free:
@@ -89,7 +89,7 @@ class Mixer:
         self._busy.append(channel)
 
     def roll(self, gains: Gains, volume: float) -> None:
-        """Let the loops of rolling go on at these strengths; those that are not named end."""
+        """Set the strengths of the rolling loops; loops that are not named stop."""
         if not self.is_loaded:
             return
         wanted = {
@@ -97,36 +97,36 @@ class Mixer:
             for (lane, loop), (left, right) in gains.items()
         }
         for number in self._rolling.keys() - wanted.keys():
-            self._roll[number].stop()  # as good as silent by now
+            self._roll[number].stop()  # nearly silent by now
         for number, (left, right) in wanted.items():
             channel = self._roll[number]
             was_busy = (
                 channel.get_busy()
-            )  # asked first: it may end in between, and would start at full strength
+            )  # read first: it may end in between, and would restart at full strength
             channel.set_volume(left, right)
             if not was_busy:
                 channel.play(self._loops[number % len(ROLL_SPEEDS)], loops=-1)
         self._rolling = wanted
 
     def fade_rolling(self) -> None:
-        """Let the rolling end quickly but without a click."""
+        """Fade out the rolling loops."""
         for number in self._rolling:
             self._roll[number].fadeout(4 * _FADE)
         self._rolling = {}
 
     def fade_all(self) -> None:
-        """Silence, without a click."""
+        """Fade out all sounds."""
         self.fade_rolling()
         for channel in self._busy:
             channel.fadeout(2 * _FADE)
 
     def close(self) -> None:
-        """Give the device back."""
+        """Close the device."""
         self._sounds, self._loops = {}, []
         pygame.mixer.quit()
 
     def _tidy(self) -> None:
-        """Find channels that have become free; if there are few, let the oldest sounds fade."""
+        """Collect free channels; if there are few, fade out the oldest sounds."""
         if len(self._free) > _SPARE:
             return
         for group in (self._busy, self._fading):
@@ -145,18 +145,18 @@ def _sound(wave: Samples) -> pygame.mixer.Sound:
 
 
 @contextlib.contextmanager
-def _without_messages() -> Iterator[None]:
-    """Keep the sound system's own words about a missing device off the terminal; we say it in ours."""
+def _without_stderr() -> Iterator[None]:
+    """Suppress messages of the sound system about a missing device; `Sounds.warning` reports it."""
     try:
-        kept = os.dup(2)
+        stderr = os.dup(2)
     except OSError:  # there is no standard error, as with pythonw
         yield
         return
-    nothing = os.open(os.devnull, os.O_WRONLY)
+    devnull = os.open(os.devnull, os.O_WRONLY)
     try:
-        os.dup2(nothing, 2)
+        os.dup2(devnull, 2)
         yield
     finally:
-        os.dup2(kept, 2)
-        os.close(kept)
-        os.close(nothing)
+        os.dup2(stderr, 2)
+        os.close(stderr)
+        os.close(devnull)

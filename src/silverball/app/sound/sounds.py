@@ -1,4 +1,4 @@
-"""What must a window know of sound? `Sounds`: open it, tell it what happens, close it. It never fails."""
+"""The sounds of a window: `Sounds` opens the device, plays what happens, and never fails."""
 
 from __future__ import annotations
 
@@ -19,24 +19,24 @@ if TYPE_CHECKING:
 
 
 def master_volume(settings: Settings) -> float:
-    """The strength of all sounds, 0 to 1, by the volume of 0 to 10: about −5 dB at 7 and −32 dB at 1."""
+    """Return the strength of all sounds, 0 to 1, from the volume: about −5 dB at 7 and −32 dB at 1."""
     return 0.0 if settings.muted else (settings.volume / 10.0) ** 1.6
 
 
 class Sounds:
-    """The sounds of a window; silent until `open`, and wherever there is no sound device.
+    """The sounds of a window; silent until `open`, and without a sound device.
 
-    Each frame: `tell` the news, `note` the events, `buttons`, then `rolling`.
+    In each frame call `play_game_events`, `play_events`, `set_buttons`, then `set_rolling`.
 
     Args:
-        settings: Volume and whether it is muted.
+        settings: With volume and mute.
 
     Attributes:
-        trouble: Why there is no sound, in one sentence; "" if there is.
+        warning: Why there is no sound, in one sentence; empty if there is.
     """
 
     def __init__(self, settings: Settings) -> None:
-        self.trouble = ""
+        self.warning = ""
         self._volume = master_volume(settings)
         self._voices = Voices()
         self._rolling = Rolling()
@@ -44,19 +44,19 @@ class Sounds:
         self._maker: threading.Thread | None = None
         self._is_paused = False
 
-    # --- from the start to the end --------------------------------------------------------------------
+    # --- life cycle -----------------------------------------------------------------------------------
 
     def open(self) -> None:
-        """Open the sound device and make the sounds in a thread; until they are ready it is silent."""
+        """Open the sound device and make the sounds in a thread; it is silent until they are ready."""
         if self._mixer is not None:
             return
-        self.trouble = ""
+        self.warning = ""
         try:
             from silverball.app.sound.mixer import Mixer
 
             self._mixer = Mixer()
-        except Exception as error:  # whatever a sound system throws, the game goes on
-            self.trouble = f"no sound: no audio device could be opened ({error})"
+        except Exception as error:  # no error of the sound system may stop the game
+            self.warning = f"no sound: no audio device could be opened ({error})"
             return
         self._maker = threading.Thread(
             target=self._load, args=[self._mixer], name="silverball sounds", daemon=True
@@ -67,7 +67,7 @@ class Sounds:
         try:
             mixer.load(make_bank())
         except Exception as error:
-            self.trouble = f"no sound: the sounds could not be made ({error})"
+            self.warning = f"no sound: the sounds could not be made ({error})"
 
     def wait(self) -> None:
         """Wait until the sounds are made."""
@@ -75,7 +75,7 @@ class Sounds:
             self._maker.join()
 
     def close(self) -> None:
-        """End all sounds and give the device back."""
+        """Stop all sounds and close the device."""
         self.wait()
         mixer, self._mixer, self._maker = self._mixer, None, None
         if mixer is not None:
@@ -83,54 +83,54 @@ class Sounds:
 
     @property
     def voices(self) -> int:
-        """How many sounds are being played."""
+        """The number of playing sounds."""
         return 0 if self._mixer is None else self._mixer.voices
 
-    def change(self, settings: Settings) -> None:
-        """Follow the settings; muting ends at once what is being played."""
+    def apply_settings(self, settings: Settings) -> None:
+        """Set the volume; muting fades out everything at once."""
         self._volume = master_volume(settings)
         if self._volume == 0.0:
             self._try(lambda mixer: mixer.fade_all())
 
-    # --- what happens ---------------------------------------------------------------------------------
+    # --- events ---------------------------------------------------------------------------------------
 
-    def begin(self, table: Table) -> None:
-        """Another game begins, on a table, whose paddles say when they reach their stops."""
-        self._voices.begin(table)
+    def begin_game(self, table: Table) -> None:
+        """Begin another game on a table, whose paddles determine when they reach their stops."""
+        self._voices.begin_game(table)
         self._end_rolling()
 
-    def tell(self, news: Iterable[GameEvent]) -> None:
-        """What the game says; before `note`, so that bells know of the hits in a row."""
-        self._play(self._voices.news(news))
+    def play_game_events(self, events: Iterable[GameEvent]) -> None:
+        """Play events of the game; call it before `play_events`, so that bells know the hits in a row."""
+        self._play(self._voices.game_events(events))
 
-    def note(self, events: Sequence[Event], tick_rate: int, width: float) -> None:
-        """What happened on the board: events in order of time, ticks per second, the table's width [u]."""
+    def play_events(self, events: Sequence[Event], tick_rate: int, width: float) -> None:
+        """Play events of the board, in order of time; the width of the table is in [u]."""
         if events:
-            self._play(self._voices.hits(events, tick_rate, width))
+            self._play(self._voices.world_events(events, tick_rate, width))
 
-    def buttons(self, left: bool, right: bool) -> None:
-        """Which paddle buttons are down; every frame, or when it changes."""
+    def set_buttons(self, left: bool, right: bool) -> None:
+        """Set which paddle buttons are down; call it in every frame, or on changes."""
         self._play(self._voices.buttons(left, right))
 
-    def rolling(self, balls: Iterable[tuple[int, float, float, float]], dt: float, width: float) -> None:
-        """Where the balls are: (id, x [u], z [u], speed [u/s]) each, so many seconds after the last time."""
+    def set_rolling(self, balls: Iterable[tuple[int, float, float, float]], dt: float, width: float) -> None:
+        """Set the balls as `RollingBall`, `dt` [s] after the last call."""
         if self._is_paused:
             return
-        self._play(self._voices.pass_time(dt))
+        self._play(self._voices.advance(dt))
         gains = self._rolling.update(balls, dt, width)
         self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, self._volume))
 
-    def menu(self, what: str) -> None:
-        """What a menu says: "move", "choose", "back", "refuse", "high_score" or "attract"."""
+    def play_menu(self, what: str) -> None:
+        """Play a menu sound: "move", "choose", "back", "refuse", "high_score" or "attract"."""
         self._play(self._voices.menu(what))
 
     def pause(self) -> None:
-        """Time stands still: rolling fades, what was struck rings out, menus are still heard."""
+        """Pause: rolling fades, hits ring out, menus stay audible."""
         self._is_paused = True
         self._end_rolling()
 
     def resume(self) -> None:
-        """Time goes on."""
+        """Continue after a pause."""
         self._is_paused = False
 
     def _end_rolling(self) -> None:
@@ -146,11 +146,11 @@ class Sounds:
             self._try(play)
 
     def _try(self, action: Callable[[Mixer], None]) -> None:
-        """Ask something of the mixer; if its device is gone, the game goes on in silence."""
+        """Run an action of the mixer; if its device is gone, the game continues in silence."""
         if self._mixer is None:
             return
         try:
             action(self._mixer)
         except Exception as error:
             self._mixer = None
-            self.trouble = f"no sound any more: the audio device is gone ({error})"
+            self.warning = f"no sound any more: the audio device is gone ({error})"

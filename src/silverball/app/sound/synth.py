@@ -1,7 +1,10 @@
-"""What are sounds made of? Sums of decaying tones, coloured noise and gliding tones, as pure functions.
+"""Synthesis: sums of decaying tones, coloured noise and gliding tones, as pure functions, in one scale.
 
-A wave is float32, shape [sample], mono, at `RATE` samples a second. Times are in seconds, pitches in Hz.
-Randomness comes only from the generator that is handed in, so that the same seed makes the same wave.
+A wave is float32, shape `[sample]`, mono, at `RATE` samples a second. Times are in seconds, pitches in Hz.
+Randomness comes only from the generator that is passed in, so the same seed makes the same wave.
+
+The scale is G major pentatonic (G A B D E), in which no two notes clash: hits that coincide by chance still
+sound like a chord.
 """
 
 from __future__ import annotations
@@ -13,26 +16,51 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+G4 = 440.0 * 2.0 ** (-2.0 / 12.0)
+"""The root of the scale [Hz]; A4 is 440 Hz, twelve equal semitones make an octave."""
+
+SCALE = (0, 2, 4, 7, 9)
+"""G A B D E, in semitones above G."""
+
+BELL_STEPS = 10
+"""Steps of the bell: two octaves of the scale, so that the tenth hit in a row is an E6 of 1319 Hz."""
+
+# Ratios of partials. A bar with free ends: the zeros of cos·cosh = 1, squared. A tuned bar (marimba): the
+# second partial is carved to 4. A bell: hum, prime, tierce, quint and nominal of bell founding, with a major
+# tierce. A skin: zeros of Bessel functions. Source: N. Fletcher, T. Rossing, "The Physics of Musical
+# Instruments", 2nd ed. (1998), ch. 2, 3, 19 and 21.
+BAR = (1.0, 2.756, 5.404, 8.933)
+TUNED_BAR = (1.0, 4.0, 9.2, 16.0)
+BELL = (1.0, 2.0, 2.5, 3.0, 4.0, 5.33, 6.67)
+SKIN = (1.0, 1.594, 2.136, 2.653, 3.156)
+
+
+def pitch_of(step: int) -> float:
+    """Return the pitch [Hz] of a step of the scale; G4 is step 0, and steps may be negative."""
+    octave, degree = divmod(step, len(SCALE))
+    return G4 * math.pow(2.0, octave + SCALE[degree] / 12.0)
+
+
 RATE = 48_000
-"""Samples a second: what most sound devices run at, so that nothing is resampled."""
+"""Samples per second: the rate of most sound devices, so that nothing is resampled."""
 
 Wave: TypeAlias = NDArray[np.floating[Any]]
 
 FADE_IN = 0.0004  # [s] at the start of every sound: shorter clicks, longer takes the edge off a hit
 FADE_OUT = 0.012  # [s] at its end
-NATURAL = -80.0  # [dB] a decay is cut where it has fallen so far
-_BLOCK = 256  # samples in which decaying tones are worked out at once
-_EDGE = 480  # samples in which a layer of a mix ends
+NATURAL = -80.0  # [dB] at which a decay is cut off
+_BLOCK = 256  # samples of decaying tones computed at once
+_EDGE = 480  # samples in which a layer of a mix fades out
 _FALL = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, _EDGE + 1) / _EDGE)).astype(np.float32)
 
 
 class Partial(NamedTuple):
-    """One decaying tone of a struck thing.
+    """A decaying tone of a struck object.
 
     Attributes:
         pitch: [Hz].
         strength: Amplitude at the start.
-        decay: In which it falls by 60 dB [s].
+        decay: Time in which it falls by 60 dB [s].
     """
 
     pitch: float
@@ -41,21 +69,21 @@ class Partial(NamedTuple):
 
 
 def single(values: Any) -> Wave:
-    """Values as float32: twice as fast to add up, and far finer than 16 bits."""
+    """Convert to float32: twice as fast to add, and far more precise than 16 bits."""
     wave: Wave = values.astype(np.float32, copy=False)
     return wave
 
 
 def sample_count(seconds: float) -> int:
-    """How many samples last so long."""
+    """Return the number of samples of a duration [s], at least 1."""
     return max(round(seconds * RATE), 1)
 
 
 def ring(partials: Sequence[Partial], seconds: float) -> Wave:
-    """Decaying tones that start together: Σ strength · e^(−6.9·t/decay) · sin(2π·pitch·t).
+    """Return decaying tones that start together: Σ strength · e^(−6.9·t/decay) · sin(2π·pitch·t).
 
     A sine and a decay are both powers of one complex number, z^n = z^(256·k) · z^j, so a tone is an outer
-    product of two short rows: some hundred times cheaper than a sine and a power for every sample.
+    product of two short vectors: about a hundred times cheaper than a sine and a power per sample.
     """
     count = sample_count(seconds)
     blocks = -(-count // _BLOCK)
@@ -64,11 +92,11 @@ def ring(partials: Sequence[Partial], seconds: float) -> Wave:
         if pitch >= 0.45 * RATE:
             continue
         exponent = complex(-math.log(1000.0) / decay, 2.0 * math.pi * pitch) / RATE
-        heard = min(blocks, math.ceil(sample_count(-NATURAL / 60.0 * decay) / _BLOCK))
-        coarse = strength * np.exp(exponent * _BLOCK * np.arange(heard))
+        audible = min(blocks, math.ceil(sample_count(-NATURAL / 60.0 * decay) / _BLOCK))
+        coarse = strength * np.exp(exponent * _BLOCK * np.arange(audible))
         fine = np.exp(exponent * np.arange(_BLOCK))
-        wave[:heard] += np.outer(coarse.real.astype(np.float32), fine.imag.astype(np.float32))
-        wave[:heard] += np.outer(coarse.imag.astype(np.float32), fine.real.astype(np.float32))
+        wave[:audible] += np.outer(coarse.real.astype(np.float32), fine.imag.astype(np.float32))
+        wave[:audible] += np.outer(coarse.imag.astype(np.float32), fine.real.astype(np.float32))
     return wave.reshape(-1)[:count]
 
 
@@ -82,15 +110,15 @@ def struck(
     detune: float = 0.0,
     random: np.random.Generator,
 ) -> list[Partial]:
-    """The partials of a struck thing.
+    """Return the partials of a struck object.
 
     Args:
-        pitch: Of the lowest [Hz].
-        ratios: Of all partials to the lowest.
-        decay: Of the lowest [s].
-        brightness: How strong each partial is to the one below it; a harder blow is brighter.
-        damping: How much faster high partials die: in `decay` · ratio^−damping. Wood 0.9, metal 0.6.
-        detune: How far each partial is off, at most, as a share; makes no two blows alike.
+        pitch: Of the lowest partial [Hz].
+        ratios: Of the pitches to the lowest.
+        decay: Of the lowest partial [s].
+        brightness: Strength of each partial relative to the one below; a harder blow is brighter.
+        damping: How much faster high partials decay: in `decay` · ratio^−damping. Wood 0.9, metal 0.6.
+        detune: Greatest relative detuning of a partial; makes no two blows alike.
         random: Draws the detuning and small differences of strength.
     """
     partials = []
@@ -104,7 +132,7 @@ def struck(
 def noise(
     seconds: float, low: float, high: float, random: np.random.Generator, *, slope: float = 12.0
 ) -> Wave:
-    """Noise between two pitches [Hz], falling off outside by `slope` dB an octave; its RMS is 1."""
+    """Return noise between two pitches [Hz] with RMS 1, falling off outside by `slope` dB per octave."""
     count = _good_length(sample_count(seconds))
     pitches = np.fft.rfftfreq(count, 1.0 / RATE)
     spectrum = np.fft.rfft(random.standard_normal(count, np.float32)) * _band(pitches, low, high, slope)
@@ -115,7 +143,7 @@ def noise(
 def puff(
     seconds: float, low: float, high: float, decay: float, random: np.random.Generator, *, rise: float = 0.001
 ) -> Wave:
-    """A burst of noise: it rises in `rise` [s] and falls by 60 dB in `decay` [s]."""
+    """Return a burst of noise that rises in `rise` [s] and falls by 60 dB in `decay` [s]."""
     time = np.arange(sample_count(seconds), dtype=np.float32) / RATE
     return noise(seconds, low, high, random) * np.minimum(time / rise, 1.0) * _fall(time, decay)
 
@@ -125,7 +153,7 @@ def glide(
     seconds: float,
     overtones: Sequence[float] = (1.0,),
 ) -> Wave:
-    """A tone whose pitch [Hz] is a function of the time from 0 to 1, with overtones of given strengths."""
+    """Return a tone whose pitch [Hz] is a function of the time from 0 to 1; overtones are strengths."""
     count = sample_count(seconds)
     turns = np.cumsum(pitch(np.arange(count) / count)) / RATE
     phase = (2.0 * np.pi * (turns % 1.0)).astype(np.float32)
@@ -136,14 +164,14 @@ def glide(
 
 
 def envelope(seconds: float, rise: float, decay: float) -> Wave:
-    """From 0 to 1 within `rise` [s], and from there down by 60 dB within `decay` [s]."""
+    """Return an envelope that rises to 1 within `rise` [s], then falls by 60 dB within `decay` [s]."""
     time = np.arange(sample_count(seconds), dtype=np.float32) / RATE
     up = np.minimum(time / rise, 1.0)
     return (0.5 - 0.5 * np.cos(np.pi * up)) * _fall(np.maximum(time - rise, 0.0), decay)
 
 
 def mix(seconds: float, *layers: tuple[float, float, Wave]) -> Wave:
-    """Waves on top of each other, each ending softly: (start [s], strength, wave)."""
+    """Add waves, each with a soft end: (start [s], strength, wave)."""
     total = np.zeros(sample_count(seconds), np.float32)
     for start, strength, wave in layers:
         at = round(start * RATE)
@@ -157,14 +185,14 @@ def mix(seconds: float, *layers: tuple[float, float, Wave]) -> Wave:
 
 
 def finished(wave: Wave) -> Wave:
-    """A wave that begins and ends at zero and has no offset, so that it starts and stops without a click."""
+    """Return a wave that begins and ends at zero and has no offset, so that it does not click."""
     count = len(wave)
     edge = np.ones(count, np.float32)
     rise, fall = min(sample_count(FADE_IN), count // 2), min(sample_count(FADE_OUT), count // 2)
     edge[:rise] = 0.5 - 0.5 * np.cos(np.pi * np.arange(rise) / rise)
     edge[count - fall :] = 0.5 + 0.5 * np.cos(np.pi * np.arange(1, fall + 1) / fall)
     wave = wave * edge
-    # What is taken away is shaped like the wave itself, so the ends stay at zero and no slow bow is added.
+    # The correction has the shape of the wave itself: the ends stay at zero, and no low frequency is added.
     size = np.abs(wave)
     return wave - size * np.float32(
         wave.sum(dtype=np.float64) / max(float(size.sum(dtype=np.float64)), 1e-30)
@@ -172,12 +200,12 @@ def finished(wave: Wave) -> Wave:
 
 
 def looped(spectrum: Callable[[Wave], Wave], seconds: float, seed: int) -> Wave:
-    """Noise that goes on without a seam when it is repeated; its RMS is 1.
+    """Return noise that repeats without a seam; its RMS is 1.
 
-    It is made of tones that fit the loop a whole number of times, with random phases.
+    It consists of tones that fit the loop a whole number of times, with random phases.
 
     Args:
-        spectrum: The strength at a pitch [Hz].
+        spectrum: Returns the strength at a pitch [Hz].
         seconds: Of the loop.
         seed: Of the phases.
     """
@@ -191,7 +219,7 @@ def looped(spectrum: Callable[[Wave], Wave], seconds: float, seed: int) -> Wave:
 
 
 def soft_limit(wave: Wave, knee: float = 0.7) -> Wave:
-    """A wave within −1 to 1: unchanged up to the knee, bent smoothly above it."""
+    """Limit a wave to −1 … 1: unchanged up to the knee, compressed smoothly above it."""
     over = np.abs(wave) > knee
     if not over.any():
         return wave
@@ -214,6 +242,6 @@ def _band(pitches: Wave, low: float, high: float, slope: float) -> Wave:
 
 
 def _good_length(count: int) -> int:
-    """A length, not below `count`, that a fast Fourier transform likes: 2^n or 3·2^n."""
+    """Return a length ≥ `count` for a fast Fourier transform: 2^n or 3·2^n."""
     power = 1 << (count - 1).bit_length()
     return 3 * power // 4 if 3 * power // 4 >= count else power

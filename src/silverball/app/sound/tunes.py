@@ -1,17 +1,29 @@
-"""What does the game itself sound like? Tunes and signals of the game and its menus, one function each."""
+"""Recipes for the tunes and signals of the game and its menus: one function each."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from silverball.app.sound.scale import BAR, BELL, TUNED_BAR, pitch_of
-from silverball.app.sound.synth import RATE, Wave, envelope, glide, mix, ring, single, struck
+from silverball.app.sound.synth import (
+    BAR,
+    BELL,
+    RATE,
+    TUNED_BAR,
+    Wave,
+    envelope,
+    glide,
+    mix,
+    pitch_of,
+    ring,
+    single,
+    struck,
+)
 
 
 def _bells(
     random: np.random.Generator, seconds: float, *notes: tuple[float, int, float], decay: float = 0.7
 ) -> Wave:
-    """Bells: (start [s], step of the scale, strength)."""
+    """Play bells: (start [s], step of the scale, strength)."""
     return mix(
         seconds,
         *(
@@ -29,7 +41,7 @@ def _bells(
 
 
 def _reed(step: int, seconds: float, release: float = 0.12) -> Wave:
-    """A held note, like a small organ's: a few overtones, a slow start, a soft end."""
+    """Play a sustained note, like that of a small organ: a few overtones, a slow attack, a soft release."""
     tone = glide(lambda t: np.full_like(t, pitch_of(step)), seconds, (1.0, 0.5, 0.28, 0.14, 0.06))
     edge = min(release, 0.5 * seconds)
     time = np.arange(len(tone)) / RATE
@@ -38,12 +50,12 @@ def _reed(step: int, seconds: float, release: float = 0.12) -> Wave:
 
 
 def ball_saved(layer: int, random: np.random.Generator) -> Wave:
-    """Good news: four bells upwards, G B D G."""
+    """Four bells upwards, G B D G."""
     return _bells(random, 1.0, (0.0, 0, 0.8), (0.08, 2, 0.8), (0.16, 3, 0.9), (0.24, 5, 1.0))
 
 
 def warning(layer: int, random: np.random.Generator) -> Wave:
-    """Take care: two short dull buzzes."""
+    """Two short dull buzzes."""
     buzz = glide(lambda t: np.full_like(t, 123.5), 0.14, (1.0, 0.7, 0.5, 0.3, 0.2, 0.1)) * envelope(
         0.14, 0.015, 0.4
     )
@@ -51,7 +63,7 @@ def warning(layer: int, random: np.random.Generator) -> Wave:
 
 
 def tilt(layer: int, random: np.random.Generator) -> Wave:
-    """The power goes: a hum that sinks by three octaves and runs out."""
+    """A hum that sinks by three octaves and dies, as if the power failed."""
     hum = glide(lambda t: 392.0 * 2.0 ** (-3.0 * t**0.8), 1.4, (1.0, 0.6, 0.4, 0.25, 0.12)) * envelope(
         1.4, 0.01, 2.2
     )
@@ -59,8 +71,8 @@ def tilt(layer: int, random: np.random.Generator) -> Wave:
     return mix(1.5, (0.0, 0.7, hum), (0.0, 1.0, clunk))
 
 
-def un_stuck(layer: int, random: np.random.Generator) -> Wave:
-    """The machine helps itself: two knocks from below, and a small note up."""
+def unstuck(layer: int, random: np.random.Generator) -> Wave:
+    """Two knocks from below, and a small note up."""
     knocks = [
         ring(struck(pitch, BAR, 0.12, brightness=0.4, damping=0.8, random=random), 0.15)
         for pitch in (131.0, 165.0)
@@ -70,14 +82,14 @@ def un_stuck(layer: int, random: np.random.Generator) -> Wave:
 
 
 def double_on(layer: int, random: np.random.Generator) -> Wave:
-    """Two balls, double points: a spread chord, G D B E."""
+    """An arpeggio, G D B E."""
     return _bells(
         random, 1.1, (0.0, -5, 0.8), (0.05, 3, 0.7), (0.1, 5, 0.6), (0.15, 7, 0.7), (0.2, 9, 0.5), decay=0.9
     )
 
 
 def game_over(layer: int, random: np.random.Generator) -> Wave:
-    """The end, without bitterness: E D B down to a G with its octave below."""
+    """Bells E D B down to a G with its octave below."""
     bells = _bells(
         random, 2.2, (0.0, 4, 0.8), (0.22, 3, 0.8), (0.44, 2, 0.8), (0.7, 0, 1.0), (0.7, -5, 0.9), decay=1.3
     )
@@ -113,30 +125,30 @@ def high_score(layer: int, random: np.random.Generator) -> Wave:
 
 
 def menu_move(layer: int, random: np.random.Generator) -> Wave:
-    """From one line to the next: a wooden tick."""
+    """A wooden tick."""
     return ring(
         struck(pitch_of(3), TUNED_BAR, 0.11, brightness=0.25, damping=0.8, detune=0.004, random=random), 0.12
     )
 
 
 def menu_choose(layer: int, random: np.random.Generator) -> Wave:
-    """Yes: two notes up."""
+    """Two notes up."""
     return _bells(random, 0.5, (0.0, 0, 0.8), (0.07, 3, 1.0), decay=0.4)
 
 
 def menu_back(layer: int, random: np.random.Generator) -> Wave:
-    """And back: the same two down, shorter."""
+    """The same two notes down, shorter."""
     return _bells(random, 0.42, (0.0, 3, 0.8), (0.07, 0, 0.9), decay=0.32)
 
 
 def menu_refuse(layer: int, random: np.random.Generator) -> Wave:
-    """No: a double thud that says nothing worse than no."""
+    """A soft double thud."""
     thud = ring(struck(147.0, BAR, 0.11, brightness=0.4, damping=0.9, random=random), 0.13)
     return mix(0.28, (0.0, 1.0, thud), (0.11, 0.9, thud))
 
 
 def attract(layer: int, random: np.random.Generator) -> Wave:
-    """Nobody plays: a music box runs up and down the scale, far away."""
+    """A distant music box, up and down the scale."""
     steps = (0, 2, 3, 5, 7, 5, 3, 7, 9, 7, 5, 3, 2, 3, 0)
     notes = [(0.16 * number, step, 0.8 if number % 4 == 0 else 0.55) for number, step in enumerate(steps)]
     return _bells(random, 3.2, *notes, (0.0, -5, 0.6), (0.16 * 14, -5, 0.6), decay=0.8)

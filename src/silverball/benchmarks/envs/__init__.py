@@ -1,4 +1,4 @@
-"""How many steps a second do environments for agents make: ours, and others that are installed?
+"""Benchmark of environments for agents: steps per second of Silverball's and of others that are installed.
 
-`contestants.py` says who takes part, `contest.py` measures them, `report.py` tells what came of it.
+`environments.py` lists the candidates, `measure.py` times them, `rate_table.py` formats the result.
 """

@@ -1,8 +1,8 @@
-"""Whose steps are counted: our environments in several ways, and others, each as anybody gets it.
+"""The candidates of the benchmark: Silverball's environments in several configurations, and others.
 
-Others take part where their packages are installed: Gymnasium's CartPole (its fastest), Atari's VideoPinball
-by ale-py and by EnvPool, and PufferLib's breakout in C. All are told to use as many threads as there are
-cores, if they use several. Actions are random.
+Others are measured where their packages are installed: Gymnasium's CartPole (its fastest), Atari's
+VideoPinball by ale-py and by EnvPool, and PufferLib's breakout in C. Those that use several threads get one
+for each core. Actions are random.
 """
 
 from __future__ import annotations
@@ -21,28 +21,28 @@ CLASSIC, RANDOM, PIXELS = (
     "silverball/Pinball-v0",
     "silverball/PinballPixels-v0",
 )
-FEW, MANY = 2048, 8192  # environments side by side that show states: their records fit the cache, or do not
-FEW_PICTURED, MANY_PICTURED = 256, 1024  # that show pictures, the same
+FEW, MANY = 2048, 8192  # environments with state observations: their records fit the cache, or do not
+FEW_PICTURED, MANY_PICTURED = 256, 1024  # environments with pictures: the same
 ATARIS = 16
 BREAKOUTS = 1024
 BOARDS = 16
-SINGLE_STEPS = 1000  # of one environment in one call, so that the call does not count
-ACTIONS = 16  # rows of random actions, taken in turn
+SINGLE_STEPS = 1000  # of one environment in one call, so that the cost of the call is negligible
+ACTIONS = 16  # rows of random actions that are cycled through
 
 Made = tuple[Callable[[], object], int]
-"""A call, and how many steps it makes."""
+"""A callable, and the number of steps that one call makes."""
 
 
-class Contestant(NamedTuple):
-    """Somebody whose speed is measured.
+class Candidate(NamedTuple):
+    """Something whose speed is measured.
 
     Attributes:
-        name: What the figure is of.
-        make: Builds it, and returns a call and the steps that it makes.
-        sees: What an observation is: "state" or "pictures"; "" if nothing is observed.
-        ours: Whether it is ours.
-        yardstick: Its name at the head of a column that tells how much faster we are; "" if there is none.
-        package: What must be installed for it; building it raises ImportError otherwise.
+        name: As shown in the table.
+        make: Builds it and returns a callable and the steps of one call.
+        sees: The kind of observation: "state" or "pictures"; "" if nothing is observed.
+        ours: Whether it is one of Silverball's.
+        yardstick: Its name as a baseline, which gets a column of ratios; "" if it is not a baseline.
+        package: The package that it needs; without it `make` raises ImportError.
         unit: "steps/s", or "µs" for the time of one call.
     """
 
@@ -55,15 +55,15 @@ class Contestant(NamedTuple):
     unit: str = "steps/s"
 
 
-def contestants() -> list[Contestant]:
-    """All of them, ours first."""
+def candidates() -> list[Candidate]:
+    """All candidates, Silverball's first."""
     return [
-        Contestant("one, through gymnasium.make", lambda: _one(CLASSIC)),
-        Contestant("one, steps of 4 frames", lambda: _one(CLASSIC, frame_skip=4)),
+        Candidate("one, through gymnasium.make", lambda: _one(CLASSIC)),
+        Candidate("one, steps of 4 frames", lambda: _one(CLASSIC, frame_skip=4)),
         *(_states(count, **options) for count, options in STATES),
         *(_pictures(stack, count, **options) for stack, count, options in PICTURES),
-        Contestant("save_state", _saving, "", unit="µs"),
-        Contestant("restore_state", _restoring, "", unit="µs"),
+        Candidate("save_state", _saving, "", unit="µs"),
+        Candidate("restore_state", _restoring, "", unit="µs"),
         *others(),
     ]
 
@@ -85,37 +85,38 @@ PICTURES: list[tuple[int, int, dict[str, Any]]] = [
 ]
 
 
-def _states(count: int, **options: Any) -> Contestant:
-    return Contestant(
-        f"state, {count} environments{_said(options)}", lambda: _many(RANDOM, count, boards=BOARDS, **options)
+def _states(count: int, **options: Any) -> Candidate:
+    return Candidate(
+        f"state, {count} environments{_suffix(options)}",
+        lambda: _many(RANDOM, count, boards=BOARDS, **options),
     )
 
 
-def _pictures(stack: int, count: int, **options: Any) -> Contestant:
+def _pictures(stack: int, count: int, **options: Any) -> Candidate:
     pictures = "picture 84 × 84" if stack == 1 else f"pictures {stack} × 84 × 84"
-    return Contestant(
-        f"{pictures}, {count} environments{_said(options)}",
+    return Candidate(
+        f"{pictures}, {count} environments{_suffix(options)}",
         lambda: _many(PIXELS, count, boards=BOARDS, stack=stack, **options),
         "pictures",
     )
 
 
-def _said(options: dict[str, Any]) -> str:
-    said = {"threads": "one thread", "zero_copy": "zero_copy", "frame_skip": "steps of 4 frames"}
-    return "".join(f", {said[name]}" for name in options)
+def _suffix(options: dict[str, Any]) -> str:
+    words = {"threads": "one thread", "zero_copy": "zero_copy", "frame_skip": "steps of 4 frames"}
+    return "".join(f", {words[name]}" for name in options)
 
 
-def others() -> list[Contestant]:
-    """Those that are not ours."""
+def others() -> list[Candidate]:
+    """The candidates that are not Silverball's."""
     return [
-        Contestant("CartPole (Gymnasium), one", lambda: _one("CartPole-v1"), ours=False),
-        Contestant(
+        Candidate("CartPole (Gymnasium), one", lambda: _one("CartPole-v1"), ours=False),
+        Candidate(
             f"CartPole (Gymnasium), {MANY} environments", lambda: _many("CartPole-v1", MANY), ours=False
         ),
-        Contestant(
+        Candidate(
             "VideoPinball (ALE), one", _atari_one, "pictures", ours=False, package="ale-py"
         ),
-        Contestant(
+        Candidate(
             f"VideoPinball (ALE's vector), {ATARIS} environments",
             _atari_many,
             "pictures",
@@ -123,7 +124,7 @@ def others() -> list[Contestant]:
             yardstick="ALE's vector",
             package="ale-py",
         ),
-        Contestant(
+        Candidate(
             f"VideoPinball (EnvPool), {ATARIS} environments",
             _envpool,
             "pictures",
@@ -131,7 +132,7 @@ def others() -> list[Contestant]:
             yardstick="EnvPool",
             package="envpool",
         ),
-        Contestant(
+        Candidate(
             f"breakout (PufferLib's Ocean), {BREAKOUTS} environments, one thread",
             _breakout,
             ours=False,
@@ -139,9 +140,6 @@ def others() -> list[Contestant]:
             package="pufferlib",
         ),
     ]  # fmt: skip
-
-
-# --- what is called
 
 
 def _one(id_: str, **options: Any) -> Made:
@@ -175,10 +173,10 @@ def _many(id_: str, count: int, **options: Any) -> Made:
 
 def _stepped_together(envs: Any) -> Made:
     envs.reset(seed=0)
-    return _in_turn(envs.step, int(envs.single_action_space.n), int(envs.num_envs))
+    return _cycled(envs.step, int(envs.single_action_space.n), int(envs.num_envs))
 
 
-def _in_turn(step: Callable[[Any], object], choices: int, count: int, kind: Any = np.int64) -> Made:
+def _cycled(step: Callable[[Any], object], choices: int, count: int, kind: Any = np.int64) -> Made:
     actions: NDArray[Any] = np.random.default_rng(0).integers(0, choices, (ACTIONS, count)).astype(kind)
     turn = iter(range(2**62))
     return lambda: step(actions[next(turn) % ACTIONS]), count
@@ -219,7 +217,7 @@ def _breakout() -> Made:
     module = importlib.import_module("pufferlib.ocean.breakout.breakout")
     envs = module.Breakout(num_envs=BREAKOUTS)
     envs.reset()
-    return _in_turn(envs.step, int(envs.single_action_space.n), BREAKOUTS)
+    return _cycled(envs.step, int(envs.single_action_space.n), BREAKOUTS)
 
 
 def _atari_one() -> Made:
@@ -238,4 +236,4 @@ def _envpool() -> Made:
     envpool = importlib.import_module("envpool")
     envs = envpool.make_gymnasium("VideoPinball-v5", num_envs=ATARIS, num_threads=cores())
     envs.reset()
-    return _in_turn(envs.step, int(envs.action_space.n), ATARIS, np.int32)
+    return _cycled(envs.step, int(envs.action_space.n), ATARIS, np.int32)

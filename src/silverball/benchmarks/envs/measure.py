@@ -1,4 +1,4 @@
-"""How are they measured? Each alone, after a warm-up, in rounds of which the median counts."""
+"""Timing of the candidates: one after another, after a warm-up; the median of several rounds."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from collections.abc import Callable, Sequence
 from importlib import metadata
 from typing import NamedTuple
 
-from silverball.benchmarks.envs.environments import Contestant, contestants
+from silverball.benchmarks.envs.environments import Candidate, candidates
 from silverball.benchmarks.speed import machine
 from silverball.errors import MissingExtra
 
 WARM_UP = 60  # calls
-ROUND = 0.3  # [s] that a round takes at least
+ROUND = 0.3  # [s] least duration of a round
 
 
 class Rate(NamedTuple):
     """A measured rate.
 
     Attributes:
-        name: What was measured.
-        value: Steps of all environments together per second, or for `unit` "µs" the time of one call.
-        slowest: That of the slowest round.
+        name: Of the candidate.
+        value: Steps per second of all environments together, or for the unit "µs" the time of one call.
+        slowest: The value of the slowest round.
         unit: "steps/s" or "µs".
-        sees: What an observation is: "state" or "pictures"; "" if nothing is observed.
-        ours: Whether it is ours.
-        yardstick: Its name as something that others are compared with; "" if they are not.
+        sees: The kind of observation: "state" or "pictures"; "" if nothing is observed.
+        ours: Whether it is one of Silverball's.
+        yardstick: Its name as a baseline of others; "" if it is not a baseline.
     """
 
     name: str
@@ -42,14 +42,14 @@ class Rate(NamedTuple):
 
 
 class Result(NamedTuple):
-    """What came of it.
+    """The result of a run.
 
     Attributes:
-        rates: Of all who took part.
-        rounds: Of each.
-        missing: Packages of those who did not.
-        machine: What it was measured on.
-        versions: Of the packages.
+        rates: Of all candidates that were measured.
+        rounds: Of each candidate.
+        missing: Packages that are not installed, so that their candidates were left out.
+        machine: A description of the machine.
+        versions: Of Python and of the packages.
     """
 
     rates: list[Rate]
@@ -61,10 +61,10 @@ class Result(NamedTuple):
 
 def run(
     rounds: int,
-    told: Callable[[str], None] = lambda _: None,
-    taking_part: Sequence[Contestant] | None = None,
+    on_start: Callable[[str], None] = lambda _: None,
+    chosen: Sequence[Candidate] | None = None,
 ) -> Result:
-    """Measure those who take part, or all; `told` hears who comes next.
+    """Measure the chosen candidates, or all; `on_start` is called with the name of each first.
 
     Raises:
         MissingExtra: Gymnasium is not installed.
@@ -73,8 +73,8 @@ def run(
         raise MissingExtra("bench envs", "rl")
     rates: list[Rate] = []
     present, missing = {"numba": True, "numpy": True}, {}
-    for one in contestants() if taking_part is None else taking_part:
-        told(one.name)
+    for one in candidates() if chosen is None else chosen:
+        on_start(one.name)
         try:
             step, count = one.make()
         except ImportError:
@@ -86,7 +86,7 @@ def run(
 
 
 def _seconds(step: Callable[[], object], rounds: int) -> list[float]:
-    """What a call takes in each round [s]."""
+    """Duration of a call in each round [s]."""
     for _ in range(WARM_UP):
         step()
     calls = 1
@@ -102,17 +102,17 @@ def _seconds_of(step: Callable[[], object], calls: int) -> float:
     return time.perf_counter() - started
 
 
-def _rate(one: Contestant, seconds: list[float], count: int) -> Rate:
-    middle, longest = statistics.median(seconds), max(seconds)
+def _rate(one: Candidate, seconds: list[float], count: int) -> Rate:
+    median, longest = statistics.median(seconds), max(seconds)
     if one.unit == "µs":
-        value, slowest = 1e6 * middle / count, 1e6 * longest / count
+        value, slowest = 1e6 * median / count, 1e6 * longest / count
     else:
-        value, slowest = count / middle, count / longest
+        value, slowest = count / median, count / longest
     return Rate(one.name, value, slowest, one.unit, one.sees, one.ours, one.yardstick)
 
 
 def versions(packages: list[str]) -> dict[str, str]:
-    """Versions of Python and of packages, of those that have one."""
+    """Versions of Python and of those packages that have one."""
     found = {"Python": platform.python_version()}
     for package in ("silverball", *packages):
         with contextlib.suppress(metadata.PackageNotFoundError):

@@ -20,9 +20,9 @@ from typing import Any, NamedTuple
 import mpmath
 import numpy as np
 
-from silverball.benchmarks.peers import tables
-from silverball.benchmarks.peers.play import free_places
+from silverball.benchmarks.peers import common_tables
 from silverball.benchmarks.peers.playfield import FRAME_RATE, Playfield
+from silverball.benchmarks.peers.random_play import free_places
 from silverball.benchmarks.peers.reference import DIGITS, Path, follow
 from silverball.errors import SilverballError
 from silverball.table import Table
@@ -77,7 +77,7 @@ def scenes(recipe: Table, count: int = SCENES, seed: int = SEED) -> list[Scene]:
                 f"{recipe.name}: only {len(found)} of {number} drops bounced six times without a grazing or "
                 "slow contact; compare the engines on a table with more obstacles"
             )
-        table = tables.board(recipe, number)
+        table = common_tables.board(recipe, number)
         x, z = free_places(table, number, 1)[0]
         vx, vz = random.uniform(-MAX_START_SPEED, MAX_START_SPEED, 2).tolist()
         start = (x, z, vx, vz)
@@ -135,7 +135,7 @@ def median_errors(all_scenes: list[Scene], build: Callable[[Table], Playfield]) 
 def energy(table: Table, ball: tuple[float, float, float, float]) -> float:
     """Kinetic and potential energy [u²/s²] of a ball of mass 1 above the floor."""
     x, _, vx, vz = ball
-    return 0.5 * (vx * vx + vz * vz) + table.board.gravity * (x - tables.FLOOR)
+    return 0.5 * (vx * vx + vz * vz) + table.board.gravity * (x - common_tables.FLOOR)
 
 
 def drift_start(table: Table) -> tuple[float, float, float, float]:

@@ -13,7 +13,7 @@ import statistics
 from collections.abc import Callable
 from typing import NamedTuple
 
-from silverball.benchmarks.peers import accuracy, play, tables
+from silverball.benchmarks.peers import accuracy, common_tables, random_play
 from silverball.benchmarks.peers.engines import BATCH, OWN, SILVERBALL, Engine, Entry, versions
 from silverball.benchmarks.peers.penetration import Penetration, PenetrationMonitor, play_monitored
 from silverball.benchmarks.peers.playfield import FRAME_RATE
@@ -117,7 +117,7 @@ def run(recipe: Table, plan: Plan, engines: list[Engine], advance: Callable[[str
     speeds, batch, balls = measure_speeds(recipe, plan, entries, advance)
     advance("following the scenes in 50 digits")
     scenes = accuracy.scenes(recipe, plan.scenes)
-    opened = tables.board(recipe, 0)
+    opened = common_tables.board(recipe, 0)
     rows = []
     for entry, own in zip(entries, speeds, strict=True):
         penetration = measure_penetration(recipe, plan, entry, advance)
@@ -125,7 +125,7 @@ def run(recipe: Table, plan: Plan, engines: list[Engine], advance: Callable[[str
         errors = accuracy.median_errors(scenes, entry.build)
         advance(f"{entry.name}, {entry.stepping.label}: energy")
         drift = accuracy.drift(
-            entry.build(tables.elastic(opened)), accuracy.drift_start(opened), plan.energy_seconds
+            entry.build(common_tables.elastic(opened)), accuracy.drift_start(opened), plan.energy_seconds
         )
         rows.append(row(entry.name, entry.stepping.label, own, batch, speeds[0], penetration, errors, drift))
     # A world of a batch equals the single world bit for bit, so all results but the speed are the same.
@@ -169,16 +169,16 @@ def measure_speeds(
     speeds: list[list[float]] = [[] for _ in entries]
     batch, balls = [], []
     for number in range(plan.rounds):
-        table = tables.board(recipe, number)
-        press = play.random_presses(PRESSES, number)
-        places = play.free_places(table, number)
+        table = common_tables.board(recipe, number)
+        press = random_play.random_presses(PRESSES, number)
+        places = random_play.free_places(table, number)
         advance(f"speed, round {number + 1}: {BATCH}")
         frames, mean_balls = batch_speed(table, plan.worlds, plan.calls, press, number)
         batch.append(frames)
         balls.append(mean_balls)
         for entry, own in zip(entries, speeds, strict=True):
             advance(f"speed, round {number + 1}: {entry.name}, {entry.stepping.label}")
-            own.append(play.speed(play.Game(entry.build(table), press, places), plan.seconds))
+            own.append(random_play.speed(random_play.Game(entry.build(table), press, places), plan.seconds))
     return speeds, batch, statistics.mean(balls)
 
 
@@ -189,10 +189,10 @@ def measure_penetration(
     escapes, depth = 0, 0.0
     for number in range(plan.boards):
         advance(f"{entry.name}, {entry.stepping.label}: penetration")
-        table = tables.board(recipe, number)
+        table = common_tables.board(recipe, number)
         monitor = PenetrationMonitor(table)
-        press = play.random_presses(plan.frames, number)
-        game = play.Game(entry.build(table), press, play.free_places(table, number))
+        press = random_play.random_presses(plan.frames, number)
+        game = random_play.Game(entry.build(table), press, random_play.free_places(table, number))
         escapes += play_monitored(game, plan.frames, monitor)
         depth = max(depth, monitor.depth)
     return Penetration(plan.boards * plan.frames, escapes, depth)

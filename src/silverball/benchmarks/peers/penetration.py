@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple, TypeAlias
 
-from silverball.benchmarks.peers.play import Game
 from silverball.benchmarks.peers.playfield import Playfield
+from silverball.benchmarks.peers.random_play import Game
 from silverball.physics.audit import deepest
 from silverball.physics.records import WORLD, records
 from silverball.table import Paddle, Table

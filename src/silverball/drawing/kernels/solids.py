@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from silverball.drawing.kernels.stage import Cells, Form, Records, ShapeRecord, SolidRecord, StageRecord
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.shapes import distance as shape_distance
-from silverball.physics.shapes import triangle_distance
+from silverball.physics.shapes import distance as shape_distance, triangle_distance
 
 CAP_SHARE = 0.9  # radius of a cylinder's cap by that of the cylinder
 CAP_RISE = 0.42  # height of the cap by its radius

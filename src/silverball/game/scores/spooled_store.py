@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any, Self, TypeVar
 
 from silverball.errors import SilverballError
-from silverball.game.scores import database, records
+from silverball.game.scores import database, score_records
 from silverball.game.scores.database import Database, Locked
 from silverball.game.scores.pending import NewScore, Pending, Spool
-from silverball.game.scores.records import Score
+from silverball.game.scores.score_records import Score
 from silverball.game.scores.sqlite_file import INTEGER_LIMIT, Schema
 from silverball.game.user_folder import data_folder
 
@@ -247,7 +247,7 @@ class SpooledStore:
         self._has_imported = True
 
     def _import(self, pending: Pending) -> dict[str, int]:
-        return self._database.write(lambda connection: records.import_pending(connection, pending))
+        return self._database.write(lambda connection: score_records.import_pending(connection, pending))
 
     def _file_id(self, id: int) -> int:
         """The number of a score in the file.

@@ -29,9 +29,9 @@ from typing import Any
 
 from silverball.errors import SilverballError
 from silverball.game.replay.recording import has_custom_rules
-from silverball.game.scores import records
+from silverball.game.scores import score_records
 from silverball.game.scores.pending import NewScore
-from silverball.game.scores.records import (
+from silverball.game.scores.score_records import (
     COLUMNS,
     REJECTED,
     SCHEMA,
@@ -103,7 +103,9 @@ class Store(SpooledStore):
             initials=initials, score=score, mode=str(mode), table_name=name, table_digest=table_digest,
             table_text=table_text, seed=seed, replay=replay_text, played=played,
         )  # fmt: skip
-        return self._write(lambda connection: records.add(connection, new), lambda: self._add_pending(new))
+        return self._write(
+            lambda connection: score_records.add(connection, new), lambda: self._add_pending(new)
+        )
 
     def rename(self, id: int, initials: str) -> None:
         """Change the initials of a score.
@@ -232,7 +234,7 @@ class Store(SpooledStore):
             self._spool.pending.last_game = replay_text
             self._spool.write()
 
-        self._write(lambda connection: records.save_last_game(connection, replay_text), spool)
+        self._write(lambda connection: score_records.save_last_game(connection, replay_text), spool)
 
     def last_game(self) -> str | None:
         """The replay of the last game; None if there was none."""
@@ -260,7 +262,7 @@ class Store(SpooledStore):
             self._spool.pending.settings |= json.loads(json.dumps(values))
             self._spool.write()
 
-        self._write(lambda connection: records.save_settings(connection, values), spool)
+        self._write(lambda connection: score_records.save_settings(connection, values), spool)
 
     def _change(
         self, id: int, statement: str, values: tuple[Any, ...], spool: Callable[[], int] | None = None

@@ -30,7 +30,7 @@ from silverball.table.file import SIZE_LIMIT
 if TYPE_CHECKING:
     from silverball.game.core import GameCore
     from silverball.game.replay.format import Replay
-    from silverball.game.scores.records import Score
+    from silverball.game.scores.score_records import Score
 
 COMPLETE = ("over", "stopped")  # a player may stop: playing on could only have brought more points
 CONTACTS = ("hit", "ball_hit")

@@ -61,15 +61,15 @@ def measure_window(
         while before < end:
             now = time.perf_counter()
             due = now + FRAME
-            before = window.picture(before)
+            before = window.render_frame(before)
             starts.append(now)
             work.append(time.perf_counter() - now)
             if not sharp and window.is_sharp:
                 sharp = seconds_since_python_started()
             # A key is pressed at a random moment of the wait for the next picture.
-            before = window.beat_until(time.perf_counter() + random() * (due - time.perf_counter()), before)
+            before = window.poll_until(time.perf_counter() + random() * (due - time.perf_counter()), before)
             driver.act()
-            before = window.beat_until(due, before)
+            before = window.poll_until(due, before)
         figures = [
             Figure("start of Python to first picture", first_picture, "s"),
             Figure("start of Python to play", playable, "s"),

@@ -1,12 +1,11 @@
-"""Does the display tell what happens, without hiding the score for long?"""
+"""The score display announces events without hiding the score for long."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from reading import reads
-from silverball.app.score_display import SEEN_AT_LEAST, Display
+from silverball.app.score_display import MIN_VISIBLE_TIME, ScoreDisplay
 from silverball.drawing.dotmatrix.fonts import BOLD, HUGE
 from silverball.game.view import GameEvent, GameEventKind, GameView, Mode, Phase
 
@@ -34,9 +33,9 @@ def film(
     high_score: int = 0,
 ):
     """The pictures of some seconds after news."""
-    display = Display()
+    display = ScoreDisplay()
     display.frame(face, 0.0)
-    display.tell(news)
+    display.add_events(news)
     return [display.frame(face, 10.0 + tick / rate, high_score) for tick in range(round(seconds * rate))]
 
 
@@ -66,12 +65,12 @@ def test_free_play_shows_the_balls_on_the_board_instead_of_a_number():
 
 
 def test_before_a_ball_it_says_which_key_brings_one():
-    display = Display("RETURN")
+    display = ScoreDisplay("RETURN")
     assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RETURN")
 
 
 def test_before_the_first_points_it_tells_the_score_to_beat():
-    display = Display()
+    display = ScoreDisplay()
     face = FACE._replace(phase=Phase.READY, score=0)
     frames = [display.frame(face, tick / 4, 98_760) for tick in range(20)]
     assert any(reads(dots, "BEST 98,760") for dots in frames)
@@ -81,13 +80,13 @@ def test_before_the_first_points_it_tells_the_score_to_beat():
 
 
 def test_messages_are_written_in_capitals():
-    display = Display()
-    display.say("Sound off")
+    display = ScoreDisplay()
+    display.show_message("Sound off")
     assert reads(display.frame(FACE, 1.0), "SOUND OFF")
 
 
 def test_a_key_with_a_long_name_still_fits():
-    display = Display("RIGHT SHIFT")
+    display = ScoreDisplay("RIGHT SHIFT")
     assert reads(display.frame(FACE._replace(phase=Phase.READY), 0.0), "PRESS RIGHT SHIFT")
 
 
@@ -138,7 +137,7 @@ def test_the_end_says_game_over_with_the_score():
 
 
 def test_a_beaten_high_score_is_told_once_and_only_when_there_was_one():
-    display = Display()
+    display = ScoreDisplay()
     before = [display.frame(FACE._replace(score=99), tick / 30, 100) for tick in range(30)]
     after = [display.frame(FACE, 1.0 + tick / 10, 100) for tick in range(50)]
     later = [display.frame(FACE._replace(score=500), 6.0 + tick / 10, 100) for tick in range(50)]
@@ -149,7 +148,7 @@ def test_a_beaten_high_score_is_told_once_and_only_when_there_was_one():
 
 
 def test_the_score_counts_up_and_arrives():
-    display = Display()
+    display = ScoreDisplay()
     display.frame(FACE, 0.0)
     half = display.frame(FACE._replace(score=1120), 1.0)
     display.frame(FACE._replace(score=1120), 1.1)
@@ -158,16 +157,16 @@ def test_the_score_counts_up_and_arrives():
 
 
 def test_a_new_game_begins_at_its_own_score_at_once():
-    display = Display()
+    display = ScoreDisplay()
     display.frame(FACE, 0.0)
     assert reads(display.frame(FACE._replace(score=0), 1.0), "0", (HUGE,))
 
 
 def test_messages_follow_each_other_and_long_ones_scroll_to_their_end():
-    display = Display()
+    display = ScoreDisplay()
     display.frame(FACE, 0.0)
-    display.say("FIRST")
-    display.say("THEN A MESSAGE THAT IS FAR TOO LONG FOR ONE LINE")
+    display.show_message("FIRST")
+    display.show_message("THEN A MESSAGE THAT IS FAR TOO LONG FOR ONE LINE")
     frames = [display.frame(FACE, 1.0 + tick / 10) for tick in range(160)]
     first = [reads(dots, "FIRST") for dots in frames]
     end = [reads(dots, "ONE LINE") for dots in frames]
@@ -186,10 +185,10 @@ def test_messages_follow_each_other_and_long_ones_scroll_to_their_end():
     ],
 )
 def test_a_message_hides_neither_the_score_nor_what_stands_above_it(face, says):
-    display = Display()
+    display = ScoreDisplay()
     display.frame(face, 0.0)
-    display.tell(news(GameEventKind.BALL_SAVED) if says == "BALL SAVED" else ())
-    display.say("THE BOARD IS KEPT")
+    display.add_events(news(GameEventKind.BALL_SAVED) if says == "BALL SAVED" else ())
+    display.show_message("THE BOARD IS KEPT")
     frames = [display.frame(face, 5.0 + tick / 10) for tick in range(20)]
     seen = [dots for dots in frames if reads(dots, "120")]
     assert seen
@@ -197,9 +196,9 @@ def test_a_message_hides_neither_the_score_nor_what_stands_above_it(face, says):
 
 
 def test_a_calm_display_never_hides_the_score_and_never_flashes():
-    display = Display(is_calm=True)
+    display = ScoreDisplay(is_calm=True)
     display.frame(FACE, 0.0)
-    display.tell((*news(GameEventKind.DOUBLE_ON), *news(GameEventKind.BALL_SAVED)))
+    display.add_events((*news(GameEventKind.DOUBLE_ON), *news(GameEventKind.BALL_SAVED)))
     faces = [FACE] * 60 + [FACE._replace(tilted=True)] * 60
     frames = [display.frame(face, 5.0 + tick / 15, 50) for tick, face in enumerate(faces)]
     assert all(reads(dots, "120") for dots in frames)
@@ -209,10 +208,10 @@ def test_a_calm_display_never_hides_the_score_and_never_flashes():
 
 
 def test_of_many_messages_the_newest_are_told():
-    display = Display()
+    display = ScoreDisplay()
     display.frame(FACE, 0.0)
     for number in range(30):
-        display.say(f"MESSAGE {number}")
+        display.show_message(f"MESSAGE {number}")
     frames = [display.frame(FACE, 1.0 + tick / 5) for tick in range(80)]
     told = [number for number in range(30) if any(reads(dots, f"MESSAGE {number}") for dots in frames[::8])]
     assert told[-1] == 29
@@ -221,11 +220,11 @@ def test_of_many_messages_the_newest_are_told():
 
 
 def test_more_important_news_interrupt_and_less_important_ones_wait():
-    display = Display()
+    display = ScoreDisplay()
     display.frame(FACE, 0.0)
-    display.tell(news(GameEventKind.COMBO, 3))
+    display.add_events(news(GameEventKind.COMBO, 3))
     display.frame(FACE, 1.0)
-    display.tell((*news(GameEventKind.BALL_SAVED), *news(GameEventKind.WARNING, 1)))
+    display.add_events((*news(GameEventKind.BALL_SAVED), *news(GameEventKind.WARNING, 1)))
     frames = [display.frame(FACE, 1.1 + tick / 10) for tick in range(60)]
     saved = [reads(dots, "BALL SAVED") for dots in frames]
     warned = [reads(dots, "WARNING!") for dots in frames]
@@ -257,13 +256,13 @@ MOMENTS = st.lists(
 
 def played(moments, rate: float, scores: tuple[int, int]) -> list[tuple[float, np.ndarray, np.ndarray]]:
     """The same story told by two displays that differ in the score alone: times and both pictures."""
-    one, other = Display(), Display()
+    one, other = ScoreDisplay(), ScoreDisplay()
     seconds, frames = 3.0, []
     for told, face, count, says in moments:
         for display in (one, other):
-            display.tell(told)
+            display.add_events(told)
             if says:
-                display.say("MORE THAN ONE CAN READ AT ONCE ON THIS DISPLAY")
+                display.show_message("MORE THAN ONE CAN READ AT ONCE ON THIS DISPLAY")
         for _ in range(count):
             seconds += 1.0 / rate
             pictures = [
@@ -286,7 +285,7 @@ def test_the_score_is_never_hidden_for_more_than_a_second_nor_again_at_once(mome
             hidden_since = None
         elif hidden_since is None:
             hidden_since = seconds
-            assert seen_since is None or seconds - seen_since >= SEEN_AT_LEAST
+            assert seen_since is None or seconds - seen_since >= MIN_VISIBLE_TIME
         else:
             assert seconds - hidden_since <= 1.0
 

@@ -1,4 +1,4 @@
-"""How is a page laid out? A title above, what is chosen large in the middle, and a line of help below."""
+"""Layout of a page: the title at the top, the choice in large letters, and a line of help at the bottom."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, Font
 
 TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 24
-FAINT, HALF = 70, 145  # brightness of what is less important
-MOST_MARKS = 15  # for more choices there is no room
-MARGIN = 13  # [dot] on both sides of the middle, for the arrows
+FAINT, HALF = 70, 145  # brightness of secondary text
+MAX_MARKS = 15  # more choices are numbered instead
+MARGIN = 13  # [dot] on both sides, for the arrows
 
-SCROLL_SPEED = 40.0  # [dot/s] of texts that are too long; a letter in 0.15 s
-SCROLL_WAIT = 1.0  # [s] before it starts, and at its end
-SLIDE_TIME = 0.12  # [s] in which one choice gives way to the next
-FOOT_TURN = 3.0  # [s] after which the line of help says the next thing
+SCROLL_SPEED = 40.0  # [dot/s] of texts that are too long, a letter in 0.15 s
+SCROLL_WAIT = 1.0  # [s] before scrolling starts, and at its end
+SLIDE_TIME = 0.12  # [s] for the transition to the next choice
+FOOT_TURN = 3.0  # [s] for each help text
 
 
 def title(dots: Dots, text: str, index: int = 0, count: int = 0, seconds: float = 0.0) -> None:
-    """The title, and which of how many choices is shown: by a mark for each, or by numbers."""
-    place = f"{index + 1}/{count}" if count > MOST_MARKS else ""
+    """Draw the title, and the index of the visible choice: a mark for each choice, or numbers."""
+    place = f"{index + 1}/{count}" if count > MAX_MARKS else ""
     marks = NORMAL.width(place) if place else 4 * count if count > 1 else 0
     marquee(dots, text, TITLE_Y, 0, WIDTH - marks - 2, NORMAL, seconds, "left", HALF)
     if place:
@@ -36,22 +36,22 @@ def title(dots: Dots, text: str, index: int = 0, count: int = 0, seconds: float 
 
 
 def middle(dots: Dots, text: str, seconds: float, shift: int = 0, brightness: int = 255) -> None:
-    """The large line; long texts get smaller letters, and longer ones scroll.
+    """Draw the large line; long texts get smaller letters, and longer ones scroll.
 
     Args:
-        dots: Where to write.
-        text: What to write.
-        seconds: Since it is there.
-        shift: How far it is moved to the right [dot].
-        brightness: Of its dots.
+        dots: The display.
+        text: The text.
+        seconds: Since it appeared [s].
+        shift: To the right [dot].
+        brightness: Of its dots, 0 to 255.
     """
-    room = WIDTH - 2 * MARGIN
-    if BOLD.width(text) <= room:
+    available = WIDTH - 2 * MARGIN
+    if BOLD.width(text) <= available:
         dots.text(
             text, WIDTH // 2 + shift, MIDDLE_Y, BOLD, "center", brightness, window=(MARGIN, WIDTH - MARGIN)
         )
     elif shift:
-        left = max((room - NORMAL.width(text)) // 2, 0) + MARGIN
+        left = max((available - NORMAL.width(text)) // 2, 0) + MARGIN
         dots.text(
             text, left + shift, MIDDLE_Y + 2, NORMAL, "left", brightness, window=(MARGIN, WIDTH - MARGIN)
         )
@@ -60,14 +60,14 @@ def middle(dots: Dots, text: str, seconds: float, shift: int = 0, brightness: in
 
 
 def arrows(dots: Dots, seconds: float, strong: bool = False) -> None:
-    """That there is something on both sides; strong: that the paddle buttons change what stands between."""
+    """Draw arrows on both sides; strong ones say that the paddle buttons change the value between them."""
     brightness = round(170 + 85 * math.cos(2.0 * math.pi * seconds)) if strong else HALF
     dots.text("◄", 0, MIDDLE_Y, BOLD, "left", brightness)
     dots.text("►", WIDTH, MIDDLE_Y, BOLD, "right", brightness)
 
 
 def foot(dots: Dots, texts: tuple[str, ...], seconds: float, brightness: int = 190) -> None:
-    """The line of help: several texts take turns, long ones scroll."""
+    """Draw the line of help: several texts take turns, and long ones scroll."""
     texts = tuple(text for text in texts if text)
     if not texts:
         return
@@ -91,39 +91,39 @@ def marquee(
     align: str = "center",
     brightness: int = 255,
 ) -> None:
-    """A text between two columns; it scrolls if there is not enough room."""
-    width, room = font.width(text), right - left
-    if width <= room:
-        x = left + (room - width) // 2 if align == "center" else left
+    """Draw a text between two columns; it scrolls if it does not fit."""
+    width, available = font.width(text), right - left
+    if width <= available:
+        x = left + (available - width) // 2 if align == "center" else left
     else:
-        at = max(seconds, 0.0) % scroll_time(width, room)
-        x = left - min(round(max(at - SCROLL_WAIT, 0.0) * SCROLL_SPEED), width - room)
+        at = max(seconds, 0.0) % scroll_time(width, available)
+        x = left - min(round(max(at - SCROLL_WAIT, 0.0) * SCROLL_SPEED), width - available)
     dots.text(text, x, y, font, "left", brightness, window=(left, right))
 
 
 def meter(dots: Dots, x: int, y: int, width: int, share: float, height: int = 5) -> None:
-    """A bar that is filled to a share, 0 to 1."""
+    """Draw a bar that is filled to a fraction, 0 to 1."""
     dots.frame(x, y, width, height, HALF)
     dots.box(x + 1, y + 1, round((width - 2) * min(max(share, 0.0), 1.0)), height - 2)
 
 
 def slide(seconds: float, direction: int) -> int:
-    """How far a new choice has yet to go [dot], so long after a button was pressed."""
+    """Return how far a new choice is from its place [dot], some seconds after the button was pressed."""
     left = 1.0 - seconds / SLIDE_TIME
     return round(direction * (WIDTH - 2 * MARGIN) * left * left) if 0.0 < left <= 1.0 else 0
 
 
-def blinks(seconds: float, period: float = 0.5) -> bool:
-    """Whether something that blinks is visible."""
+def is_blink_on(seconds: float, period: float = 0.5) -> bool:
+    """Return whether something that blinks is visible now."""
     return seconds % period < 0.6 * period
 
 
-def under(dots: Dots, below: Dots) -> None:
-    """Lay the upper part of what the game shows above the line of help."""
+def copy_above_foot(dots: Dots, below: Dots) -> None:
+    """Copy the display of the game, except for the line of help at the bottom."""
     dots.pixels[: FOOT_Y - 1] = below.pixels[: FOOT_Y - 1]
     dots.pixels[FOOT_Y - 1 : HEIGHT] = 0
 
 
-def scroll_time(width: int, room: int = WIDTH) -> float:
-    """How long a text of a width takes to be read to its end, where there is so much room [s]."""
-    return 2.0 * SCROLL_WAIT + max(width - room, 0) / SCROLL_SPEED
+def scroll_time(width: int, available: int = WIDTH) -> float:
+    """Return how long a text takes to scroll to its end [s]; the widths are in dots."""
+    return 2.0 * SCROLL_WAIT + max(width - available, 0) / SCROLL_SPEED

@@ -1,4 +1,4 @@
-"""Does every slot of an observation hold what the table says?"""
+"""The slots of an observation hold what their descriptions say."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from silverball.envs import GROUPS, PinballEnv
-from silverball.envs.slots import BALLS, GAME, LAYOUT, PADDLES, fields, slot_table
+from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, fields
 from silverball.physics.records import BALL_COUNT
 from silverball.table import generate_table, load_table
 from silverball.world import World
@@ -37,11 +37,9 @@ def test_the_table_names_every_slot_once_and_says_what_each_means():
         LAYOUT,
     )
     assert [field.first for field in layout[1:]] == [field.end for field in layout[:-1]]
-    rows = slot_table(layout).splitlines()
-    assert len(rows) == 2 + sum(len(group.slots) for group in GROUPS)
 
 
-def test_balls_are_shown_as_the_world_has_them(env):
+def test_balls_have_the_values_of_the_world(env):
     world = env.unwrapped._engine.batch.state[0]
     for action in [0, 3, 1, 4, 2, 0] * 20:
         observation, *_ = env.step(action)
@@ -120,7 +118,7 @@ def test_absent_parts_are_zeros():
     assert observation[PADDLES + 3 : GAME].tolist() == [0.0] * 3
 
 
-def test_the_world_under_an_environment_is_the_world_that_everybody_knows():
+def test_the_world_of_an_environment_equals_a_world_with_the_same_seed():
     env = PinballEnv(table="classic")
     env.reset(seed=2)
     record = env._engine.batch.state[0]

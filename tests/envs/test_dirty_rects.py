@@ -1,4 +1,4 @@
-"""Is a picture that was mended the same as one that was drawn from nothing?"""
+"""A picture made by repairing dirty rectangles equals one that is drawn from scratch."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ COUNT, STEPS = 48, 500
     ],
     ids=str,
 )
-def test_mended_pictures_equal_whole_ones(options):
+def test_repaired_pictures_equal_pictures_from_scratch(options):
     chosen = {"observation": "pixels", "stack": 1, "time_limit": 3.0, **options}
-    # One picture in an array that stays is mended; in a new array there is nothing to mend.
-    mended = PinballVectorEnv(COUNT, AutoresetMode.SAME_STEP, zero_copy=True, **chosen)
+    # One picture in an array that stays is repaired; a new array has nothing to repair.
+    repaired = PinballVectorEnv(COUNT, AutoresetMode.SAME_STEP, zero_copy=True, **chosen)
     whole = PinballVectorEnv(COUNT, AutoresetMode.SAME_STEP, zero_copy=False, **chosen)
     random = np.random.default_rng(1)
-    mended.reset(seed=3), whole.reset(seed=3)
+    repaired.reset(seed=3), whole.reset(seed=3)
     differing = 0
     for _ in range(STEPS):
-        actions = random.integers(0, mended.single_action_space.n, COUNT)
-        one, *_, infos = mended.step(actions)
+        actions = random.integers(0, repaired.single_action_space.n, COUNT)
+        one, *_, infos = repaired.step(actions)
         other, *_, its_infos = whole.step(actions)
         differing += int((one != other).sum())
         if "final_obs" in infos:
@@ -38,7 +38,7 @@ def test_mended_pictures_equal_whole_ones(options):
             for row in np.flatnonzero(ended):
                 assert (infos["final_obs"][row] == its_infos["final_obs"][row]).all()
     assert differing == 0
-    assert (mended._engine.rules["mends"][0], whole._engine.rules["mends"][0]) == (1, 0)
+    assert (repaired._engine.rules["can_repair"][0], whole._engine.rules["can_repair"][0]) == (1, 0)
 
 
 def test_each_picture_of_a_stack_is_the_one_picture_of_that_moment():

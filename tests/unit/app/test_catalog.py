@@ -1,4 +1,4 @@
-"""Which tables the menu offers, whatever lies in the folder of one's own tables, and what is told of it."""
+"""The tables in the menu for any content of the user's folder, and the messages about them."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ import time
 
 import pytest
 
-from evenings import LEAKY, NOTHING, Evening
+from evenings import LEAKY, Evening
 from silverball.app.catalog import Catalog
+from silverball.app.command_handlers import execute
 from silverball.app.controls import Action
 from silverball.app.menus import Button
-from silverball.app.program import LOOK_EVERY
+from silverball.app.menus.commands import WatchScore
+from silverball.app.program import FILE_CHECK_INTERVAL
 from silverball.app.settings import Settings
 from silverball.game.scores.store import Store
 from silverball.game.view import Mode, Phase
@@ -88,7 +90,7 @@ BROKEN = {
 
 
 @pytest.fixture
-def library(tmp_path):
+def catalog(tmp_path):
     with Store(tmp_path) as store:
         yield Catalog(store, tmp_path)
 
@@ -98,44 +100,44 @@ def mine(tmp_path):
     """An evening at a table of one's own, which has a file."""
     path = write(tmp_path)
     evening = Evening(tmp_path, Settings(table=str(path), mode="free"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.path = path
     yield evening
     evening.store.close()
 
 
-def entry_of(library, path):
-    return next(entry for entry in library.entries() if entry.name == str(path))
+def entry_of(catalog, path):
+    return next(entry for entry in catalog.entries() if entry.name == str(path))
 
 
 def center(evening) -> float:
     """Across, the cylinder of the board that is seen; that of the game, if there is one, is the same."""
     program = evening.program
-    z = program.table.cylinder[0].center[1]
-    if program.stage is not None:
-        assert program.stage.game.table.cylinder[0].center[1] == z
+    z = program.board.table.cylinder[0].center[1]
+    if program.session is not None:
+        assert program.session.game.table.cylinder[0].center[1] == z
     return z
 
 
 def settle(evening, words: str | None = None) -> None:
     """Let the program look at the files until it has said something, or for three looks."""
     limit = time.monotonic() + 20.0
-    evening.go(3.5 * LOOK_EVERY)
+    evening.go(3.5 * FILE_CHECK_INTERVAL)
     while words is not None and not any(words in said for said in evening.said):
         assert time.monotonic() < limit, evening.said
-        evening.go(LOOK_EVERY)
+        evening.go(FILE_CHECK_INTERVAL)
 
 
 @pytest.mark.parametrize("kind", BROKEN)
-def test_a_file_that_cannot_be_used_is_offered_with_its_name_and_its_first_problem(library, tmp_path, kind):
+def test_a_file_that_cannot_be_used_is_offered_with_its_name_and_its_first_problem(catalog, tmp_path, kind):
     path = write(tmp_path)
     BROKEN[kind](path)
     write(tmp_path, "other.toml", title="Other")
-    entry = entry_of(library, path)
+    entry = entry_of(catalog, path)
     assert entry.title == "mine.toml"
     assert entry.problem
     assert "\n" not in entry.problem
-    assert entry_of(library, tmp_path / "tables" / "other.toml").problem == ""
+    assert entry_of(catalog, tmp_path / "tables" / "other.toml").problem == ""
 
 
 @pytest.mark.parametrize("kind", BROKEN)
@@ -145,17 +147,17 @@ def test_choosing_such_a_file_tells_what_is_wrong_and_the_command_that_tells_all
     path = write(tmp_path)
     BROKEN[kind](path)
     evening = Evening(tmp_path)
-    evening.program.get_ready()
-    before = evening.program.table
+    evening.program.finish_loading()
+    before = evening.program.board.table
     press(evening, Button.RIGHT, Button.RIGHT, Button.START)
-    while shown(evening) != str(path):
+    while display_name(evening) != str(path):
         press(evening, Button.RIGHT)
     assert evening.said == []
     press(evening, Button.START)
     assert f"silverball check {path}" in evening.said[-1]
-    assert entry_of(evening.library, path).problem in evening.said[-1]
-    assert evening.program.table == before
-    assert evening.program.stage is None
+    assert entry_of(evening.catalog, path).problem in evening.said[-1]
+    assert evening.program.board.table == before
+    assert evening.program.session is None
     assert evening.program.menus.page == "table"
     evening.store.close()
 
@@ -166,10 +168,10 @@ def press(evening, *buttons):
         evening.program.menus.release(button)
 
 
-def shown(evening):
+def display_name(evening):
     """The item that the open page shows."""
-    page = evening.program.menus._desk.pages[-1]
-    return page._listed()[page.index].key
+    page = evening.program.menus.context.pages[-1]
+    return page._current_items()[page.index].key
 
 
 @pytest.mark.parametrize("kind", BROKEN)
@@ -181,9 +183,9 @@ def test_r_plays_the_old_table_when_the_file_has_been_broken_and_says_why(mine, 
     mine.tap(Action.NEW_BOARD)
     assert center(mine) == old
     assert mine.program.is_playing
-    assert mine.program.stage.game.world.created == 0
+    assert mine.program.session.game.world.created == 0
     assert f"silverball check {mine.path}" in mine.said[-1]
-    assert "as it was" in mine.said[-1]
+    assert "previous version" in mine.said[-1]
 
 
 @pytest.mark.parametrize("kind", BROKEN)
@@ -202,7 +204,7 @@ def test_a_file_that_is_broken_while_it_is_played_is_told_of_once(mine, kind):
 def test_a_broken_table_that_was_chosen_is_not_begun_from_the_menu(mine, kind):
     BROKEN[kind](mine.path)
     mine.tap(Action.CREATE)  # "play"
-    assert mine.program.stage is None
+    assert mine.program.session is None
     assert mine.program.menus.page == "main"
     assert "mine.toml cannot be played" in mine.said[-1]
     mine.path.is_dir() and mine.path.rmdir()
@@ -299,8 +301,8 @@ def test_an_edited_file_is_seen_at_once_while_nobody_plays(mine, edit):
     limit = time.monotonic() + 20.0
     while center(mine) != 2.0:
         assert time.monotonic() < limit
-        mine.go(LOOK_EVERY)
-    assert mine.program.stage is None
+        mine.go(FILE_CHECK_INTERVAL)
+    assert mine.program.session is None
 
 
 def test_a_file_that_is_written_anew_as_it_was_is_no_news(mine):
@@ -317,7 +319,7 @@ def test_half_a_file_that_becomes_whole_within_a_look_is_not_called_broken(mine)
     mine.program.play(Mode.FREE, str(mine.path))
     text = GOOD.format("Mine", 2.0)
     mine.path.write_text(text[:-9], encoding="utf-8")
-    mine.go(1.2 * LOOK_EVERY)
+    mine.go(1.2 * FILE_CHECK_INTERVAL)
     mine.path.write_text(text, encoding="utf-8")
     settle(mine, "has changed")
     assert not any("cannot be played" in said for said in mine.said)
@@ -334,13 +336,13 @@ def test_a_mesh_that_has_changed_is_a_change_of_the_table(tmp_path):
     path = write(tmp_path, text='format = 1\n[[cylinder]]\nmesh = "post.obj"\n')
     post(0.6)
     evening = Evening(tmp_path, Settings(table=str(path)))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
-    before = evening.program.table.cylinder[0].radius
+    before = evening.program.board.table.cylinder[0].radius
     post(0.9)
     settle(evening, "mine.toml has changed")
     evening.tap(Action.NEW_BOARD)
-    assert evening.program.table.cylinder[0].radius > before
+    assert evening.program.board.table.cylinder[0].radius > before
     evening.store.close()
 
 
@@ -350,28 +352,28 @@ def test_a_file_that_comes_into_the_folder_while_the_list_is_open_is_in_it_and_t
     write(tmp_path, "m.toml", title="Middle")
     evening = Evening(tmp_path)
     press(evening, Button.RIGHT, Button.RIGHT, Button.START)
-    while not shown(evening).endswith("m.toml"):
+    while not display_name(evening).endswith("m.toml"):
         press(evening, Button.RIGHT)
     for name in ("a.toml", "b.toml", "z.toml"):
         write(tmp_path, name, title=name)
     (tmp_path / "tables" / ".hidden.toml").write_text("half of a fi")
     settle(evening)
-    names = [os.path.basename(entry.name) for entry in evening.program.menus._desk.tables]
+    names = [os.path.basename(entry.name) for entry in evening.program.menus.context.tables]
     assert names[-4:] == ["a.toml", "b.toml", "m.toml", "z.toml"]
-    assert shown(evening).endswith("m.toml")
+    assert display_name(evening).endswith("m.toml")
     press(evening, Button.START)
-    assert evening.program.table.name == "Middle"
+    assert evening.program.board.table.name == "Middle"
     (tmp_path / "tables" / "a.toml").unlink()
     settle(evening)
-    assert not any(entry.title == "a.toml" for entry in evening.program.menus._desk.tables)
+    assert not any(entry.title == "a.toml" for entry in evening.program.menus.context.tables)
     evening.store.close()
 
 
-def test_files_of_equal_names_are_told_apart(library, tmp_path):
+def test_files_of_equal_names_are_told_apart(catalog, tmp_path):
     for name in ("one.toml", "two.toml"):
         write(tmp_path, name, title="Twin")
     write(tmp_path, "three.toml", title="CLASSIC")
-    titles = [entry.title for entry in library.entries()]
+    titles = [entry.title for entry in catalog.entries()]
     assert len({title.upper() for title in titles}) == len(titles)
     assert "Twin (one.toml)" in titles
     assert load_table("classic").name in titles
@@ -391,8 +393,8 @@ def test_names_that_would_steer_a_terminal_are_shown_and_not_obeyed(tmp_path, na
     except OSError:
         pytest.skip("this disk takes no such name")
     evening = Evening(tmp_path, Settings(table=str(path)) if text is None else None)
-    (entry,) = [one for one in evening.library.entries() if one.name == str(path)]
-    evening.program.get_ready()
+    (entry,) = [one for one in evening.catalog.entries() if one.name == str(path)]
+    evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
     evening.tap(Action.NEW_BOARD)
     shown = "".join([entry.title, entry.problem, *evening.said])
@@ -406,21 +408,21 @@ def test_five_hundred_files_are_all_offered_though_none_is_waited_for(tmp_path, 
     for number in range(500):
         write(tmp_path, f"t{number:03}.toml", text.replace("Classic", f"Table {number}"))
     gate = threading.Event()
-    monkeypatch.setattr("silverball.app.table_files.PACE", 0.001)
+    monkeypatch.setattr("silverball.app.table_files.READ_PAUSE", 0.001)
     monkeypatch.setattr(
         "silverball.app.table_files.load_table", lambda name: gate.wait() and load_table(name)
     )
     with Store(tmp_path) as store:
-        library = Catalog(store, tmp_path)
-        own = [entry for entry in library.entries() if entry.name.startswith(str(tmp_path))]
+        catalog = Catalog(store, tmp_path)
+        own = [entry for entry in catalog.entries() if entry.name.startswith(str(tmp_path))]
         assert [entry.title for entry in own] == [f"t{number:03}.toml" for number in range(500)]
         assert {entry.about for entry in own} == {"is being read"}
         gate.set()
         limit = time.monotonic() + 120.0
-        while any(entry.about == "is being read" for entry in library.entries()):
+        while any(entry.about == "is being read" for entry in catalog.entries()):
             assert time.monotonic() < limit
             time.sleep(0.05)
-        titles = {entry.title for entry in library.entries()}
+        titles = {entry.title for entry in catalog.entries()}
         assert {f"Table {number}" for number in range(500)} <= titles
 
 
@@ -437,10 +439,10 @@ def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monke
 
     monkeypatch.setattr("silverball.app.table_files.load_table", slow)
     with Store(tmp_path) as store:
-        library = Catalog(store, tmp_path)
-        library.look(whole=True)  # one of the fifty is being read, and takes its time
-        library.choose(str(chosen))
-        library.look(whole=False)
+        catalog = Catalog(store, tmp_path)
+        catalog.refresh(whole=True)  # one of the fifty is being read, and takes its time
+        catalog.watch_file(str(chosen))
+        catalog.refresh(whole=False)
         gate.set()
         limit = time.monotonic() + 60.0
         while "zz.toml" not in read:
@@ -452,7 +454,7 @@ def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monke
 def test_a_file_with_a_space_in_its_name_is_told_apart_from_the_sentence(tmp_path):
     path = write(tmp_path, "a table.toml")
     evening = Evening(tmp_path, Settings(table=str(path), mode="free"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
     write(tmp_path, "a table.toml", z=2.0)
     settle(evening, "'a table.toml' has changed")
@@ -465,53 +467,53 @@ def test_the_names_in_the_folder_may_be_anything_and_the_folder_may_be_a_file(tm
         assert [entry.problem for entry in Catalog(store, tmp_path).entries()] == [""] * len(table_names())
 
 
-def test_a_file_that_breaks_the_reader_is_one_that_cannot_be_read(library, tmp_path, monkeypatch):
+def test_a_file_that_breaks_the_reader_is_one_that_cannot_be_read(catalog, tmp_path, monkeypatch):
     path = write(tmp_path)
     monkeypatch.setattr("silverball.app.table_files.load_table", lambda name: 1 / 0)
-    assert "ZeroDivisionError" in entry_of(library, path).problem
+    assert "ZeroDivisionError" in entry_of(catalog, path).problem
 
 
 def test_the_scores_follow_what_the_file_says_and_a_game_goes_by_what_it_was_played_on(tmp_path):
     path = write(tmp_path, text=dump_table(LEAKY))
     evening = Evening(tmp_path, Settings(table=str(path), mode="arcade"))
-    evening.program.get_ready()
-    program, library = evening.program, evening.library
+    evening.program.finish_loading()
+    program, catalog = evening.program, evening.catalog
     program.play(Mode.ARCADE, str(path), 3)
-    old = library.key(program.recipe)
+    old = catalog.score_key(program.board.recipe)
     changed = LEAKY.model_copy(update={"cylinder": LEAKY.cylinder[:2]})
     path.write_text(dump_table(changed), encoding="utf-8")
     settle(evening, "has changed")
     evening.play_to_the_end()
-    score = program.stage.game.score
+    score = program.session.game.score
     assert score > 0
     (row,) = evening.store.scores()
     assert row.table_digest == old.digest  # the file has changed, the game has not
-    assert library.best(old, Mode.ARCADE) == score
-    assert library.scores(str(path), Mode.ARCADE) == []
+    assert catalog.best(old, Mode.ARCADE) == score
+    assert catalog.scores(str(path), Mode.ARCADE) == []
     path.write_text(dump_table(LEAKY), encoding="utf-8")  # as it was
     settle(evening)
-    assert [one.score for one in library.scores(str(path), Mode.ARCADE)] == [score]
+    assert [one.score for one in catalog.scores(str(path), Mode.ARCADE)] == [score]
     path.write_text(dump_table(changed), encoding="utf-8")
-    program.watch_score(row.id)
-    assert program.table.cylinder == LEAKY.cylinder  # the replay has its own
+    execute(WatchScore(str(row.id)), program)
+    assert program.board.table.cylinder == LEAKY.cylinder  # the replay has its own
     program.end_watching()
-    assert program.table.cylinder == changed.cylinder
+    assert program.board.table.cylinder == changed.cylinder
     evening.store.close()
 
 
 def test_a_game_that_ends_as_r_is_pressed_is_listed_under_the_table_it_was_played_on(tmp_path):
     path = write(tmp_path, text=dump_table(LEAKY))
     evening = Evening(tmp_path, Settings(table=str(path), mode="arcade"))
-    evening.program.get_ready()
+    evening.program.finish_loading()
     evening.program.play(Mode.ARCADE, str(path), 3)
-    old = evening.library.key(evening.program.recipe)
-    game = evening.program.stage.game
+    old = evening.catalog.score_key(evening.program.board.recipe)
+    game = evening.program.session.game
     while not game.is_over:
         if game.phase is not Phase.PLAY:
-            evening.program.press(Action.CREATE)
-        evening.program.advance(NOTHING, 8)
+            evening.press(Action.CREATE)
+        evening.advance(8)
     path.write_text(dump_table(LEAKY.model_copy(update={"cylinder": LEAKY.cylinder[:2]})), encoding="utf-8")
-    evening.program.press(Action.NEW_BOARD)  # before any picture has shown the end
+    evening.press(Action.NEW_BOARD)  # before any picture has shown the end
     assert [row.score for row in evening.store.scores()] == [game.score]
     assert {row.table_digest for row in evening.store.scores()} == {old.digest}
     evening.store.close()

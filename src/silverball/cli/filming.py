@@ -94,19 +94,19 @@ def session_pictures(
         only_last: Whether to yield the last picture only.
     """
     from silverball.app.controls import Held
-    from silverball.app.score_display import Display
+    from silverball.app.score_display import ScoreDisplay
     from silverball.drawing import Moment
 
     nothing = Held((False, False), (False, False))
-    display, world = Display(), session.game.world
+    display, world = ScoreDisplay(), session.game.world
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
         session.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
-        events, news = session.take_world_events(), session.take_game_events()
-        display.tell(news)
+        events, news = session.game.take_world_events(), session.game.take_game_events()
+        display.add_events(news)
         renderer.add_events(events, world.tick_rate)
         if sound is not None:
-            sound.note(world, events, session.game.held, news)
+            sound.add_picture(world, events, session.game.held, news)
         dots, moment = display.frame(session.game.view, number / rate), Moment.of(world)
         if not only_last or number == count:
             yield renderer.array(moment, dots)

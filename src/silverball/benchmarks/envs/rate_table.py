@@ -1,8 +1,7 @@
-"""How is it told: a table in the terminal, the same in Markdown, and one JSON object.
+"""The result of the benchmark as a terminal table, in Markdown, and as one JSON object.
 
-Beside each of our rates stands how many times that of each yardstick it is. A yardstick that sees a state is
-compared with states alone; one that draws pictures with everything, since whoever wants to learn pinball
-can choose.
+Each of Silverball's rates is compared with each baseline. A baseline that observes states is compared only
+with states; one that observes pictures is compared with both, since agents can learn pinball from either.
 """
 
 from __future__ import annotations
@@ -14,12 +13,12 @@ from silverball.benchmarks.envs.measure import Rate, Result
 
 
 def yardsticks(result: Result) -> list[Rate]:
-    """Those that ours are compared with."""
+    """The baselines."""
     return [rate for rate in result.rates if rate.yardstick]
 
 
 def ratio(rate: Rate, yardstick: Rate) -> float | None:
-    """How many times as many steps; None where that would compare pictures with a state, or no steps."""
+    """The ratio of two rates; None where a comparison makes no sense."""
     if not (rate.ours or rate is yardstick) or not rate.sees:
         return None
     if yardstick.sees == "state" and rate.sees != "state":
@@ -28,7 +27,7 @@ def ratio(rate: Rate, yardstick: Rate) -> float | None:
 
 
 def cells(rate: Rate, measures: list[Rate]) -> list[str]:
-    """A row as people read it."""
+    """The formatted cells of a row."""
     value = f"{rate.value:,.0f}" if rate.unit == "steps/s" else f"{rate.value:.3f} {rate.unit}"
     return [rate.name, value, *(_times(ratio(rate, measure)) for measure in measures)]
 
@@ -40,12 +39,12 @@ def _times(value: float | None) -> str:
 
 
 def headers(measures: list[Rate]) -> list[str]:
-    """What stands above the columns."""
+    """The headers of the columns."""
     return ["environment", "steps/s", *(f"beside {measure.yardstick}" for measure in measures)]
 
 
 def footing(result: Result) -> list[str]:
-    """What it was measured on, and who was missing."""
+    """Rounds, machine, versions and missing packages, one sentence each."""
     versions = ", ".join(f"{name} {version}" for name, version in result.versions.items())
     rounds = f"Medians of {result.rounds} rounds" if result.rounds > 1 else "One round"
     lines = [f"{rounds}, random actions; {result.machine}; {versions}."]
@@ -55,24 +54,24 @@ def footing(result: Result) -> list[str]:
 
 
 def terminal_table(result: Result) -> Any:
-    """A table for rich."""
+    """The result as a rich table."""
     from rich.table import Table
 
     measures = yardsticks(result)
     table = Table(title="Environments")
     for index, header in enumerate(headers(measures)):
         table.add_column(header, justify="right" if index else "left", no_wrap=index == 0)
-    were_ours = True
+    was_ours = True
     for rate in result.rates:
-        if were_ours and not rate.ours:
+        if was_ours and not rate.ours:
             table.add_section()
-        were_ours = rate.ours
+        was_ours = rate.ours
         table.add_row(*cells(rate, measures))
     return table
 
 
 def markdown(result: Result) -> str:
-    """The table in Markdown, with what it was measured on."""
+    """The table in Markdown, with a footer."""
     measures = yardsticks(result)
     lines = [headers(measures), ["---"] + ["---:"] * (1 + len(measures))]
     lines += [cells(rate, measures) for rate in result.rates]
@@ -81,7 +80,7 @@ def markdown(result: Result) -> str:
 
 
 def as_json(result: Result) -> str:
-    """Everything, with the ratios by the yardstick's name."""
+    """The result as JSON, with ratios by the names of the baselines."""
     measures = yardsticks(result)
     rates = [
         {**rate._asdict(), "beside": {one.yardstick: ratio(rate, one) for one in measures}}

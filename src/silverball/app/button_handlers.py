@@ -1,0 +1,88 @@
+"""Handlers for the buttons: what a key or gamepad button does in a menu, in a game, or in a demo."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from silverball.app.controls import MENU_BUTTONS, PADDLES, Action
+from silverball.app.menus import Button
+from silverball.app.sessions import GameSession
+from silverball.errors import BoardFull, NoRoom, SilverballError
+
+if TYPE_CHECKING:
+    from silverball.app.program import Program
+
+
+def press(program: Program, action: Action, *, again: bool = False) -> None:
+    """Handle a key or gamepad button that went down.
+
+    Args:
+        program: The program.
+        action: What the button asks for; full screen, help, debug view and mute belong to the window.
+        again: Whether Shift is held: the same board instead of a new one.
+    """
+    session = program.session
+    if action is Action.SLOWER or action is Action.FASTER:
+        program.change_speed(-1 if action is Action.SLOWER else 1)
+    elif program.menus.is_open:
+        _press_in_menu(program, action, again)
+    elif session is None:
+        _press_while_loading(program, action)
+    elif isinstance(session, GameSession):
+        _press_in_game(program, session, action, again)
+    else:
+        program.stop_watching()  # any button ends a demo
+
+
+def release(program: Program, action: Action) -> None:
+    """Handle a key or gamepad button that came up."""
+    if action in MENU_BUTTONS:
+        program.menus.release(MENU_BUTTONS[action])
+
+
+def _press_in_menu(program: Program, action: Action, again: bool) -> None:
+    if action in MENU_BUTTONS:
+        program.press_menu(MENU_BUTTONS[action])
+    elif program.menus.page == "attract":
+        program.press_menu(Button.BACK)  # any button ends the attract mode
+    elif action is Action.NEW_BOARD and isinstance(program.session, GameSession):
+        program.start_new_board(again)
+    elif action is Action.JITTER and program.is_paused:
+        program.show_message("the game is paused")
+
+
+def _press_while_loading(program: Program, action: Action) -> None:
+    """The chosen game begins as soon as the physics is loaded, unless the player goes back."""
+    if action is Action.BACK:
+        program.cancel_pending()
+    else:
+        program.show_loading_message()
+
+
+def _press_in_game(program: Program, session: GameSession, action: Action, again: bool) -> None:
+    if session.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
+        program.skip_game_over()
+    elif action is Action.CREATE:
+        _try(program, lambda: program.create_ball(session))
+    elif action is Action.JITTER:
+        _try(program, session.game.jitter)
+    elif action is Action.PAUSE or action is Action.BACK:
+        program.menus.open_pause()
+    elif action is Action.NEW_BOARD:
+        program.start_new_board(again)
+    elif action in PADDLES and all(paddle.side != str(action) for paddle in program.board.table.paddle):
+        program.show_message(f"this table has no {action} paddle")
+
+
+def _try(program: Program, request: Callable[[], object]) -> None:
+    """Run a request of the player; one that is impossible now becomes a message."""
+    try:
+        request()
+    except BoardFull:
+        count = program.board.table.board.max_balls
+        program.show_message("only one ball at a time" if count == 1 else f"at most {count} balls at a time")
+    except NoRoom:
+        program.show_message("there is no space for a ball right now")
+    except SilverballError as error:
+        program.show_message(str(error))

@@ -1,0 +1,212 @@
+"""What all menu pages share: the settings, tables, scores, the time, and the stack of open pages."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from typing import NamedTuple
+
+from silverball.app.bindings import ActionBinding, display_name, keys_for
+from silverball.app.demo_players import DemoPlayer
+from silverball.app.menus import page_layout
+from silverball.app.menus.commands import Button, Command
+from silverball.app.settings import PlayerSettings
+from silverball.drawing.dotmatrix.canvas import Dots
+from silverball.drawing.dotmatrix.fonts import NORMAL
+from silverball.game.view import Mode
+
+MIN_MESSAGE_TIME = 2.5  # [s]
+
+
+class TableEntry(NamedTuple):
+    """A table in the list of tables.
+
+    Attributes:
+        name: As in the settings: a built-in name or a path.
+        title: Its displayed name.
+        about: A short description.
+        is_random: Whether it makes a different board for every seed.
+        problem: Why it cannot be played; empty if it can.
+    """
+
+    name: str
+    title: str
+    about: str = ""
+    is_random: bool = False
+    problem: str = ""
+
+
+class ScoreRow(NamedTuple):
+    """A row of a high-score list.
+
+    Attributes:
+        initials: Of the player.
+        score: Points.
+        date: As displayed.
+        key: Identifies its replay for `WatchScore`; empty if there is no replay.
+    """
+
+    initials: str
+    score: int
+    date: str = ""
+    key: str = ""
+
+
+class JoystickEntry(NamedTuple):
+    """A connected joystick.
+
+    Attributes:
+        guid: Identifies its make; the settings store its bindings under it.
+        title: Its displayed name.
+        buttons: How many it has.
+    """
+
+    guid: str
+    title: str
+    buttons: int
+
+
+class Page(ABC):
+    """A menu page: it handles buttons and draws itself."""
+
+    name = "page"
+    repeats = True
+    """Whether a held paddle button repeats."""
+    allows_attract = True
+    """Whether the attract mode may begin on this page, and on pages opened from it, when nobody is active."""
+    extra_idle_time = 0.0
+    """How much longer than on other pages that takes [s]."""
+    shown_at = 0.0
+    """Since when the page is shown in its current state [s]: texts begin to scroll then."""
+
+    @abstractmethod
+    def press(self, button: Button, context: MenuContext) -> Command | None:
+        """Handle a button."""
+
+    @abstractmethod
+    def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
+        """Draw the page at a time of the clock of `context.now`; `below` is the display of the game."""
+
+    def tick(self, context: MenuContext) -> Command | None:
+        """Handle the passing of time."""
+        return None
+
+    def signature(self) -> Hashable:
+        """Return a value that differs between states in which buttons do different things."""
+        return ()
+
+
+class MenuContext:
+    """The shared state of all pages.
+
+    Attributes:
+        settings: The player's settings.
+        tables: All tables to choose from.
+        scores: The scores of a table and a mode, best first.
+        actions: All actions that have keys.
+        themes: Names of all themes.
+        seed: Of the next random board; None draws one.
+        last_seed: Of the random board shown last; None if there was none.
+        has_last_game: Whether there is a last game to watch.
+        demo_player: Who plays the demo; None before the first demo.
+        joysticks: The connected joysticks.
+        key_labels: Labels of keys on the current layout, by key name, where they differ from the name.
+        now: The time of the last tick [s].
+        idle: How long no button had been pressed by then [s].
+        pages: The open pages, the visible one last; none while a game is running.
+    """
+
+    def __init__(
+        self,
+        settings: PlayerSettings,
+        tables: Sequence[TableEntry],
+        scores: Callable[[str, Mode], Sequence[ScoreRow]],
+        actions: Sequence[ActionBinding],
+        themes: Sequence[str],
+    ) -> None:
+        self.settings = settings
+        self.tables = tables
+        self.scores = scores
+        self.actions = actions
+        self.themes = themes
+        self.seed: int | None = None
+        self.last_seed: int | None = None
+        self.has_last_game = False
+        self.demo_player: DemoPlayer | None = None
+        self.joysticks: Sequence[JoystickEntry] = ()
+        self.key_labels: Mapping[str, str] = {}
+        self.now = self.idle = 0.0
+        self.pages: list[Page] = []
+        self._message = ("", 0.0)
+        self._suspended: list[Page] = []  # the pages that were open when a replay began
+
+    @property
+    def table(self) -> TableEntry:
+        """The chosen table; one whose file has disappeared stays chosen under its name."""
+        name = self.settings.current.table
+        return next((entry for entry in self.tables if entry.name == name), TableEntry(name, name))
+
+    @property
+    def mode(self) -> Mode:
+        """The chosen mode."""
+        return Mode(self.settings.current.mode)
+
+    @property
+    def score_lists(self) -> list[tuple[TableEntry, Mode, Sequence[ScoreRow]]]:
+        """All score lists that are not empty, the one of the chosen table and mode first."""
+        settings = self.settings.current
+        lists = [
+            (entry, mode, rows)
+            for entry in self.tables
+            for mode in (Mode.ARCADE, Mode.FREE)
+            if (rows := self.scores(entry.name, mode))
+        ]
+        lists.sort(key=lambda one: (one[0].name, one[1]) != (settings.table, settings.mode))
+        return lists
+
+    def open(self, page: Page) -> None:
+        """Show a page on top of the others."""
+        page.shown_at = self.now
+        self.pages.append(page)
+
+    def back(self) -> None:
+        """Show the page below; the bottom page stays."""
+        if len(self.pages) > 1:
+            self.pages.pop()
+            self.pages[-1].shown_at = self.now
+
+    def close(self) -> None:
+        """Close all pages."""
+        self.pages.clear()
+        self._suspended.clear()
+
+    def suspend(self) -> None:
+        """Hide all pages while a replay or a demo is shown."""
+        self._suspended = self.pages.copy()
+        self.pages.clear()
+
+    def resume(self) -> bool:
+        """Show the suspended pages again; return whether there were any."""
+        self.pages, self._suspended = self._suspended, []
+        return bool(self.pages)
+
+    def show_message(self, text: str) -> None:
+        """Show a message on whatever page is open."""
+        self._message = (text, self.now)
+
+    def message(self, seconds: float) -> tuple[str, float]:
+        """Return the message at a time and for how long it has been shown [s]; empty if there is none."""
+        text, since = self._message
+        length = max(MIN_MESSAGE_TIME, page_layout.scroll_time(NORMAL.width(text)))
+        return (text, seconds - since) if since <= seconds < since + length else ("", 0.0)
+
+    def key_label(self, action: str) -> str:
+        """Return the first key of an action as the display writes it; "?" if it has none."""
+        for binding in self.actions:
+            if binding.action == action and (keys := keys_for(self.settings.current, binding)):
+                return self.button_label(keys[0])
+        return "?"
+
+    def button_label(self, name: str) -> str:
+        """Return a key or button as the display writes it."""
+        return display_name(name, self.key_labels)
