@@ -45,7 +45,7 @@ from silverball.world import WorldBatch
 TICK_RATE = 240
 PADDLES = (int(Part.LEFT_PADDLE), int(Part.RIGHT_PADDLE))
 CONTACTS = (int(EventKind.HIT), int(EventKind.TOUCH))  # with a part
-LONGEST = 600.0  # [s] after which a game is cut short
+MAX_SECONDS = 600.0  # [s] after which a game is cut short
 CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
 CELLS = 4  # of a map, along each unit
 GAPS = 200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
@@ -154,7 +154,7 @@ def play_games(
     batch: WorldBatch,
     player: str,
     progress: Callable[[float], None] | None = None,
-    longest: float = LONGEST,
+    longest: float = MAX_SECONDS,
 ) -> Games:
     """Play one ball in each world of a batch; the batch is restored afterwards.
 

@@ -24,7 +24,7 @@ from silverball.players.features import ENCODED, MIRRORED, Rows, encode, raw_fea
 from silverball.world import World, WorldBatch
 
 SCALE = 4096  # weights and values are rounded to multiples of 1/SCALE
-LARGEST = 2**17  # of a weight, in those multiples
+MAX_WEIGHT = 2**17  # of a weight, in those multiples
 DECISIONS = 15  # per second
 ACTIONS = 4  # none, left, right, both
 ROWS = 64  # evaluated at once; for more a BLAS starts threads, which mostly wait
@@ -56,8 +56,8 @@ class Policy:
             )
         if any(part.dtype != np.int32 for layer in layers for part in layer):
             raise ValueError("its numbers are not 32-bit integers")
-        if any(np.abs(part).max() > LARGEST for layer in layers for part in layer):
-            raise ValueError(f"a number is beyond ±{LARGEST / SCALE:g}")
+        if any(np.abs(part).max() > MAX_WEIGHT for layer in layers for part in layer):
+            raise ValueError(f"a number is beyond ±{MAX_WEIGHT / SCALE:g}")
         self.layers, self.command = layers, command
         self._exact = [(weights / SCALE, biases / SCALE) for weights, biases in layers]
 
@@ -66,7 +66,8 @@ class Policy:
         """A policy of floating-point layers, rounded."""
         clipped = [
             tuple(
-                np.clip(np.rint(np.asarray(part) * SCALE), -LARGEST, LARGEST).astype(np.int32) for part in one
+                np.clip(np.rint(np.asarray(part) * SCALE), -MAX_WEIGHT, MAX_WEIGHT).astype(np.int32)
+                for part in one
             )
             for one in layers
         ]

@@ -29,7 +29,7 @@ FORMAT = 1
 MAX_FINDINGS = 100  # after which a soak ends: the solver is broken, more of them add nothing
 MAX_FILES = 20  # findings that are written to files, for the same reason
 SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times its usual size
-WHAT = "a progress file of a soak"
+DESCRIPTION = "a progress file of a soak"
 
 
 def _file_name(name: str) -> str:
@@ -70,7 +70,7 @@ class SoakLog:
         Raises:
             StateError: The text is not the log of a soak.
         """
-        return parse_json(text, source, WHAT, FORMAT, cls._of)
+        return parse_json(text, source, DESCRIPTION, FORMAT, cls._of)
 
     @classmethod
     def _of(cls, values: dict[str, Any]) -> Self:
@@ -111,7 +111,7 @@ def load_or_begin(options: Options, path: Path) -> SoakLog:
     """
     if is_missing(path) and str(path) != STDIN:
         return SoakLog(options.as_dict(), code_digest())
-    log = SoakLog.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+    log = SoakLog.from_text(file_text(path, SIZE_LIMIT, DESCRIPTION), str(path))
     for key, value in options.as_dict().items():
         if log.options.get(key) != value:
             raise StateError(

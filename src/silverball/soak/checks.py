@@ -55,7 +55,7 @@ DEPTH = 1e-9  # [u] deeper is a penetration
 STUCK_RADIUS = 0.3  # [u] a ball that does not get further than this from a place …
 STUCK_AFTER = 60.0  # [s] … for longer than this is stuck, unless it was counted as jammed meanwhile
 SAMPLE = 0.05  # [u] between two checked places of a path
-PASSED = 1e-6  # [u] deeper, on the path, is a passage
+PASSAGE_DEPTH = 1e-6  # [u] deeper, on the path, is a passage
 GUTTER_MARGIN = 1e-9  # [u] for the rounding of the moment at which a ball drains
 """Source of all these: chosen."""
 
@@ -80,7 +80,7 @@ class PreviousBall(NamedTuple):
     z: float
 
 
-class Before(NamedTuple):
+class StateBefore(NamedTuple):
     """The balls and the paddles before a tick; angles of the left and right paddle [rad]."""
 
     a: PreviousBall
@@ -199,7 +199,7 @@ def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
 
 
 @kernel
-def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
+def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBefore, tick: float) -> None:
     """Check that every ball touched the surface of the part that it met."""
     world, log = lane.world, lane.log
     if log.lost > 0:
@@ -295,7 +295,7 @@ def depth_of_meeting(
 
 
 @kernel
-def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
+def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBefore, tick: float) -> None:
     """Check that no ball passed through anything without a contact.
 
     The path is checked as a straight line, so a depth up to its sagitta is allowed.
@@ -303,7 +303,7 @@ def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: Before,
     world, log = lane.world, lane.log
     a, b = world.ball[0], world.ball[1]
     after = (world.paddle[0].angle, world.paddle[1].angle)
-    allowed = max_sagitta(truth.board, tick) + PASSED
+    allowed = max_sagitta(truth.board, tick) + PASSAGE_DEPTH
     free_a = a.id != 0 and a.id == before.a.id and is_untouched(log, a.id)
     free_b = b.id != 0 and b.id == before.b.id and is_untouched(log, b.id)
     if free_a:
@@ -359,7 +359,7 @@ def watched_tick(
     apply_action(world, geometry.board, geometry.colliders, places, lane.log, action)
     register_new_balls(world, truth, watch)
     a, b = world.ball[0], world.ball[1]
-    before = Before(
+    before = StateBefore(
         PreviousBall(a.id, a.x, a.z),
         PreviousBall(b.id, b.x, b.z),
         (world.paddle[0].angle, world.paddle[1].angle),

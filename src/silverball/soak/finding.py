@@ -33,8 +33,8 @@ FORMAT = 1
 LEAD_SECONDS = 1.0  # [s] before the finding at which the state is saved
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
-WHAT = "a finding of a soak"
-FASTEST = 1e4  # [u/s] of a kick; chosen: far above every speed cap
+DESCRIPTION = "a finding of a soak"
+MAX_KICK = 1e4  # [u/s] of a kick; chosen: far above every speed cap
 
 
 def _action(values: list[Any]) -> list[Any]:
@@ -50,7 +50,7 @@ def _is_kick(kick: Any) -> bool:
     return (
         isinstance(kick, list)
         and len(kick) == 2
-        and all(type(number) in (int, float) and abs(number) <= FASTEST for number in kick)
+        and all(type(number) in (int, float) and abs(number) <= MAX_KICK for number in kick)
     )
 
 
@@ -108,7 +108,7 @@ class Finding:
         Raises:
             StateError: The text is not a finding of this format.
         """
-        return parse_json(text, source, WHAT, FORMAT, cls._of)
+        return parse_json(text, source, DESCRIPTION, FORMAT, cls._of)
 
     @classmethod
     def load(cls, path: Path) -> Finding:
@@ -117,7 +117,7 @@ class Finding:
         Raises:
             StateError: The file does not exist, or cannot be read.
         """
-        return cls.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+        return cls.from_text(file_text(path, SIZE_LIMIT, DESCRIPTION), str(path))
 
     @classmethod
     def _of(cls, values: dict[str, Any]) -> Finding:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from silverball.table import Board, Cylinder, Paddle, SlantWall, Table, TriangularPrism
 
-LEAST_FEATURES, MOST_FEATURES = 4, 12
+MIN_FEATURES, MAX_FEATURES = 4, 12
 HAIR = (1e-4, 1e-3, 1e-2, 0.05)  # [u] widths of thin parts, and clearances in narrow places
 
 Part = SlantWall | TriangularPrism | Cylinder
@@ -51,7 +51,7 @@ def hostile_table(seed: int) -> Table:
     )
     paddles = _paddles(pick, board)
     parts: list[Part] = []
-    for _ in range(pick.randint(LEAST_FEATURES, MOST_FEATURES)):
+    for _ in range(pick.randint(MIN_FEATURES, MAX_FEATURES)):
         x = pick.uniform(-4.0, 0.5 * board.length)
         z = pick.uniform(-0.5, 0.5) * board.width
         parts += pick.choice(FEATURES)(_Site(pick, board, paddles, x, z))

@@ -44,11 +44,11 @@ from silverball.table.traps import level_faces, pockets
 if TYPE_CHECKING:
     from silverball.table.table import Table
 
-FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
+MIN_HEIGHT = 0.05  # [u] of a triangle, and least length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may extend beyond an edge of the board
 MIN_OPEN_SHARE = 0.5  # share of the board that must lead to the gutter; corners may be closed off
 MAX_CLOSE_PAIRS = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500
-OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
+MAX_OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
 
 
 class Layout(NamedTuple):
@@ -96,9 +96,9 @@ def check_layout(layout: Layout) -> list[Problem]:
         return problems
     layout = layout._replace(paddles=_one_per_side(layout.paddles))  # the others are problems already
     overlaps, tight = _pair_problems(stationary, layout.board)
-    problems += overlaps[:OVERLAPS_LISTED]
-    if len(overlaps) > OVERLAPS_LISTED:
-        problems.append(Problem("", f"and {len(overlaps) - OVERLAPS_LISTED:,} more overlaps"))
+    problems += overlaps[:MAX_OVERLAPS_LISTED]
+    if len(overlaps) > MAX_OVERLAPS_LISTED:
+        problems.append(Problem("", f"and {len(overlaps) - MAX_OVERLAPS_LISTED:,} more overlaps"))
     problems += _sweep_problems(layout, stationary)
     paddles = tuple(paddle for _, paddle in layout.paddles)
     outlines = [part.outline() for part in stationary.parts]
@@ -108,7 +108,7 @@ def check_layout(layout: Layout) -> list[Problem]:
     crowd = _crowd_problems(stationary, layout.board)
     problems += crowd
     can_rest_anywhere = layout.board.gravity == 0.0
-    if len(overlaps) <= OVERLAPS_LISTED and not crowd and not can_rest_anywhere:
+    if len(overlaps) <= MAX_OVERLAPS_LISTED and not crowd and not can_rest_anywhere:
         problems += _trap_problems(layout, stationary, ball_space)
     if layout.random is not None:
         problems += recipe_problems(layout.board, stationary.parts, paddles, layout.random)
@@ -220,13 +220,13 @@ def _own_problem(path: str, part: StationaryPart, board: Board) -> Problem | Non
     points = np.array(core)
     path = f"{path}.{_place_key(part)}"
     if isinstance(part, SlantWall):
-        if math.dist(part.start, part.end) < FLATTEST:
-            return Problem(path, f"is flat: start and end must be at least {FLATTEST:g} u apart")
+        if math.dist(part.start, part.end) < MIN_HEIGHT:
+            return Problem(path, f"is flat: start and end must be at least {MIN_HEIGHT:g} u apart")
         beyond = max(abs(x) - 0.5 * board.length for x, _ in core[:2])
         beyond = max(beyond, *(abs(z) - 0.5 * board.width for _, z in core[:2]))
     else:
-        if isinstance(part, TriangularPrism) and _height(points) < FLATTEST:
-            return Problem(path, f"is flat: the triangle must be at least {FLATTEST:g} u high everywhere")
+        if isinstance(part, TriangularPrism) and _height(points) < MIN_HEIGHT:
+            return Problem(path, f"is flat: the triangle must be at least {MIN_HEIGHT:g} u high everywhere")
         low_edge = points[:, 0].min() - radius + 0.5 * board.length
         beyond = -min(float(border_gaps(points, board).min()) - radius, float(low_edge))
     if beyond > ROUNDING:
@@ -268,12 +268,12 @@ def _pair_problems(
             overlaps.append(Problem(path, f"overlaps {paths[one]}: move one of the two"))
         elif 2.0 * board.ball_radius <= gap < widest:
             place = _middle(shapes.core[one], shapes.core[other])
-            tight.append((_tight(path, gap, paths[one], board), place))
+            tight.append((_gap_problem(path, gap, paths[one], board), place))
     to_border = border_gaps(shapes.core, board).min(axis=1) - shapes.radius[:, None]
     for shape, border in np.argwhere((to_border >= 2.0 * board.ball_radius) & (to_border < widest)).tolist():
         path = f"{paths[shape]}.{_place_key(parts[shape])}"
         corner = shapes.core[shape, np.argmin(border_gaps(shapes.core[shape], board)[:, border])]
-        problem = _tight(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
+        problem = _gap_problem(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
         tight.append((problem, (float(corner[0]), float(corner[1]))))
     return overlaps, tight
 
@@ -289,7 +289,7 @@ def _crowd_problems(stationary: Measured, board: Board) -> list[Problem]:
     return [Problem("board", message)]
 
 
-def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
+def _gap_problem(path: str, gap: float, other: str, board: Board) -> Problem:
     ball = 2.0 * board.ball_radius
     message = (
         f"leaves {gap:.3f} u to {other}, which a ball of {ball:g} u barely fits: "
@@ -338,15 +338,15 @@ def _sweep_problems(layout: Layout, stationary: Measured) -> list[Problem]:
                 problems.append(Problem(other_path, message))
         border = touches_border(paddle, layout.board)
         if border is not None:
-            problems.append(_touch(path, border[0], BORDER_NAMES[border[1]]))
+            problems.append(_swing_problem(path, border[0], BORDER_NAMES[border[1]]))
         for other_path, part in zip(stationary.paths, stationary.parts, strict=True):
             angle = touches_shape(paddle, *part.outline())
             if angle is not None:
-                problems.append(_touch(path, angle, other_path))
+                problems.append(_swing_problem(path, angle, other_path))
     return problems
 
 
-def _touch(path: str, angle: float, other: str) -> Problem:
+def _swing_problem(path: str, angle: float, other: str) -> Problem:
     message = f"must stay {CLEARANCE:g} u clear of {other} in its swing, but comes closer at {angle:.0f} deg"
     return Problem(path, f"{message}: move one of the two")
 

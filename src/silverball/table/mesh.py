@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
 CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle is found in a second
 HULL_LIMIT = 2**16  # corners of a hull; chosen: the most that points in single precision can have
-FURTHEST = 1e6  # [u] from the origin; a point further out means that the file is damaged
-NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
+MAX_COORDINATE = 1e6  # [u] from the origin; a point further out means that the file is damaged
+MIN_WIDTH = 1e-3  # [u] a footprint narrower than this is flat
 _ROUNDED = 6  # decimals of a footprint [u]; STL stores single precision
 
 
@@ -156,12 +156,12 @@ def _points(path: Path) -> Floats:
         raise _unusable(name, f"cannot be read: {name} ({error.strerror or error})") from error
     except MeshError as error:
         raise _unusable(name, f"cannot be used: {name} {error}") from error
-    if not (np.abs(vertices) <= FURTHEST).all():  # also not for NaN
+    if not (np.abs(vertices) <= MAX_COORDINATE).all():  # also not for NaN
         raise _unusable(
-            name, f"has coordinates beyond {FURTHEST:,.0f} u or that are not numbers: {name} is damaged"
+            name, f"has coordinates beyond {MAX_COORDINATE:,.0f} u or that are not numbers: {name} is damaged"
         )
     points = vertices[:, [0, 2]]
-    if len(points) < 3 or _width(points) < NARROWEST:
+    if len(points) < 3 or _width(points) < MIN_WIDTH:
         raise _unusable(name, f"is flat or empty seen from above (along y): {name} has no footprint")
     return points
 

@@ -86,7 +86,7 @@ def _stl(content: bytes) -> Floats:
     for line in _lines(content):
         words = line.split()
         if words and words[0].lower() == b"vertex":
-            values.extend(_three(words[1:]))
+            values.extend(_vertex(words[1:]))
     return np.array(values).reshape(-1, 3)
 
 
@@ -101,7 +101,7 @@ def _obj(content: bytes) -> Floats:
         if not words:
             continue
         if words[0] == b"v":
-            values.extend(_three(words[1:]))
+            values.extend(_vertex(words[1:]))
         elif words[0] in (b"f", b"l", b"p"):
             count = len(values) // 3
             for word in words[1:]:
@@ -125,7 +125,7 @@ def _lines(content: bytes) -> Iterator[bytes]:
         yield line
 
 
-def _three(words: list[bytes]) -> tuple[float, float, float]:
+def _vertex(words: list[bytes]) -> tuple[float, float, float]:
     return float(words[0]), float(words[1]), float(words[2])
 
 
@@ -148,7 +148,9 @@ def _glb(content: bytes) -> Floats:
         many = f"has {total:,} vertices in {len(places):,} places"
         raise MeshError(f"{many}, a mesh has at most {POINTS_LIMIT:,}: simplify it")
     points = {
-        mesh: np.concatenate([np.empty((0, 3)), *(_used(scene, binary, each) for each in primitives)])
+        mesh: np.concatenate(
+            [np.empty((0, 3)), *(_used_vertices(scene, binary, each) for each in primitives)]
+        )
         for mesh, primitives in parts.items()
     }
     found = (points[mesh] @ matrix[:3, :3].T + matrix[:3, 3] for mesh, matrix in places)
@@ -222,10 +224,12 @@ def _matrix(node: dict[str, Any]) -> Floats:
 def _count(scene: dict[str, Any], primitive: dict[str, Any]) -> int:
     """The number of vertices that reading a primitive makes."""
     names = [primitive["attributes"]["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]
-    return max(_whole(scene["accessors"][_index(name, scene["accessors"])]["count"]) for name in names)
+    return max(
+        _checked_count(scene["accessors"][_index(name, scene["accessors"])]["count"]) for name in names
+    )
 
 
-def _used(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) -> Floats:
+def _used_vertices(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) -> Floats:
     """The vertices of a primitive, shape [vertex, 3]; with indices only those that are used."""
     points = _accessor(scene, binary, primitive["attributes"]["POSITION"], 3).astype(np.float64)
     if "indices" not in primitive:
@@ -237,7 +241,7 @@ def _used(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) 
 def _accessor(scene: dict[str, Any], binary: memoryview, name: Any, width: int) -> NDArray[Any]:
     """The rows of an accessor, shape [row, width] or [row]."""
     accessor = scene["accessors"][_index(name, scene["accessors"])]
-    kind, count = np.dtype(_TYPES[accessor["componentType"]]), _whole(accessor["count"])
+    kind, count = np.dtype(_TYPES[accessor["componentType"]]), _checked_count(accessor["count"])
     if accessor["type"] != {1: "SCALAR", 3: "VEC3"}[width]:
         raise ValueError(f"an accessor of type {str(accessor['type'])[:20]}")
     if "bufferView" in accessor:
@@ -255,7 +259,7 @@ def _with_sparse(
     scene: dict[str, Any], binary: memoryview, sparse: dict[str, Any], rows: NDArray[Any]
 ) -> NDArray[Any]:
     """The rows with the sparse ones filled in."""
-    count = _whole(sparse["count"])
+    count = _checked_count(sparse["count"])
     if count > len(rows):
         raise ValueError("more sparse rows than rows")
     where = _rows(
@@ -276,11 +280,11 @@ def _rows(
 ) -> NDArray[Any]:
     """Rows of a buffer view, possibly with a stride; nothing is read beyond the view."""
     view = scene["bufferViews"][_index(given["bufferView"], scene["bufferViews"])]
-    if _whole(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only buffer 0 is in this file
+    if _checked_count(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only buffer 0 is in this file
         raise MeshError("has its data in another file, which is not read: export it as one GLB file")
-    start, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
-    offset, row = _whole(given.get("byteOffset", 0)), kind.itemsize * width
-    stride = _whole(view.get("byteStride", 0)) or row
+    start, size = _checked_count(view.get("byteOffset", 0)), _checked_count(view["byteLength"])
+    offset, row = _checked_count(given.get("byteOffset", 0)), kind.itemsize * width
+    stride = _checked_count(view.get("byteStride", 0)) or row
     if count == 0 or stride < row or start + size > len(binary) or offset + (count - 1) * stride + row > size:
         raise ValueError("an accessor reaches beyond its data")
     return np.ndarray((count, width), kind, binary, start + offset, (stride, kind.itemsize))
@@ -288,13 +292,13 @@ def _rows(
 
 def _index(value: Any, among: list[Any]) -> int:
     """Check a number that refers to an item of a list."""
-    number = _whole(value)
+    number = _checked_count(value)
     if number >= len(among):
         raise ValueError(f"it names number {number:,} of {len(among):,}")
     return number
 
 
-def _whole(value: Any) -> int:
+def _checked_count(value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**32:
         raise ValueError("an invalid count")
     return value

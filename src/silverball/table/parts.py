@@ -30,7 +30,7 @@ from pydantic import (
     model_validator,
 )
 
-from silverball.table.quantity import COORDINATE, POINT, Count, Interval, Quantity, Several, refuse, shown
+from silverball.table.quantity import COORDINATE, POINT, Count, FixedList, Interval, Quantity, refuse, shown
 
 __all__ = [
     "Arcade",
@@ -57,7 +57,7 @@ SineCosine: TypeAlias = Callable[[float], tuple[float, float]]
 """The sine and the cosine of an angle [rad]."""
 
 _Place = Annotated[Point, POINT]
-_Corners = Annotated[Triangle, Several(POINT, 3, "[[x, z], [x, z], [x, z]]")]
+_Corners = Annotated[Triangle, FixedList(POINT, 3, "[[x, z], [x, z], [x, z]]")]
 _Restitution = Annotated[float, Quantity(0.0, 1.0)]
 _Falloff = Annotated[float, Quantity(0.0, 10.0, "s/u")]
 _SpeedFactor = Annotated[float, Quantity(0.1, 3.0)]
@@ -445,7 +445,7 @@ class RandomRecipe(Model):
     """[u] circumradius of a prism, [least, greatest]."""
     cylinder_radius: Annotated[tuple[float, float], Interval(Quantity(0.1, 5.0, "u"))] = (0.5, 0.7)
     """[u] radius of a cylinder, [least, greatest]."""
-    area: Annotated[tuple[Point, Point], Several(POINT, 2, "[[x, z], [x, z]]")] = ((-2.0, -4.0), (8.5, 4.0))
+    area: Annotated[tuple[Point, Point], FixedList(POINT, 2, "[[x, z], [x, z]]")] = ((-2.0, -4.0), (8.5, 4.0))
     """[u] the rectangle for the centres: its lower left and its upper right corner."""
     gap: Annotated[float, Quantity(0.0, 10.0, "u")] = 0.9
     """[u] least free space between the bounding circles of two obstacles; more than a ball."""

@@ -19,7 +19,7 @@ from silverball.table.geometry import Floats, border_gaps, core_distances, dista
 from silverball.table.parts import Board, Paddle, Triangle
 
 CLEARANCE = 0.02  # [u] that a turning paddle must leave; chosen: far above rounding, far below a ball
-FINEST = 1e-4  # [u] least motion that is still bisected
+MIN_MOTION = 1e-4  # [u] least motion that is still bisected
 CACHED = 256  # cached results; the boards of a recipe share their stationary parts
 SPLITS = 40  # halvings at most; from 170° and a reach of 10 u, twenty are enough
 
@@ -68,7 +68,7 @@ def touches_paddle(first: Paddle, second: Paddle) -> tuple[float, float] | None:
             worst = int(np.argmin(gap))
             return float(middle[worst, 0]), float(middle[worst, 1])
         motion = np.radians(half) * reach
-        open_ = (gap - motion.sum(axis=1) < CLEARANCE) & (motion.sum(axis=1) > FINEST)
+        open_ = (gap - motion.sum(axis=1) < CLEARANCE) & (motion.sum(axis=1) > MIN_MOTION)
         if not open_.any():
             return None
         low, high, middle, wider = low[open_], high[open_], middle[open_], np.argmax(motion[open_], axis=1)
@@ -90,7 +90,7 @@ def _nearest_below(paddle: Paddle, gap_at: Callable[[Floats], Floats]) -> float 
         if (gap < CLEARANCE).any():
             return float(middle[np.argmin(gap)])
         motion = np.radians(half) * paddle.reach
-        open_ = (gap - motion < CLEARANCE) & (motion > FINEST)
+        open_ = (gap - motion < CLEARANCE) & (motion > MIN_MOTION)
         if not open_.any():
             return None
         low, high, middle = low[open_], high[open_], middle[open_]

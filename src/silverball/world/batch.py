@@ -28,7 +28,7 @@ from silverball.world.snapshot import Snapshot, gather, scatter
 from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
-SMALLEST_SLICE = 512  # world-ticks; a smaller slice costs more to schedule than to run
+MIN_SLICE = 512  # world-ticks; a smaller slice costs more to schedule than to run
 CHUNK = 2**16  # world-ticks per thread and call, some 50 ms; Python notices Ctrl-C between two calls
 
 
@@ -85,7 +85,7 @@ class WorldBatch:
         tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
         threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
         seeds = checked_seeds(seed, count)
-        tables, board_of = _finished(table, seeds, count)
+        tables, board_of = _finished_tables(table, seeds, count)
         boards = compile_tables(tables)
         state = blank_worlds(boards, board_of)
         state["seed"] = seeds
@@ -188,7 +188,7 @@ class WorldBatch:
                 the last.
             work: The cost of all worlds [world-ticks].
         """
-        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // SMALLEST_SLICE)
+        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // MIN_SLICE)
         if self.threads == 1 or slices < 2:
             task(0, self.count)
             return
@@ -334,7 +334,7 @@ def _create_balls(
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
 
 
-def _finished(
+def _finished_tables(
     table: Table | str | os.PathLike[str] | Sequence[Table], seeds: list[int], count: int
 ) -> tuple[tuple[Table, ...], NDArray[np.int64]]:
     """The distinct finished tables of a batch, and the number of each world's table, int64 [world]."""

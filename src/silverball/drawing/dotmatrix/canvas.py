@@ -117,13 +117,13 @@ class Dots:
         window: tuple[int, int] = (0, WIDTH),
     ) -> None:
         """Set the dots of a mask, shape [row, column], whose upper left dot is at (x, y)."""
-        here, there = _overlap(mask.shape, x, y, window)
-        self.pixels[here][mask[there]] = brightness
+        target, source = _overlap(mask.shape, x, y, window)
+        self.pixels[target][mask[source]] = brightness
 
     def sprite(self, levels: Levels, x: int, y: int) -> None:
         """Blend a small picture at (x, y) into this one; the brighter dot wins."""
-        here, there = _overlap(levels.shape, x, y, (0, WIDTH))
-        self.pixels[here] = np.maximum(self.pixels[here], levels[there])
+        target, source = _overlap(levels.shape, x, y, (0, WIDTH))
+        self.pixels[target] = np.maximum(self.pixels[target], levels[source])
 
     def dot(self, x: int, y: int, brightness: int = FULL) -> None:
         """Set one dot."""

@@ -181,10 +181,10 @@ class Database:
             self._connection.close()
             self._connection = None
         with suppress(Locked):
-            self._connection = self._connected()
+            self._connection = self._connect()
         self._identity = self._file_identity()
 
-    def _connected(self) -> sqlite3.Connection:
+    def _connect(self) -> sqlite3.Connection:
         """A connection to the file, to a new one if it is unfit, or else to memory."""
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
