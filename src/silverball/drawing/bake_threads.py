@@ -21,7 +21,7 @@ from silverball.drawing.kernels.bake import Canvas
 from silverball.drawing.kernels.stage import Scene
 
 ROWS = 4  # baked by one call, in about 20 ms
-NICENESS = 10  # of threads that bake while a game is played
+NICENESS = 10  # priority of threads that bake while a game is played
 
 
 class BakeCancelled(Exception):

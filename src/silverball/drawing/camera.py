@@ -20,11 +20,11 @@ import pygame
 from silverball.drawing.dimensions import Dimensions
 from silverball.table import Board
 
-TILT = math.radians(38.0)  # of the view from straight down
-DISTANCE = 2.8  # of the eye from the board's centre, by the longer side of the board
+TILT = math.radians(38.0)  # angle of the view from straight down
+DISTANCE = 2.8  # distance of the eye from the board's centre, by the longer side of the board
 PANEL_SHAPE = 5.0  # width by height of the score panel: 160 × 32 dots
 PANEL_MIN, PANEL_MAX = 0.42, 1.25  # width of the panel, in heights of the board's picture
-MARGIN = 0.012  # of the content's width, left and right of the panel and between panel and board
+MARGIN = 0.012  # by the content's width; left and right of the panel and between panel and board
 BOARD_MARGIN = 0.004  # margin around the board, of the content's width
 
 

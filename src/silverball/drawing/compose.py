@@ -26,7 +26,7 @@ from silverball.drawing.sketch import Pen, sketch_paddle
 from silverball.drawing.themes import Color, Theme
 from silverball.table import Paddle, Table
 
-MAX_SPOTS = 64  # of one trail, or of the sparks of one hit
+MAX_SPOTS = 64  # spots of one trail, or sparks of one hit
 TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
 
 

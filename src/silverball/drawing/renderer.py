@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from silverball.world import Event, World
 
 DEFAULT_HEIGHT = 480  # [pixel]
-MAX_RENDERERS = 8  # of `render`; a renderer of the default height takes about 5 MB
+MAX_RENDERERS = 8  # renderers that `render` reuses; one of the default height takes about 5 MB
 
 
 class Painter(Protocol):

@@ -37,7 +37,7 @@ class End(IntEnum):
 LIFE = np.dtype(
     [
         ("end", "i8"),  # End
-        ("ticks", "i8"),  # of its life
+        ("ticks", "i8"),  # length of its life
         ("scored", "i8"), ("score", "i8"),  # the tick of its last points, and all its points
     ],
     align=True,

@@ -45,9 +45,9 @@ from silverball.world import WorldBatch
 TICK_RATE = 240
 PADDLES = (int(Part.LEFT_PADDLE), int(Part.RIGHT_PADDLE))
 CONTACTS = (int(EventKind.HIT), int(EventKind.TOUCH))  # with a part
-MAX_SECONDS = 600.0  # [s] after which a game is cut short
-CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
-CELLS = 4  # of a map, along each unit
+MAX_SECONDS = 600.0  # [s] a longer game is cut short
+CHUNK_TICKS = 1_000_000  # ticks of all worlds together between two calls of `progress`
+CELLS = 4  # cells of a map per unit of length
 GAPS = 200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
 STAY = 0.5  # [u] a ball within this distance of a place has stayed there
 ON_PADDLE = 0.02  # [u] gap below which a ball lies on a paddle or rolls along it; hops are 5e-4 u high
@@ -60,8 +60,8 @@ TOP = 2.0  # [u] below the upper border, where the top of the table begins
 BEGINNER = 3  # not a `PlayerKind`, so its number differs from all of theirs
 BEGINNER_KEY = 0xBE61  # makes its random numbers independent of the world's
 REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once per game
-REACTION_JITTER = 0.03  # [s] by which it may be early or late, drawn for every half second
-REMEMBERED_TICKS = 128  # of decisions that it remembers: more than its slowest reaction
+REACTION_JITTER = 0.03  # [s] greatest deviation of its reaction time, drawn for every half second
+REMEMBERED_TICKS = 128  # ticks of remembered decisions: more than its slowest reaction
 
 
 class Over(IntEnum):

@@ -25,9 +25,9 @@ from silverball.physics.step import step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
 
-WAIT = 2.5  # [s] for which the raised paddle holds the ball before it is dropped: it lies still by then
-PRESSES = 2.0  # [s] over which the moment of the press is swept
-HOLD = 0.3  # [s] for which the button is held
+WAIT = 2.5  # [s] time on the raised paddle before that is dropped; the ball lies still by then
+PRESSES = 2.0  # [s] range of the swept moments of the press
+HOLD = 0.3  # [s] length of the press
 AFTER = 3.0  # [s] after the press, for which a shot is followed
 START = 1.5  # [u] up the guide from its lower end, where the ball is released; less on a shorter guide
 CLEAR = 0.002  # [u] between the ball and the guide there

@@ -55,7 +55,7 @@ from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.records import NOTHING, BallMotion, BallRecord, BoardRecord, Motion
 from silverball.physics.tolerances import MIN_SLIP_SPEED, NEVER
 
-ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
+ROLLING_SHARE = 5.0 / 7.0  # acceleration of a rolling ball, as a share of that of a sliding one
 SLIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
 LONGER = 1.0 + 1e-9  # allows for the rounding of a time
 

@@ -19,7 +19,7 @@ from silverball.physics.portable_math import uniform
 
 PLANNER_KEY = 0x9_1A77  # makes the planner's random numbers independent of the world's
 DRAWS = 4096  # random numbers reserved for one step
-PRESSES = 2  # of each paddle in one plan: to catch a ball and to shoot it
+PRESSES = 2  # presses of each paddle in a plan: to catch a ball and to shoot it
 
 PLAN = np.dtype(
     [
@@ -32,19 +32,19 @@ PLAN = np.dtype(
 PlanRecord: TypeAlias = Any  # a PLAN record
 
 # All of the following are in decision steps, and chosen, not tuned.
-FIRST_SPAN = 90  # within which a new press begins: long enough to let a caught ball come to rest
+FIRST_SPAN = 90  # a new press begins within this time: a caught ball comes to rest in it
 SHORT, LONG = 10, 90  # upper limits of a short press (a shot) and of a long one (a catch)
-GAP = 30  # at most, between two presses of a new plan
-SHIFT = 8  # at most, by which a press is shifted to make another plan
-NEW_SHARE = 0.3  # of the plans that are new; the others vary the best one
+GAP = 30  # longest time between two presses of a new plan
+SHIFT = 8  # longest shift of a press when a plan is varied
+NEW_SHARE = 0.3  # share of new plans; the others vary the best one
 
 
 class Change(IntEnum):
     """What `vary_plan` changes; the numbers 2 and 3 shift a whole press."""
 
-    START = 0  # of a press
-    END = 1  # of a press
-    DROP = 4  # a press
+    START = 0  # the start of a press
+    END = 1  # the end of a press
+    DROP = 4  # a press is removed
     UNTIL = 5  # the step from which on the reflex player presses
     COUNT = 6
 

@@ -51,11 +51,11 @@ from silverball.players.plan import (
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import World, WorldBatch
 
-DECISIONS = 60  # per second
-BRANCHES = 60  # tried at one decision
-MOVES = 10_000  # that all branches of a decision may take together; skipping many steps ahead counts as one
+DECISIONS = 60  # decisions per second
+BRANCHES = 60  # branches tried at one decision
+MOVES = 10_000  # upper limit for all branches of a decision; a skip over many steps counts as one move
 HORIZON = 10.0  # [s] upper limit of a branch: a shot may return after 7 s, down the middle
-LOW_HORIZON = 4.0  # [s] of these, with a ball in reach of the paddles
+LOW_HORIZON = 4.0  # [s] upper limit of its time with a ball in reach of the paddles
 RISES = 2  # a branch ends when every ball has risen from the paddles this often
 RISE = 1.0  # [u] above the reach of the paddles to which a ball must rise
 LEAD = 12  # steps before a ball is in reach of the paddles at which branches begin to differ

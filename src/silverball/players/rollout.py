@@ -32,7 +32,7 @@ from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import WorldBatch
 
-CHUNK_TICKS = 2_000_000  # of all worlds together, between two calls of `progress`
+CHUNK_TICKS = 2_000_000  # ticks of all worlds together between two calls of `progress`
 
 
 class Played(NamedTuple):

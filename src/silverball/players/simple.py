@@ -22,7 +22,7 @@ from silverball.physics.records import (
 from silverball.world import World
 
 RANDOM_KEY = 0x5EED  # makes the random player's numbers independent of the world's
-RANDOM_HOLD = 0.15  # [s] for which the random player leaves a button as it is
+RANDOM_HOLD = 0.15  # [s] for which the random player holds or releases a button
 # The three numbers of the reflex player are the best of 40 random choices, by score per minute on both
 # built-in tables: balls last 40 s on average. Without looking ahead they last longer, but lie on raised
 # paddles.

@@ -24,10 +24,10 @@ from silverball.players.features import ENCODED, MIRRORED, Rows, encode, raw_fea
 from silverball.world import World, WorldBatch
 
 SCALE = 4096  # weights and values are rounded to multiples of 1/SCALE
-MAX_WEIGHT = 2**17  # of a weight, in those multiples
-DECISIONS = 15  # per second
+MAX_WEIGHT = 2**17  # greatest weight, in multiples of 1/SCALE
+DECISIONS = 15  # decisions per second
 ACTIONS = 4  # none, left, right, both
-ROWS = 64  # evaluated at once; for more a BLAS starts threads, which mostly wait
+ROWS = 64  # rows evaluated at once; for more a BLAS starts threads, which mostly wait
 
 Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
 """Weights [in, out] and biases [out], in multiples of 1/SCALE."""

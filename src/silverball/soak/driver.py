@@ -33,11 +33,11 @@ from silverball.physics.records import (
 
 SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's
 # All of the following are chosen.
-HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] for which a button may be held or released, each as likely
-BOTH_SHARE = 0.2  # of the presses are of both buttons at once
-KICK_EVERY = 2.0  # [s] at most, between two random velocities of a ball; half of that on average
-CAP_SHARE = 0.25  # of the kicks are as fast as the cap allows
-SHOVE_EVERY = 4.0  # [s] at most, between two shoves
+HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] times of a press or a release, equally likely
+BOTH_SHARE = 0.2  # share of presses of both buttons at once
+KICK_EVERY = 2.0  # [s] longest time between two random velocities of a ball; half of it on average
+CAP_SHARE = 0.25  # share of kicks as fast as the cap
+SHOVE_EVERY = 4.0  # [s] longest time between two shoves
 QUIET, LIVELY = 75.0, 25.0  # [s]
 RETRY = 0.25  # [s] between two attempts to create a ball: a crowded board may have no free place
 

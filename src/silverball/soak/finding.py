@@ -30,7 +30,7 @@ from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 from silverball.world.saved_world import pack, unpack
 
 FORMAT = 1
-LEAD_SECONDS = 1.0  # [s] before the finding at which the state is saved
+LEAD_SECONDS = 1.0  # [s] from the saved state to the finding
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
 DESCRIPTION = "a finding of a soak"

@@ -31,7 +31,7 @@ from silverball.world.compile import compile_tables
 ROUND_SECONDS, HOSTILE_SECONDS = 600.0, 200.0
 WORLDS_PER_BOARD = 4
 QUIET_EVERY = 4  # one of every four worlds is quiet
-CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
+CHUNK_TICKS = 1_000_000  # ticks of all worlds together between two calls of `progress`
 
 KINDS = tuple(kind for kind in Found if kind != Found.NOTHING)
 

@@ -44,7 +44,7 @@ from silverball.table.traps import level_faces, pockets
 if TYPE_CHECKING:
     from silverball.table.table import Table
 
-MIN_HEIGHT = 0.05  # [u] of a triangle, and least length of a slant wall; chosen: a fifth of a ball
+MIN_HEIGHT = 0.05  # [u] least height of a triangle and length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may extend beyond an edge of the board
 MIN_OPEN_SHARE = 0.5  # share of the board that must lead to the gutter; corners may be closed off
 MAX_CLOSE_PAIRS = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500

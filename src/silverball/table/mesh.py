@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
-CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle is found in a second
+CORNERS_LIMIT = 1000  # corners of a prism's footprint; chosen: the largest triangle is found in a second
 HULL_LIMIT = 2**16  # corners of a hull; chosen: the most that points in single precision can have
 MAX_COORDINATE = 1e6  # [u] from the origin; a point further out means that the file is damaged
 MIN_WIDTH = 1e-3  # [u] a footprint narrower than this is flat

@@ -24,12 +24,12 @@ from silverball.table.geometry import Floats
 KINDS = ("stl", "obj", "glb")
 POINTS_LIMIT = 1_100_000  # vertices of all instances; chosen: those of the largest binary STL
 JSON_LIMIT = 2**20  # [bytes] of a GLB's scene; chosen: a thousand nodes take a tenth of it
-NODES_LIMIT = 10_000  # of a scene, counted once per path
-LINES_LIMIT = 2_200_000  # of text; chosen: the most short lines ("v 1 1 1", "f 1 2 3") in 16 MiB
+NODES_LIMIT = 10_000  # nodes of a scene, counted once per path
+LINES_LIMIT = 2_200_000  # lines of text; chosen: the most short lines ("v 1 1 1", "f 1 2 3") in 16 MiB
 LINE_LIMIT = 2**16  # [bytes] of a line of text; chosen: a face of 5,000 corners
 # Extensions that are supported, or do not change the shape
 SUPPORTED_EXTENSIONS = ("KHR_mesh_quantization", "KHR_materials_", "KHR_texture_")
-STL_HEADER = 84  # [bytes] before the triangles of a binary STL; the last four are their number
+STL_HEADER = 84  # [bytes] header of a binary STL; its last four are the number of triangles
 GLB_JSON, GLB_BINARY = 0x4E4F534A, 0x004E4942  # types of the chunks of a GLB
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])  # 50 bytes
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}

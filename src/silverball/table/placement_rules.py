@@ -19,7 +19,7 @@ from silverball.table.geometry import Floats, Shapes, border_gaps, distances
 from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StationaryPart
 from silverball.table.reach import PASSAGE
 
-EDGE_ANGLE = 10  # [deg] of every edge of a placed prism from both axes
+EDGE_ANGLE = 10  # [deg] least angle between an edge of a placed prism and an axis
 _TRIALS = 48  # sample points along each side of the area
 
 # Angles are drawn as integers, in tenths of a degree: exact, and readable in the file.

@@ -18,7 +18,7 @@ import numpy as np
 from silverball.table.geometry import Floats, border_gaps, core_distances, distances, paddle_cores
 from silverball.table.parts import Board, Paddle, Triangle
 
-CLEARANCE = 0.02  # [u] that a turning paddle must leave; chosen: far above rounding, far below a ball
+CLEARANCE = 0.02  # [u] least gap to a turning paddle; chosen: far above rounding, far below a ball
 MIN_MOTION = 1e-4  # [u] least motion that is still bisected
 CACHED = 256  # cached results; the boards of a recipe share their stationary parts
 SPLITS = 40  # halvings at most; from 170° and a reach of 10 u, twenty are enough

@@ -20,8 +20,8 @@ from silverball.drawing.kernels.surfaces import surface_of
 from silverball.drawing.kernels.tones import RGB, add_scaled, scale, tone_map
 from silverball.physics.kernel import inlined, internal, kernel
 
-CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel gets more rays
-FINE = 4  # rays of such a pixel
+CONTRAST = 0.045  # difference of neighbours, 0 to 1, above which a pixel gets more rays
+FINE = 4  # rays per pixel then
 FLASH = 2.6  # factor of the glow of a part that has just been hit
 
 

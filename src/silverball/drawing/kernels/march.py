@@ -10,7 +10,7 @@ from silverball.drawing.kernels.solids import apron_distance, cell_at, part_dist
 from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 
-STEPS = 72  # of a ray at most
+STEPS = 72  # upper limit of steps of a ray
 GAP = 0.0012  # [u] at which a ray has arrived; 1/15 pixel of a picture 1152 pixels high
 SHADOW_STEPS = 22
 SHADOW_SHARPNESS = 9.0  # of the penumbra: higher values give harder shadows

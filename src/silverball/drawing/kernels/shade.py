@@ -29,7 +29,7 @@ from silverball.physics.kernel import inlined, internal
 
 RING_AT = 0.27  # [u] from a cylinder to the ring of light around it
 RING_CORE = 0.032  # [u] half the width of its bright line
-MIRROR_REACH = 2.2  # [u] within which parts are mirrored in the lacquer
+MIRROR_REACH = 2.2  # [u] greatest distance at which parts are mirrored in the lacquer
 MAX_GRAZING = 0.25  # reflectance at grazing angles, beyond a surface's gloss
 FRONT = 0.20  # unshadowed light from the player's side, relative to the lamp
 

@@ -26,7 +26,7 @@ _PADDLES, _TICK, _SEED, _SCORE, _REST = (
 GROUPS = ("paddles", "random", "balls", "counts", "points", "rules")
 """In the order in which differences spread from one to the next."""
 
-CHARACTERS = 2  # of each group's digest
+CHARACTERS = 2  # length of the digest of a group
 
 
 def short_digests(record: bytes, rules: str) -> str:

@@ -18,7 +18,7 @@ from typing import NamedTuple
 FIRST = "silverball replay"  # the first line of a replay, with the format
 FORMAT = 1
 FORMAT_WITH_RULES = 2  # with the name of custom rules in its header
-MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000  # [1/s] of games: a recording counts ticks within a second
+MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000  # [1/s] limits for games: a recording counts ticks within a second
 PLAY_LIMIT = 4_000_000  # characters of all lines: a day of lively play, or hours of a program
 SECONDS_LIMIT = 86_400  # longest game
 LETTERS = 26
@@ -80,7 +80,7 @@ class Recorder:
         self.lines: list[str] = []
         self.inputs = ""
         self._tick_rate = tick_rate
-        self._last_tick = 0  # of the last input, or of the beginning of the second
+        self._last_tick = 0  # tick of the last input, or of the beginning of the second
         self._size = 0  # characters of all lines
 
     def add_input(self, tick: int, kind: str) -> None:

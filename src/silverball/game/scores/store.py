@@ -44,7 +44,7 @@ from silverball.game.scores.spooled_store import FILE, SpooledStore, no_such_sco
 
 __all__ = ["FILE", "PLACES", "SCHEMA", "Score", "ScoreList", "Store"]
 
-PLACES = 10  # of a list that is shown; a score among them is a high score
+PLACES = 10  # length of a list on display; a score in it is a high score
 _SELECT = f"SELECT {COLUMNS} FROM score JOIN list ON list.id = score.list WHERE"
 
 
