@@ -15,17 +15,17 @@ import silverball as sb
 from silverball.table import Board, SlantWall, Table
 
 PICTURE = Path(__file__).with_name("original_limit.png")
-RATE = 30  # pictures a second
+RATE = 30  # frames per second
 WALL = SlantWall(start=(-1.2, 1.0), end=(1.2, 1.3))
 BOARD = Board()
 START, VELOCITY = (0.0, -0.69), (0.0, BOARD.speed_cap)  # (x, z) [u] and to the right [u/s]
 SHOWN = 8  # positions
 MIDDLE, HALF = (-0.1, 1.1), (1.6, 2.6)  # of the part of the board that is shown, x and z [u]
-SCALE, FINER = 110, 3  # pixels a unit; drawn so much finer, for smooth edges
+SCALE, FINER = 110, 3  # pixels per unit; drawn larger by this factor, for smooth edges
 
 
 def moved_then_tested() -> tuple[list[tuple[float, float]], bool]:
-    """Positions of the ball when it moves first and is tested then; and whether a test saw the wall."""
+    """Positions of a ball that is moved first and tested afterwards; and whether a test found the wall."""
     (x, z), (vx, vz) = START, VELOCITY
     places, has_hit = [(x, z)], False
     for _ in range(SHOWN - 1):
@@ -49,7 +49,7 @@ def played() -> list[tuple[float, float]]:
 
 
 def distance(x: float, z: float) -> float:
-    """[u] From a point to the middle line of the wall."""
+    """Distance [u] of a point from the middle line of the wall."""
     (ax, az), (bx, bz) = WALL.start, WALL.end
     along = ((x - ax) * (bx - ax) + (z - az) * (bz - az)) / ((bx - ax) ** 2 + (bz - az) ** 2)
     along = min(max(along, 0.0), 1.0)
@@ -57,13 +57,13 @@ def distance(x: float, z: float) -> float:
 
 
 def pixel(x: float, z: float) -> tuple[float, float]:
-    """Where a place of the board is in the picture, seen as the player sees it."""
+    """The pixel that shows a point of the board, as the player sees it."""
     scale = SCALE * FINER
     return (z - MIDDLE[1] + HALF[1]) * scale, (MIDDLE[0] + HALF[0] - x) * scale
 
 
 def panel(places: list[tuple[float, float]], colour: str) -> Image.Image:
-    """One of the two halves."""
+    """Draw one of the two halves of the picture."""
     scale = SCALE * FINER
     image = Image.new("RGB", (round(2 * HALF[1] * scale), round(2 * HALF[0] * scale)), "#12141c")
     draw = ImageDraw.Draw(image)

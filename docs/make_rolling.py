@@ -20,7 +20,7 @@ SIZE, DOTS_PER_INCH = (6.4, 6.0), 100  # [inch]
 
 
 class Shot(NamedTuple):
-    """One ball: what to call it, the friction (0: the ball slides), the spin that it starts with [rad/s]."""
+    """One ball: its label, the friction (0: it slides), its spin at the start [rad/s]."""
 
     name: str
     friction: float

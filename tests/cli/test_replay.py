@@ -180,6 +180,6 @@ def test_a_replay_with_rules_of_its_own_ends_with_2_and_says_what_it_needs(
     game.replay.save(tmp_path / "own.replay")
     result = silverball("replay", "own.replay", *options, cwd=tmp_path)
     assert (result.returncode, result.stdout) == (2, "")
-    assert "rules of its own, 'nothing'" in result.stderr
+    assert "custom rules, 'nothing'" in result.stderr
     assert "replay.verify(rules=…)" in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["own.replay"]

@@ -188,7 +188,7 @@ class Stores(RuleBasedStateMachine):
     def mark(self, data: st.DataObject, verified: bool | None, why: str, cut: float) -> None:
         id = data.draw(st.sampled_from(sorted(self.model.scores)))
         self.do(
-            lambda store: store.mark({id: (verified, why)}),
+            lambda store: store.save_verdicts({id: (verified, why)}),
             lambda model, _: model.scores[id].update(verified=verified, why=why),
             cut,
         )

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.errors import SilverballError
-from silverball.game.replay.format import without_meshes
 from silverball.game.view import Mode
 from silverball.table import dump_table
 
@@ -109,7 +108,7 @@ class GameArchive:
             return GameResult()
         key, text = self._catalog.score_key(recipe), game.replay.to_text()
         rank = self._store.high_score_rank(game.score, game.mode, key.digest)
-        table = dump_table(without_meshes(recipe))
+        table = dump_table(recipe.resolved())
         number = self._store.add_score(
             initials, game.score, game.mode, key.title, key.digest, game.seed, text, table_text=table
         )

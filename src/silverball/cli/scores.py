@@ -184,7 +184,7 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, S
                         who = f"score {score.id}, {score.score:,} by {name(score.initials)}"
                         typer.echo(f"{who}: not proven: {proof.why}")
     finally:
-        store.mark({id: (proof.verified, proof.why) for id, proof in proofs.items()})
+        store.save_verdicts({id: (proof.verified, proof.why) for id, proof in proofs.items()})
     if not quiet:
         proven = sum(proof.verified for proof in proofs.values())
         typer.echo(f"of {len(proofs)} scores {proven} are proven and {len(proofs) - proven} are not")

@@ -20,8 +20,8 @@ from silverball.table import Table
 if TYPE_CHECKING:
     from silverball.drawing.compose import Composer
 
-LAST_KERNEL = "draw_ball"  # the last one that a frame calls: once it is compiled, all are
-COMPILE_SECONDS = 1800.0  # after which compiling is given up; it takes 12 to 35 s of processor time
+LAST_KERNEL = "draw_ball"  # the last kernel that a frame calls: when it is compiled, all are
+COMPILE_SECONDS = 1800.0  # timeout of the compilation; it takes 12 to 35 s of processor time
 
 
 class Background:
@@ -63,7 +63,7 @@ class Background:
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Cancel what is not finished. Compiling goes on, because the next picture needs it too."""
+        """Cancel what is not finished. Compiling continues, because the next picture needs it too."""
         self._stop.set()
 
     def _work(self) -> None:
@@ -87,7 +87,7 @@ class Background:
                 provider.bake_empty()
         except BakeCancelled:
             provider.save_paddles()
-        except Exception as error:  # the game goes on with the picture it has
+        except Exception as error:  # the game continues with the present picture
             self.error = error
 
     def _compile(self) -> bool:

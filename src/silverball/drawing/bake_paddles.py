@@ -170,9 +170,8 @@ def _sprite(
             empty = np.zeros((0, 0), np.uint8)
             return PaddleSprite(left, top, empty, np.zeros((0, 0, 3), np.uint8), empty.astype(np.float32))
     box = (slice(int(rows[0]), int(rows[-1]) + 1), slice(int(columns[0]), int(columns[-1]) + 1))
-    remaining = np.where(
-        changed, np.minimum(remaining, 254.0), 255.0
-    )  # 255 marks a pixel that the sprite leaves alone
+    # 255 is reserved for pixels that the sprite does not change.
+    remaining = np.where(changed, np.minimum(remaining, 254.0), 255.0)
     added[~changed] = 0.0
     return PaddleSprite(
         left + box[1].start,

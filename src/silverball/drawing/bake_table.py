@@ -137,6 +137,6 @@ def _smoothed(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     for axis in (0, 1):
         wide = np.pad(pixels.astype(np.uint16), [(1, 1) if a == axis else (0, 0) for a in range(3)], "edge")
         size = pixels.shape[axis]
-        before, here, after = (wide.take(range(shift, shift + size), axis) for shift in range(3))
-        pixels = ((before + here + after) // 3).astype(np.uint8)
+        before, center, after = (wide.take(range(shift, shift + size), axis) for shift in range(3))
+        pixels = ((before + center + after) // 3).astype(np.uint8)
     return np.ascontiguousarray(pixels)

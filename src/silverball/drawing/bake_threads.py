@@ -1,6 +1,7 @@
 """The threads that bake pictures, a few rows at a time, so that the work can be cancelled at any moment.
 
-Kernels release Python's lock, so a game runs beside them. On Linux the threads also get a lower priority.
+Kernels release Python's lock, so a game can run at the same time. On Linux the threads also get a lower
+priority.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from silverball.drawing.kernels.bake import Canvas
 from silverball.drawing.kernels.stage import Scene
 
 ROWS = 4  # baked by one call, in about 20 ms
-NICENESS = 10  # of threads that bake while a game is played
+NICENESS = 10  # priority of threads that bake while a game is played
 
 
 class BakeCancelled(Exception):

@@ -20,11 +20,11 @@ import pygame
 from silverball.drawing.dimensions import Dimensions
 from silverball.table import Board
 
-TILT = math.radians(38.0)  # of the view from straight down
-DISTANCE = 2.8  # of the eye from the board's centre, by the longer side of the board
+TILT = math.radians(38.0)  # angle of the view from straight down
+DISTANCE = 2.8  # distance of the eye from the board's centre, by the longer side of the board
 PANEL_SHAPE = 5.0  # width by height of the score panel: 160 × 32 dots
-PANEL_LEAST, PANEL_MOST = 0.42, 1.25  # width of the panel, in heights of the board's picture
-MARGIN = 0.012  # of the content's width, left and right of the panel and between panel and board
+PANEL_MIN, PANEL_MAX = 0.42, 1.25  # width of the panel, in heights of the board's picture
+MARGIN = 0.012  # by the content's width; left and right of the panel and between panel and board
 BOARD_MARGIN = 0.004  # margin around the board, of the content's width
 
 
@@ -79,7 +79,7 @@ class Camera:
         board_top = top + (content.panel_height + 2.0 * content.gap) * scale
         low_u, high_v = content.view[0], content.view[3]
         across = left + 0.5 * (content.width - content.board_width) * scale - low_u * scale
-        eye_x, eye_y, sine, cosine = _stand(board)
+        eye_x, eye_y, sine, cosine = _pose(board)
         self.frustum = Frustum(eye_x, eye_y, sine, cosine, scale, across, board_top + high_v * scale)
 
     @property
@@ -104,8 +104,8 @@ class Camera:
         """Return the point (x, z) at height y that is seen at a point of the picture."""
         f = self.frustum
         dx, dy, dz = self.ray(across, down)
-        way = (y - f.eye_y) / dy
-        return f.eye_x + way * dx, way * dz
+        t = (y - f.eye_y) / dy
+        return f.eye_x + t * dx, t * dz
 
     def box(
         self, low_x: float, high_x: float, low_z: float, high_z: float, low_y: float, high_y: float
@@ -133,16 +133,16 @@ class _Content:
 
     def __init__(self, board: Board) -> None:
         dimensions = Dimensions.of(board)
-        stand = _stand(board)
+        pose = _pose(board)
         long, wide = dimensions.half_length + dimensions.rail, dimensions.half_width + dimensions.rail
         points = [
-            _project(x, y, z, *stand)
+            _project(x, y, z, *pose)
             for x, low in ((-long, -dimensions.skirt), (long, 0.0))
             for z in (-wide, wide)
             for y in (low, dimensions.rail_height)
         ]
         points += [
-            _project(dimensions.half_length, dimensions.top, z, *stand)
+            _project(dimensions.half_length, dimensions.top, z, *pose)
             for z in (-dimensions.half_width, dimensions.half_width)
         ]
         us, vs = [u for u, _ in points], [v for _, v in points]
@@ -150,7 +150,7 @@ class _Content:
         self.view = (min(us) - margin, max(us) + margin, min(vs) - margin, max(vs) + margin)
         self.board_width = self.view[1] - self.view[0]
         board_height = self.view[3] - self.view[2]
-        self.panel_width = min(max(self.board_width, PANEL_LEAST * board_height), PANEL_MOST * board_height)
+        self.panel_width = min(max(self.board_width, PANEL_MIN * board_height), PANEL_MAX * board_height)
         self.width = max(self.board_width, self.panel_width)
         self.gap = MARGIN * self.panel_width
         self.panel_width -= 2.0 * self.gap
@@ -158,7 +158,7 @@ class _Content:
         self.height = board_height + self.panel_height + 2.0 * self.gap
 
 
-def _stand(board: Board) -> tuple[float, float, float, float]:
+def _pose(board: Board) -> tuple[float, float, float, float]:
     """Return the pose of the camera: x and y of the eye, sine and cosine of its tilt."""
     extent = max(board.length, board.width)
     sine, cosine = math.sin(TILT), math.cos(TILT)

@@ -26,7 +26,7 @@ from silverball.drawing.sketch import Pen, sketch_paddle
 from silverball.drawing.themes import Color, Theme
 from silverball.table import Paddle, Table
 
-MAX_SPOTS = 64  # of one trail, or of the sparks of one hit
+MAX_SPOTS = 64  # spots of one trail, or sparks of one hit
 TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
 
 
@@ -37,7 +37,7 @@ class Composer:
         table: A finished table.
         camera: The view of it.
         theme: Its colours.
-        still: The baked table without moving parts.
+        baked: The table without moving parts.
         paddle: Returns the sprite of a side's paddle at an angle [deg], or None while it is not baked.
     """
 
@@ -46,21 +46,21 @@ class Composer:
         table: Table,
         camera: Camera,
         theme: Theme,
-        still: BakedTable,
+        baked: BakedTable,
         paddle: Callable[[str, float], PaddleSprite | None],
     ) -> None:
         self._camera = camera
         self._theme = theme
-        self._baked = still
+        self._baked = baked
         self._paddle = paddle
         self._paddles: dict[str, Paddle] = {part.side: part for part in table.paddle}
         scene = make_scene(without_obstacles(table), camera, theme)
         self._stage, self._inks = scene.stage, scene.inks
         width, height = camera.size
-        self._bytes = bytearray(still.pixels.tobytes())
+        self._bytes = bytearray(baked.pixels.tobytes())
         self._frame = np.frombuffer(self._bytes, np.uint8).reshape(height, width, 3)
         self._rows = self._frame.reshape(height, 3 * width)
-        self._height = still.height.copy()
+        self._height = baked.height.copy()
         self._changed: list[Box] = []  # dirty rectangles of colours,
         self._raised: list[Box] = []  # and of heights, which only paddles change
         self._spots = np.zeros((MAX_SPOTS, 7))

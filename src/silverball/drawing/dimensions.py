@@ -1,4 +1,4 @@
-"""Heights of the parts and measures of the cabinet, which the physics does not know: it has footprints only.
+"""Heights of the parts and dimensions of the cabinet. The physics does not need them: it has footprints only.
 
 All in units [u] of the board. Heights scale with the ball. Most obstacles are lower than a ball, so that it
 stays visible behind them and its shadow falls onto them; rails, caps of cylinders and the apron are taller.
@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from silverball.table import Board, SlantWall
 
-USUAL_BALL_RADIUS = 0.25  # [u] for which the heights below are given
+REFERENCE_BALL_RADIUS = 0.25  # [u] for which the heights below are given
 RAIL_SHARE = 0.044  # width of the rail, by the board's shorter side
-GREATEST_RAIL = 1.0  # [u]
+MAX_RAIL = 1.0  # [u]
 TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies on it
 
 
@@ -58,8 +58,8 @@ class Dimensions(NamedTuple):
     def of(cls, board: Board) -> Dimensions:
         """Return the dimensions of a board."""
         shorter = min(board.length, board.width)
-        unit = min(board.ball_radius / USUAL_BALL_RADIUS, 0.25 * shorter)
-        rail = min(RAIL_SHARE * shorter, GREATEST_RAIL)
+        unit = min(board.ball_radius / REFERENCE_BALL_RADIUS, 0.25 * shorter)
+        rail = min(RAIL_SHARE * shorter, MAX_RAIL)
         return cls(
             unit=unit,
             half_length=0.5 * board.length,

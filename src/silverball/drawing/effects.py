@@ -19,18 +19,18 @@ FLASH_SECONDS = 0.45
 TRAIL_SECONDS = 0.13
 TRAIL_SPACING = 0.7  # between two spots of a trail, in radii of a ball
 SINK_SECONDS = 0.2
-MAX_AHEAD = 0.25  # [s]; an event farther in the future is from before the time was set back
+MAX_AHEAD = 0.25  # [s]; an event farther in the future is older than a rewind of the game
 MIN_SINK_SPEED = 2.0  # [u/s]
-SPARK_SPEED = 6.0  # [u/s] of the weakest impact with sparks
+SPARK_SPEED = 6.0  # [u/s] least speed of an impact with sparks
 SPARK_SECONDS = 0.38
-MAX_SPARKS = 12  # of one hit
+MAX_SPARKS = 12  # sparks of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
 MAX_HITS = 24  # whose sparks are remembered
 GOLDEN = 0.6180339887498949  # the fractional parts of its multiples are spread evenly over 0 to 1
 
 
 class Spot(NamedTuple):
-    """A spot of light: position and radius [u], and strength from 1 (new) to 0 (gone)."""
+    """A spot of light: position and radius [u], and strength from 1 (new) to 0 (invisible)."""
 
     x: float
     y: float
@@ -72,7 +72,7 @@ class Effects:
         self._paths: dict[int, deque[tuple[float, float, float]]] = {}
 
     def clear(self) -> None:
-        """Forget everything, as another game begins."""
+        """Discard everything, because another game begins."""
         self._hits.clear()
         self._sparks.clear()
         self._sinking.clear()
@@ -105,9 +105,9 @@ class Effects:
 
     def sinking_balls(self, time: float) -> Iterator[BallAt]:
         """Yield balls that roll under the apron at a time [s]; the world has removed them already."""
-        self._sinking = [dive for dive in self._sinking if -MAX_AHEAD < time - dive.time < SINK_SECONDS]
-        for dive in self._sinking:
-            yield BallAt(0, dive.x - dive.speed * max(time - dive.time, 0.0), dive.z)
+        self._sinking = [ball for ball in self._sinking if -MAX_AHEAD < time - ball.time < SINK_SECONDS]
+        for ball in self._sinking:
+            yield BallAt(0, ball.x - ball.speed * max(time - ball.time, 0.0), ball.z)
 
     def trails(self, moment: Moment) -> Iterator[list[Spot]]:
         """Record the positions of the balls, and yield the spots of each trail."""
@@ -153,7 +153,7 @@ class Effects:
             if fresh <= 0.0:
                 continue
             direction = hit.normal + (chance - 0.5) * 2.6
-            way = (2.0 + 0.32 * hit.speed * (0.4 + other)) * age * (1.0 - 0.9 * age)
+            path = (2.0 + 0.32 * hit.speed * (0.4 + other)) * age * (1.0 - 0.9 * age)
             rise = self._radius + (1.0 + 3.0 * other) * age - 0.5 * SPARK_GRAVITY * age * age
-            x, z = hit.x + way * math.sin(direction), hit.z + way * math.cos(direction)
+            x, z = hit.x + path * math.sin(direction), hit.z + path * math.cos(direction)
             yield Spot(x, max(rise, 0.03), z, self._radius * (0.12 + 0.22 * fresh), fresh)

@@ -40,7 +40,7 @@ class PictureCache:
     """
 
     def __init__(self, folder: Path | None = None, limit: int = LIMIT) -> None:
-        self.folder = folder or usual_folder()
+        self.folder = folder or default_folder()
         self._limit = limit
 
     def load(self, key: str) -> Arrays | None:
@@ -54,7 +54,7 @@ class PictureCache:
             if digest != digest_of(key, content):
                 _remove(path)
                 return None
-            os.utime(path)  # marks it as used, see _evict
+            os.utime(path)  # the least recently used files are evicted first
         except OSError:
             return None
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
@@ -88,11 +88,11 @@ def _remove(path: Path) -> None:
 
 
 def digest_of(key: str, content: bytes) -> bytes:
-    """Return the first bytes of a file."""
+    """Return the digest with which a file begins."""
     return hashlib.sha256(key.encode() + b"\0" + content).digest()
 
 
-def usual_folder() -> Path:
+def default_folder() -> Path:
     """Return the user's folder for baked pictures."""
     import platformdirs
 

@@ -1,6 +1,6 @@
 """Baked pictures of one table at one size, loaded from the cache or baked and saved.
 
-This module needs compiled code, so it is imported only when something is baked or composed.
+This module needs compiled code; import it only when something is baked or composed.
 """
 
 from __future__ import annotations
@@ -65,12 +65,12 @@ class PictureProvider:
     def table(self) -> BakedTable:
         """Return the table without moving parts; bake it if it is not cached."""
         key = table_key(self._table, self._camera, self._theme)
-        still = load_baked_table(self._cache, key)
-        if still is None:
+        baked = load_baked_table(self._cache, key)
+        if baked is None:
             empty = load_baked_table(self._cache, empty_table_key(self._table, self._camera, self._theme))
-            still = bake_table(self._table, self._camera, self._theme, self._bake_threads, empty)
-            save_baked_table(self._cache, key, still)
-        return still
+            baked = bake_table(self._table, self._camera, self._theme, self._bake_threads, empty)
+            save_baked_table(self._cache, key, baked)
+        return baked
 
     def bake_empty(self) -> None:
         """Bake the empty table, for later boards of the same recipe, if it is not cached."""

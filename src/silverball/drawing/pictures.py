@@ -107,10 +107,10 @@ def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
     return BakedTable(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
 
 
-def save_baked_table(cache: PictureCache, key: str, still: BakedTable) -> None:
+def save_baked_table(cache: PictureCache, key: str, table: BakedTable) -> None:
     """Save a baked table."""
-    arrays: dict[str, NDArray[Any]] = {"pixels": still.pixels, "height": still.height.astype(np.float16)}
-    for name, flash in still.flashes.items():
+    arrays: dict[str, NDArray[Any]] = {"pixels": table.pixels, "height": table.height.astype(np.float16)}
+    for name, flash in table.flashes.items():
         arrays["flash " + name] = flash.pixels
         arrays["at " + name] = np.array((flash.left, flash.top))
     cache.save(key, arrays)

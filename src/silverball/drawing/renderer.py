@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from silverball.world import Event, World
 
 DEFAULT_HEIGHT = 480  # [pixel]
-MAX_RENDERERS = 8  # of `render`; a renderer of the default height takes about 5 MB
+MAX_RENDERERS = 8  # renderers that `render` reuses; one of the default height takes about 5 MB
 
 
 class Painter(Protocol):
@@ -55,7 +55,7 @@ class Renderer:
         height: Height of the picture [pixel], if no size is given; the width follows from the table's shape.
         theme: "neon", "parlour", "clear", or a `Theme`.
         effects: "full", or "less" for weaker flashes and neither sparks nor trails.
-        board_seed: Shown beside the score if the board was made from it.
+        board_seed: Shown with the score, if the board was made from it.
         background: Return at once and draw a sketch until the table is baked. Call `close` in the end.
         progress: Called with the share of the baking that is done, 0 to 1; not in the background.
         cache: Where baked pictures are kept; by default the user's cache folder.
@@ -120,7 +120,7 @@ class Renderer:
 
     @property
     def is_sharp(self) -> bool:
-        """Whether the table is drawn in full quality; a sketch is not."""
+        """Whether the table is drawn in full quality, not as a sketch."""
         self._adopt_background()
         return not isinstance(self._painter, SketchPainter)
 
@@ -202,7 +202,7 @@ _lock = threading.Lock()  # a renderer draws one picture at a time
 
 
 def render(table: Table, record: Any, tick_rate: int, height: int, theme: str) -> NDArray[np.uint8]:
-    """Draw a WORLD record, without effects of what came before: RGB, uint8 `[height, width, 3]`.
+    """Draw a WORLD record, without effects of earlier events: RGB, uint8 `[height, width, 3]`.
 
     The renderers of the last few tables are reused, so calls after the first are fast.
     """

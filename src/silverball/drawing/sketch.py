@@ -115,9 +115,9 @@ def _floor(pen: Pen, table: Table, theme: Theme) -> None:
     f = camera.frustum
     u = ((np.arange(width, dtype=np.float32) + 0.5) * camera.size[0] / width - f.across) / f.focal
     v = (f.down - (np.arange(height, dtype=np.float32) + 0.5) * camera.size[1] / height) / f.focal
-    way = -f.eye_y / np.minimum(v * f.sine - f.cosine, -1e-3)
-    x = (f.eye_x + way * (f.sine + v * f.cosine))[:, None]
-    z = way[:, None] * u[None, :]
+    t = -f.eye_y / np.minimum(v * f.sine - f.cosine, -1e-3)
+    x = (f.eye_x + t * (f.sine + v * f.cosine))[:, None]
+    z = t[:, None] * u[None, :]
     stops = np.array([-dimensions.half_length, 0.0, dimensions.half_length], np.float32)
     paint = np.stack(
         [np.interp(x[:, 0], stops, [color[channel] for color in theme.floor]) for channel in range(3)], axis=1
@@ -161,11 +161,11 @@ def _rails(pen: Pen, theme: Theme) -> None:
     bottom, foot = -dimensions.half_length, -dimensions.skirt
     inner, outer = dim(theme.rail, 0.35), dim(theme.rail, 0.5)
     pen.face([(top, -side, 0.0), (top, side, 0.0), (top, side, high), (top, -side, high)], inner)
-    for hand in (-1.0, 1.0):
-        z = hand * side
+    for sign in (-1.0, 1.0):
+        z = sign * side
         pen.face([(top, z, 0.0), (bottom, z, 0.0), (bottom, z, high), (top, z, high)], dim(inner, 0.8))
         pen.face(
-            [(long, hand * wide, high), (-long, hand * wide, high), (-long, z, high), (long, z, high)],
+            [(long, sign * wide, high), (-long, sign * wide, high), (-long, z, high), (long, z, high)],
             theme.rail,
         )
     pen.face([(long, -wide, high), (long, wide, high), (top, wide, high), (top, -wide, high)], theme.rail)
@@ -279,9 +279,9 @@ def ball_icon(side: int) -> pygame.Surface:
     out = np.sqrt(np.clip(1.0 - square, 0.0, 1.0))
     up = -down
     # The ball mirrors the sky above, a dark horizon, a bright floor, and the lamp.
-    look = 2.0 * out * up
+    mirrored = 2.0 * out * up  # height of the mirrored direction
     gray = np.where(
-        look > 0.05, 0.55 + 0.45 * np.clip(look, 0.0, 1.0), 0.18 + 0.32 * np.clip(-look, 0.0, 1.0)
+        mirrored > 0.05, 0.55 + 0.45 * np.clip(mirrored, 0.0, 1.0), 0.18 + 0.32 * np.clip(-mirrored, 0.0, 1.0)
     )
     gray = gray * (0.45 + 0.55 * np.sqrt(out))
     glint = np.clip(1.0 - ((right + 0.30) ** 2 + (down + 0.38) ** 2) / 0.06, 0.0, 1.0)

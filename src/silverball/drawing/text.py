@@ -1,6 +1,6 @@
 """Texts in pygame's own font, each line rendered once and cached.
 
-Letters that it lacks, such as Hebrew ones, come from a font of the system if one has them. Rendering a line
+Characters that it lacks, such as Hebrew letters, come from a system font. Rendering a line
 takes milliseconds, so a score that counts up is composed of cached digits.
 """
 

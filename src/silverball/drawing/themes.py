@@ -1,4 +1,4 @@
-"""Themes: the colours of a table, and the few numbers of its materials and light.
+"""Themes: the colours of a table, and a few numbers for its materials and light.
 
 A colour is (red, green, blue), 0 to 255 each, as on the screen. Parts of a kind cycle through a tuple of
 colours, so that neighbours differ.

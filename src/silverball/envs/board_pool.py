@@ -163,4 +163,4 @@ class PooledBatch(WorldBatch):
         self, pool: Pool, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
     ) -> None:
         """Use these WORLD records and boards [world]; both are changed from outside."""
-        self._hold(pool.tables, pool.boards, state, board_of, tick_rate, threads)
+        self._set_attributes(pool.tables, pool.boards, state, board_of, tick_rate, threads)

@@ -16,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, PlainValidator, SkipValidatio
 
 from silverball.envs.rewards import POINT, Reward, did_you_mean, resolve_reward
 from silverball.table import Table
-from silverball.table.quantity import Count, Quantity, Several, refuse
+from silverball.table.quantity import Count, FixedList, Quantity, refuse
 
 TableSource: TypeAlias = Table | str | os.PathLike[str] | Mapping[str, Any]
 """A table, the name of a built-in one, a path, or the keys of a table file."""
@@ -96,7 +96,7 @@ class Options(BaseModel):
     frame_skip: Annotated[int, Count(1, 10_000)] = Field(
         1, description="ticks of one step, in which the buttons are held"
     )
-    size: Annotated[tuple[int, int], Several(Count(8, MAX_PICTURE_SIDE), 2, "(height, width)")] = Field(
+    size: Annotated[tuple[int, int], FixedList(Count(8, MAX_PICTURE_SIDE), 2, "(height, width)")] = Field(
         (84, 84), description="of pictures: height and width [pixel]"
     )
     rgb: StrictBool = Field(False, description="of pictures: in colour instead of grey")

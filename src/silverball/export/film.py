@@ -1,7 +1,7 @@
-"""Writing of pictures to files: one as PNG, many as GIF or MP4.
+"""Writing pictures to files: one as PNG, many as GIF or MP4.
 
-A file is written under a temporary name in the same folder and renamed when it is complete, so that after an
-interruption or on a full disk nothing is left behind, and a file that existed before is unchanged.
+A file is written under a temporary name in the same folder and renamed when it is complete, so an
+interruption or a full disk leaves no partial file, and an existing file is unchanged.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ DITHER = 5.0  # [level] amplitude of the dither
 
 
 def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> None:
-    """Check before the work, not after a minute of it, that a file can be written.
+    """Check in advance that a file can be written.
 
     Raises:
         OutputError: The ending is unknown, the folder does not exist or is not writable, or the file exists.

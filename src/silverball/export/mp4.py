@@ -14,9 +14,8 @@ from silverball.app.sound.mixdown import Soundtrack
 from silverball.app.sound.synth import RATE
 from silverball.errors import MissingExtra
 
-VIDEO_OPTIONS = {
-    "crf": "15"
-}  # 0 is lossless, 23 the usual value; chosen so that thin bright lines stay clean
+# 0 is lossless, 23 the usual value; chosen so that thin bright lines stay clean
+VIDEO_OPTIONS = {"crf": "15"}
 SOUND_BIT_RATE = 160_000  # [bit/s]; a higher one makes no audible difference
 CONTAINER_OPTIONS = {
     "movflags": "+faststart",  # the index comes first, so that a browser can play what it has loaded

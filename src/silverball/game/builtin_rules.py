@@ -54,7 +54,7 @@ class ArcadeRules:
         return after, (GameEvent(GameEventKind.DOUBLE_ON, tick, config.double),) if doubles else ()
 
     def returned(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
-        """The first of the waiting balls is on the board again."""
+        """Put the first of the waiting balls into play again."""
         waiting = state.waiting[0]
         safe_until = tick + config.save_ticks if waiting.saves else 0
         balls = list(state.balls)
@@ -83,16 +83,16 @@ class ArcadeRules:
         return factor * (config.double if len(state.balls) > 1 else 1)
 
     def drained(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
-        """Save or lose a ball; with the last ball in play the turn ends, with the last of all the game."""
-        gone = next((one for one in state.balls if one.id == ball), None)
-        if gone is None:
+        """Save or lose a ball; losing the last one in play ends the turn, losing the last of all the game."""
+        lost = next((in_play for in_play in state.balls if in_play.id == ball), None)
+        if lost is None:
             return state, ()
-        others = tuple(one for one in state.balls if one is not gone)
-        if gone.saves and tick < gone.safe_until and not state.tilted:
-            waiting = gone._replace(id=0, saves=gone.saves - 1, safe_until=0)
-            saved = (GameEvent(GameEventKind.BALL_SAVED, tick, gone.number),)
+        others = tuple(in_play for in_play in state.balls if in_play is not lost)
+        if lost.saves and tick < lost.safe_until and not state.tilted:
+            waiting = lost._replace(id=0, saves=lost.saves - 1, safe_until=0)
+            saved = (GameEvent(GameEventKind.BALL_SAVED, tick, lost.number),)
             return state._replace(balls=(*others, waiting)), saved
-        events: tuple[GameEvent, ...] = (GameEvent(GameEventKind.BALL_LOST, tick, gone.number),)
+        events: tuple[GameEvent, ...] = (GameEvent(GameEventKind.BALL_LOST, tick, lost.number),)
         if config.double > 1 and len(state.balls) > 1 and len(others) <= 1:
             events += (GameEvent(GameEventKind.DOUBLE_OFF, tick),)
         state = state._replace(balls=others)
@@ -137,7 +137,7 @@ class FreeRules(ArcadeRules):
         )
 
     def shoved(self, config: RuleConfig, state: RuleState, tick: int) -> Outcome:
-        """A shove costs nothing."""
+        """Ignore a shove: free play has no tilt."""
         return state, ()
 
 

@@ -26,7 +26,7 @@ from silverball.game.rules import (
     Rules,
     RuleState,
     ended,
-    is_own_name,
+    is_custom_name,
     points_by_part,
     running_combo,
 )
@@ -53,7 +53,7 @@ class GameCore:
         seed: Seed of everything random, 0 to 2⁶³ − 1.
         mode: The mode, which names the built-in rules; a `Mode` or its string.
         tick_rate: Ticks per second, 10 to 1,000.
-        rules: Rules of your own in place of those of the mode.
+        rules: Custom rules in place of those of the mode.
 
     Attributes:
         world: The world that is played. Read it, but change it only through the game.
@@ -79,9 +79,9 @@ class GameCore:
             raise ValueError(f"tick_rate must be {span} ticks a second, got {tick_rate}")
         if mode not in set(Mode):
             raise ValueError(f"mode must be one of {', '.join(Mode)}, got {mode!r}")
-        if rules is not None and not is_own_name(rules.name):
+        if rules is not None and not is_custom_name(rules.name):
             raise ValueError(
-                f"rules of your own need a name of 1 to {NAME_LIMIT} printable characters "
+                f"custom rules need a name of 1 to {NAME_LIMIT} printable characters "
                 f"that is not a mode, got {rules.name!r}"
             )
         self.mode = Mode(mode)
@@ -100,7 +100,7 @@ class GameCore:
         self._board = GameWorld(self.world)
         self._points = points_by_part(self.world.table)
         self._has_points = any(self._points.values())
-        self._points_seen = 0  # points of all hits given to the rules, before multipliers
+        self._points_seen = 0  # points of all hits passed to the rules, before multipliers
 
         self._check_ticks = max(self.world.tick_rate // stuck.CHECK_RATE, 1)
         self._next_check = self._check_ticks
@@ -118,7 +118,7 @@ class GameCore:
     # --- actions -------------------------------------------------------------------------------------------
 
     def step(self, left: bool = False, right: bool = False, ticks: int = 1) -> None:
-        """Play on with the paddle buttons held or not; after the end of the game nothing moves.
+        """Advance the game with the paddle buttons held or released; after its end nothing moves.
 
         A fault of the world ends the game; `fault` names it.
 
@@ -139,7 +139,7 @@ class GameCore:
         self._recent_old = len(self._recent)
 
     def create_ball(self) -> None:
-        """Start a ball: the first one, the next one, or one more beside the ball in play.
+        """Start a ball: the first one, the next one, or a second one while a ball is in play.
 
         Raises:
             BoardFull, NoRoom: The board has no place for a ball now; nothing has changed.
@@ -157,7 +157,7 @@ class GameCore:
         """Shove the table; the balls feel it in the next tick.
 
         Returns:
-            Whether this was a shove: False if the table is tilted, or was shoved since the last tick.
+            Whether the table was shoved: False if it is tilted, or was shoved since the last tick.
 
         Raises:
             SilverballError: There is no ball to shove.
@@ -225,7 +225,7 @@ class GameCore:
 
     @property
     def state(self) -> RuleState:
-        """What the rules remember, such as the `memory` of your own ones."""
+        """The state of the rules; custom rules use its `memory`."""
         return self._state
 
     @property
@@ -290,14 +290,14 @@ class GameCore:
 
     @property
     def rules_text(self) -> str:
-        """Everything that the game remembers beside the world, as JSON."""
+        """The state of the game without that of the world, as JSON."""
         return GameState(
             self._state, self._stuck, self._left, self._right, self._shove, self._auto_shove, self._own_rules
         ).to_json()
 
     @property
     def short_digests(self) -> str:
-        """The short digests of the state, as they stand in replays."""
+        """The short digests of the state, as written to replays."""
         return short_digests(self._board.to_bytes(), self.rules_text)
 
     def digest(self) -> str:
@@ -317,11 +317,11 @@ class GameCore:
         """
         mode, how_ended, world, saved = unpack_game(state)
         if mode != self.mode:
-            raise StateError(f"the state is one of {mode} play, this game is {self.mode}")
+            raise StateError(f"the state is of {mode} play, this game is {self.mode}")
         if saved.own_rules != self._own_rules:
-            theirs, mine = (name or f"of {mode} play" for name in (saved.own_rules, self._own_rules))
+            expected, got = (name or f"of {mode} play" for name in (self._own_rules, saved.own_rules))
             raise StateError(
-                f"the state is one of the rules {theirs!r}, this game has the rules {mine!r}; "
+                f"the state is of a game with the rules {got!r}, this game has the rules {expected!r}; "
                 "restore it in a game with the same rules"
             )
         self.world.restore(world)
@@ -341,13 +341,13 @@ class GameCore:
         self._recent.clear()
         self._recent_old = 0
 
-    # --- what a recording hooks into -----------------------------------------------------------------------
+    # --- hooks for a recording -----------------------------------------------------------------------------
 
     def _record_input(self, kind: str) -> None:
-        """The player acts before the next tick; see `recording.Input.kind`."""
+        """Called when the player acts before the next tick; `kind` as in `recording.Input`."""
 
     def _record_second(self) -> None:
-        """A whole second has been played."""
+        """Called after every whole second of play."""
 
     # --- playing -------------------------------------------------------------------------------------------
 
@@ -371,7 +371,9 @@ class GameCore:
 
     def _ticks_at_once(self, count: int) -> int:
         """How many of these ticks can be played at once, at least 1."""
-        return 1 if self._has_waiting else self._board.skippable_ticks(count)  # it may return after each tick
+        if self._has_waiting:
+            return 1  # a waiting ball may return after every tick
+        return self._board.skippable_ticks(count)
 
     def _press(self, left: bool, right: bool, tick: int) -> None:
         """Change the buttons before this tick."""
@@ -419,7 +421,7 @@ class GameCore:
                 self._play(1)
 
     def _apply_world_events(self, events: tuple[Event, ...]) -> None:
-        """Give the rules what happened in the ticks just played."""
+        """Pass the events of the ticks just played to the rules."""
         for event in events:
             if event.kind == "created":
                 continue  # queued when it was created
@@ -434,7 +436,7 @@ class GameCore:
             self._apply_lost_events()
 
     def _apply_lost_events(self) -> None:
-        """Give the rules the points and drained balls that did not fit into the event log."""
+        """Pass the points and drained balls that did not fit into the event log to the rules."""
         tick = self.tick - 1
         lost_points = self._points_of_hits() - self._points_seen
         if lost_points > 0:
@@ -455,7 +457,7 @@ class GameCore:
             try:
                 ball = self.world.create_ball()
             except (NoRoom, FaultError):
-                return  # there will be a place when the other ball has moved on
+                return  # tried again in the next tick, when the other ball may have moved away
             self._apply(self._rules.returned(self._config, self._state, self.tick, ball.id))
             self._queue_creation()
 
@@ -487,7 +489,7 @@ class GameCore:
         self._apply(self._rules.drained(self._config, self._state, tick, ball))
 
     def _apply(self, outcome: Outcome) -> None:
-        """Take over the next state and report the events of the rules."""
+        """Adopt the next state and queue the events of the rules."""
         self._state, events = outcome
         self._has_waiting = bool(self._state.waiting)
         self._emit(events)

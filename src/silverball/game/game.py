@@ -1,7 +1,7 @@
-"""A game and its recording: what windows, films, programs and tests play.
+"""A game with its recording, as windows, films and programs play it.
 
 Call `create_ball`, `step` with the buttons that are held, and `jitter`; read `view`, `events` and `score`;
-keep the `replay`. There is no window and no clock in here.
+save the `replay`. A game has no window and no clock.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Game(GameCore):
             game bit for bit.
         mode: "arcade" (three balls, combos, tilt) or "free" (any number of balls); a `Mode` or its string.
         tick_rate: Ticks per second, 10 to 1,000.
-        rules: Rules of your own in place of those of the mode; see `Rules`. Such a game never enters the
+        rules: Custom rules in place of those of the mode; see `Rules`. Such a game never enters the
             score lists.
 
     Attributes:

@@ -29,7 +29,7 @@ class GameWorld:
     Attributes:
         world: The world.
         paddle_reach: No paddle reaches a ball above this x [u].
-        tick: Returns the ticks so far; it is called twice in every tick, so it has no Python frame.
+        tick: Returns the ticks so far; a C function, because it is called twice in every tick.
     """
 
     def __init__(self, world: World) -> None:
@@ -71,7 +71,7 @@ class GameWorld:
         return self._counters.tobytes() != self._last_counters
 
     def mark_read(self) -> None:
-        """The events so far have been read."""
+        """Mark all events so far as read."""
         self._last_counters = self._counters.tobytes()
 
     def skippable_ticks(self, count: int) -> int:
@@ -83,7 +83,7 @@ class GameWorld:
         if lowest is None:
             return count
         skippable = (lowest - self._skip_floor) * self._ticks_per_unit - 1.0
-        return min(count, SKIP_LIMIT, int(skippable)) if skippable >= 1.0 else 1  # NaN gives 1, too
+        return min(count, SKIP_LIMIT, int(skippable)) if skippable >= 1.0 else 1  # NaN gives 1 too
 
     def snapshot(self) -> NDArray[np.int64]:
         """The words of the record, for `rewind`."""

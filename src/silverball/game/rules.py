@@ -1,4 +1,4 @@
-"""The interface between a game and its rules: what rules receive, remember and return.
+"""The interface between a game and its rules: their arguments, their state and their results.
 
 `Rules` is a protocol of pure functions: each takes the configuration and the state, and returns the next
 state and the events to report. `ArcadeRules` and `FreeRules` (`builtin_rules`) implement it; pass your own
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from silverball.table import Table
 
 RULES_VERSION = 1
-"""Raised whenever the built-in rules give another game than before for the same table, seed and inputs."""
+"""Incremented when the built-in rules change the game for the same table, seed and inputs."""
 
 NO_COMBOS = -1  # `combo_ticks` of rules without combos
 NAME_LIMIT = 60  # characters of the name of rules
@@ -30,8 +30,8 @@ class RuleConfig(NamedTuple):
     Attributes:
         balls: Balls of the whole game; 0 means any number.
         max_balls: The most balls on the board at once.
-        save_ticks: A ball lost within this time after its start is given back [ticks].
-        saves: How often one ball is given back.
+        save_ticks: A ball lost within this time after its start is returned [ticks].
+        saves: How often one ball is returned.
         combo_ticks: Time for the next hit of a combo [ticks]; `NO_COMBOS`: there are no combos.
         combo_step: Hits in a row that raise the multiplier by one.
         combo_limit: Greatest multiplier of a combo.
@@ -100,8 +100,8 @@ class InPlay(NamedTuple):
     Attributes:
         id: Its id in the world; 0 while it waits to return to the board.
         number: Its number in the game: 1, 2, 3, …
-        safe_until: If it is lost before this tick, it is given back.
-        saves: How often it may still be given back.
+        safe_until: If it is lost before this tick, it is returned.
+        saves: How often it may still be returned.
 
     Example:
         >>> import silverball as sb
@@ -116,7 +116,7 @@ class InPlay(NamedTuple):
 
 
 class RuleState(NamedTuple):
-    """Everything that the rules remember of a game; it is part of saved games and of their digests.
+    """The state of the rules in a game; it is part of saved games and of their digests.
 
     Attributes:
         score: Points so far, at least 0.
@@ -131,7 +131,7 @@ class RuleState(NamedTuple):
         quiet_since: The tick of the last hit that scored or of the last new ball: the machine shoves if this
             was too long ago.
         over: Whether the game has ended.
-        memory: Whatever else rules of your own remember, as a JSON value; never change it in place.
+        memory: State of custom rules, a JSON value; never change it in place.
 
     Example:
         >>> import silverball as sb
@@ -166,11 +166,11 @@ class Rules(Protocol):
     """The scoring of a game, as `Game(..., rules=...)` takes it.
 
     All methods are pure: the same arguments give the same result, and the object holds no state of a game.
-    Otherwise replays do not verify and saved games do not continue as they were. To change only some of the
+    Otherwise replays cannot be verified, and saved games continue differently. To change only some of the
     built-in rules, derive from `ArcadeRules` or `FreeRules`.
 
     Attributes:
-        name: Stands in replays and saved games; up to 60 printable characters, not the name of a mode.
+        name: Written to replays and saved games; up to 60 printable characters, not the name of a mode.
 
     Example:
         >>> import silverball as sb
@@ -230,22 +230,22 @@ def running_combo(config: RuleConfig, state: RuleState, tick: int) -> int:
 
 
 def ended(state: RuleState, tick: int) -> Outcome:
-    """The game ends here, whatever the rules."""
+    """Return the state of a game that ends now, and its last event; independent of the rules."""
     if state.over:
         return state, ()
     return state._replace(over=True), (GameEvent(GameEventKind.OVER, tick, state.score),)
 
 
 def points_by_part(table: Table) -> dict[str, int]:
-    """The points of every part in the table, by its path as events give it."""
+    """The points of every part of a table, by its path in events."""
     points = {f"paddle.{paddle.side}": paddle.points for paddle in table.paddle}
     for kind in ("slant_wall", "triangular_prism", "cylinder"):
-        points |= {f"{kind}[{number}]": part.points for number, part in enumerate(getattr(table, kind))}
+        points |= {f"{kind}[{index}]": part.points for index, part in enumerate(getattr(table, kind))}
     return points
 
 
-def is_own_name(name: object) -> bool:
-    """Whether rules that are not built in may have this name."""
+def is_custom_name(name: object) -> bool:
+    """Whether custom rules may have this name."""
     if not isinstance(name, str) or name != name.strip() or not 0 < len(name) <= NAME_LIMIT:
         return False
     return name.isprintable() and name not in {str(mode) for mode in Mode}

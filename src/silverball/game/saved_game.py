@@ -21,7 +21,7 @@ HEADER = struct.Struct("<8sqqq")  # magic, format, physics version, bytes of the
 
 
 class GameState(NamedTuple):
-    """Everything that a game remembers beside its world.
+    """The state of a game without that of its world.
 
     Attributes:
         rules: The state of the rules.
@@ -83,7 +83,7 @@ def pack_game(mode: str, ended: str, world: bytes, state_json: str) -> bytes:
 
 
 def unpack_game(state: bytes) -> tuple[str, str, bytes, GameState]:
-    """The mode of a saved game, how it ended, its saved world and everything else that it remembers.
+    """The mode of a saved game, how it ended, its saved world and the rest of its state.
 
     Raises:
         StateError: The bytes are damaged or of another version.

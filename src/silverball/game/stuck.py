@@ -1,9 +1,9 @@
-"""Stuck balls: the machine shoves by itself if a ball lies still or if nothing has scored for long.
+"""Stuck balls: the machine shoves if a ball lies still or if nothing has scored for long.
 
-The game checks four times a second, at ticks that depend on the tick rate alone. A ball found where it was
-before is still: it lies, or it hops on one spot. A ball within reach of the paddles belongs to the player
-while a button is held or was released a moment ago; but a player who holds it too long without scoring gets
-a shove too.
+The game checks four times a second, at ticks that depend on the tick rate alone. A ball that has
+not moved between two checks is still: it lies, or it hops on one spot. A ball within reach of the paddles
+belongs to the player while a button is held or was released a moment ago; but a player who holds it too long
+without scoring gets a shove too.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ STILL_DISTANCE = 0.03  # [u] a ball that stays within it lies still; hopping mov
 
 
 class Rest(NamedTuple):
-    """Where a ball was last seen to move.
+    """The place that a ball has not left, and since when.
 
     Attributes:
         ball: The id of the ball.
@@ -36,7 +36,7 @@ class Rest(NamedTuple):
 
 
 class StuckTracker(NamedTuple):
-    """What is remembered from check to check.
+    """The state that is kept from check to check.
 
     Attributes:
         rests: One for each ball on the board.

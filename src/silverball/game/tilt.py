@@ -1,8 +1,8 @@
 """The tilt bob: how far it swings after each shove, and whether that is a warning or a tilt.
 
 A weight hangs in every pinball machine; if it swings far enough to touch the ring around it, the machine
-tilts. Here its swing is one number. Each shove adds 1 to it, and between shoves it decays, so no rhythm of
-shoves is free.
+tilts. Here its swing is one number. Each shove adds 1 to it, and between shoves it decays, so every shove
+counts, whatever the rhythm.
 
 The decay uses multiplications alone, which have the same bits on every machine (the last bit of `exp` differs
 between systems), and is computed at each shove only, so that it does not matter how many ticks are played at

@@ -1,6 +1,6 @@
-"""What a game shows: its view as plain values, and the events that it reports.
+"""The view of a game as plain values, and the events that it reports.
 
-The score display, the sounds, the films and your own programs read these and nothing else of a game.
+The score display, the sounds, films and programs of your own read nothing else of a game.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class GameView(NamedTuple):
         on_board: Balls on the board now.
         combo: Hits in a row so far; 0 if there are none or the time for the next one is over.
         multiplier: The present multiplier of points.
-        save_left: How long a lost ball would still be given back [s].
+        save_left: How long a lost ball would still be returned [s].
         warnings: Tilt warnings of this ball so far.
         tilted: Whether the paddles are dead.
         max_balls: The most balls that the table allows at once.

@@ -22,7 +22,7 @@ from silverball.players.planner import BRANCHES
 from silverball.players.simple import PlayerKind, press_all
 from silverball.world import WorldBatch
 
-STALL = 15.0  # [s] without points after which a ball counts as lost; the environments end an episode alike
+STALL = 15.0  # [s] without points after which a ball counts as lost; as the environments end an episode
 
 
 class End(IntEnum):
@@ -37,7 +37,7 @@ class End(IntEnum):
 LIFE = np.dtype(
     [
         ("end", "i8"),  # End
-        ("ticks", "i8"),  # of its life
+        ("ticks", "i8"),  # length of its life
         ("scored", "i8"), ("score", "i8"),  # the tick of its last points, and all its points
     ],
     align=True,
@@ -83,9 +83,9 @@ def time_balls(
 
     Args:
         batch: Worlds without points; a ball is created where there has been none.
-        player: The name of the player who presses.
+        player: The name of the player.
         seconds: Longest time for which a ball is watched [s].
-        progress: Called now and then with the simulated seconds so far.
+        progress: Called from time to time with the simulated seconds so far.
         branches: Futures that the planner tries at a decision.
 
     Returns:
@@ -110,7 +110,7 @@ def time_balls(
             policy.decide()
             actions[0, :, :2] = policy.buttons
         batch.step_unchecked(actions, every)
-        alive = note_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
+        alive = update_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
         if progress is not None and done % batch.tick_rate < every:
             progress(done / batch.tick_rate)
         if not alive.any():
@@ -127,8 +127,10 @@ def _press(batch: WorldBatch, kind: PlayerKind, actions: NDArray[np.bool_]) -> N
     )  # fmt: skip
 
 
-def note_lives(state: Any, lives: Any, alive: NDArray[np.bool_], ticks: int, stall: int) -> NDArray[np.bool_]:
-    """Record what the last ticks did to the balls; returns which of them are alive, bool [ball].
+def update_lives(
+    state: Any, lives: Any, alive: NDArray[np.bool_], ticks: int, stall: int
+) -> NDArray[np.bool_]:
+    """Record the effect of the last ticks on the balls; return which of them are alive, bool [ball].
 
     A ball that counts as lost is removed from its board.
     """

@@ -50,7 +50,7 @@ class Feel(NamedTuple):
     Attributes:
         table: The table or recipe.
         players: Figures by the name of the player.
-        shots: Shots of each paddle and way; of a recipe those on the board without its random parts.
+        shots: Shots of each paddle and approach; of a recipe those on the board without its random parts.
     """
 
     table: Table
@@ -91,8 +91,8 @@ def measure(
         )
         found[name] = _player_feel(batch, played)
     bare = table.model_copy(update={"random": None})
-    ways = [(side, held) for side in ("left", "right") for held in (False, True)]
-    shots = (shots_of(bare, side, held) for side, held in ways)
+    approaches = [(side, held) for side in ("left", "right") for held in (False, True)]
+    shots = (shots_of(bare, side, held) for side, held in approaches)
     return Feel(table, found, tuple(one for one in shots if one is not None))
 
 
@@ -161,15 +161,15 @@ def _quantile(gaps: NDArray[np.int64], part: float) -> float:
 
 
 def shares_of_cylinders(batch: WorldBatch, games: Games) -> dict[str, Estimate]:
-    """Of the struck balls, the share that met each cylinder of the first board; boards without it aside."""
+    """The share of struck balls that met each cylinder of the first board; boards without it do not count."""
     found = {}
     for number, part in enumerate(batch.tables[0].cylinder):
         path = f"cylinder[{number}]"
         columns = [names.index(path) if path in names else -1 for names in batch.boards.names]
         column = np.array(columns)[batch.board_of]
-        has_it = np.nonzero(column >= 0)[0]
-        reached = games.reached[has_it, column[has_it]]
-        found[part.name or path] = ratio(reached, games.game["strikes"][has_it])
+        with_it = np.nonzero(column >= 0)[0]
+        reached = games.reached[with_it, column[with_it]]
+        found[part.name or path] = ratio(reached, games.game["strikes"][with_it])
     return found
 
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import as_int, internal, kernel
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.portable_math import uniform
@@ -44,23 +45,23 @@ from silverball.world import WorldBatch
 TICK_RATE = 240
 PADDLES = (int(Part.LEFT_PADDLE), int(Part.RIGHT_PADDLE))
 CONTACTS = (int(EventKind.HIT), int(EventKind.TOUCH))  # with a part
-LONGEST = 600.0  # [s] after which a game is cut short
-CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
-CELLS = 4  # of a map, along each unit
+MAX_SECONDS = 600.0  # [s] a longer game is cut short
+CHUNK_TICKS = 1_000_000  # ticks of all worlds together between two calls of `progress`
+CELLS = 4  # cells of a map per unit of length
 GAPS = 200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
-STAY = 0.5  # [u] a ball that gets no further than this from where it was has stayed there
+STAY = 0.5  # [u] a ball within this distance of a place has stayed there
 ON_PADDLE = 0.02  # [u] gap below which a ball lies on a paddle or rolls along it; hops are 5e-4 u high
 STRUCK = 5.0  # [u/s] up the table, with which a ball leaves a paddle that has struck it
 CARRY = 0.2  # [s] for which a paddle may carry a ball: contacts within it are one strike
 TOP = 2.0  # [u] below the upper border, where the top of the table begins
 
-# The beginner sees what the reflex player sees, but answers after a reaction time, and not always as fast.
+# The beginner decides like the reflex player, but presses after a reaction time that varies a little.
 # Source: the reaction to a seen event takes 150 to 250 ms; the jitter is chosen.
-BEGINNER = 3  # beside the numbers of `PlayerKind`
-BEGINNER_KEY = 0xBE61  # keeps its random numbers apart from the world's own
+BEGINNER = 3  # not a `PlayerKind`, so its number differs from all of theirs
+BEGINNER_KEY = 0xBE61  # makes its random numbers independent of the world's
 REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once per game
-UNSTEADY = 0.03  # [s] by which it may be early or late, drawn for every half second
-WISH_TICKS = 128  # of wishes that it remembers: more than its slowest reaction
+REACTION_JITTER = 0.03  # [s] greatest deviation of its reaction time, drawn for every half second
+REMEMBERED_TICKS = 128  # ticks of remembered decisions: more than its slowest reaction
 
 
 class Over(IntEnum):
@@ -81,7 +82,7 @@ GAME = np.dtype(
         ("longest_stay", "i8"), ("longest_x", "f8"), ("longest_z", "f8"),
         # Of the current strike: its age in ticks (0: none), whether it reached the top, a cylinder or
         # anything.
-        ("struck", "i8"), ("topped", "i8"), ("rung", "i8"), ("met", "i8"),
+        ("struck", "i8"), ("reached_top", "i8"), ("reached_cylinder", "i8"), ("reached_any", "i8"),
         ("strikes", "i8"), ("to_top", "i8"), ("to_cylinder", "i8"),
     ],
     align=True,
@@ -116,13 +117,13 @@ class Traces(NamedTuple):
 
     Attributes:
         game: GAME records [game].
-        wishes: What the beginner wished in the last ticks, bool [game, side, tick].
+        decisions: What the beginner decided in the last ticks, bool [game, side, tick].
         reached: As in `Games`.
         seen: Whether the ball has met each part since it was struck, [game, part].
     """
 
     game: NDArray[Any]
-    wishes: NDArray[np.bool_]
+    decisions: NDArray[np.bool_]
     reached: NDArray[np.int64]
     seen: NDArray[np.int64]
 
@@ -153,14 +154,14 @@ def play_games(
     batch: WorldBatch,
     player: str,
     progress: Callable[[float], None] | None = None,
-    longest: float = LONGEST,
+    longest: float = MAX_SECONDS,
 ) -> Games:
     """Play one ball in each world of a batch; the batch is restored afterwards.
 
     Args:
         batch: Worlds at their beginning, TICK_RATE ticks per second.
         player: The name of a simple player, or "beginner".
-        progress: Called now and then with the share of the games that are over.
+        progress: Called from time to time with the share of the games that are over.
         longest: The time after which a game is cut short [s].
 
     Returns:
@@ -176,7 +177,7 @@ def play_games(
     kind = BEGINNER if player == "beginner" else int(PlayerKind[player.upper()])
     setup = Setup(kind, round(longest * TICK_RATE), batch.boards.place)
     reached, seen = np.zeros_like(batch.tallies), np.zeros_like(batch.tallies)
-    traces = Traces(records(count, GAME), np.zeros((count, 2, WISH_TICKS), np.bool_), reached, seen)
+    traces = Traces(records(count, GAME), np.zeros((count, 2, REMEMBERED_TICKS), np.bool_), reached, seen)
     board = batch.tables[0].board
     shape = (int(CELLS * board.length) + 1, int(CELLS * board.width) + 1)
     heat, stays, gaps = _empty_maps(shape)
@@ -205,7 +206,7 @@ def _play_slice(
     batch: WorldBatch, traces: Traces, setup: Setup, parts: list[Maps], shape: tuple[int, int],
     left: NDArray[np.int64], ticks: int, first: int, end: int,
 ) -> None:  # fmt: skip
-    """Play a slice of the games that are left, with maps of its own, so that threads do not share any."""
+    """Play a slice of the unfinished games into separate maps, so that threads share none."""
     maps = _empty_maps(shape)
     chosen = left[first * len(left) // batch.count : end * len(left) // batch.count]
     play_balls(batch.lanes, batch.geometries, traces, maps, setup, chosen, ticks)
@@ -216,7 +217,7 @@ def _play_slice(
 def play_balls(
     lanes: Lanes, geometries: BatchGeometry, traces: Traces, maps: Maps, setup: Setup, chosen: Any, ticks: int
 ) -> None:
-    """Play the `chosen` worlds on by a number of ticks, or to the end of their games."""
+    """Advance the `chosen` worlds by a number of ticks, or to the end of their games."""
     colliders, tick = geometries.colliders, 1.0 / TICK_RATE
     for number in range(len(chosen)):
         index = chosen[number]
@@ -228,13 +229,13 @@ def play_balls(
         for _ in range(ticks):
             if game.over != Over.NO:
                 break
-            log.count, log.lost = 0, 0
+            clear_log(log)
             if game.ticks == 0:
                 create_ball(world, board, colliders, setup.places, log)
                 game.at_x, game.at_z = ball.x, ball.z
-                log.count = 0
+                clear_log(log)
             if setup.player == BEGINNER:
-                left, right = beginner_presses(world, board, colliders, traces.wishes[index], tick)
+                left, right = beginner_presses(world, board, colliders, traces.decisions[index], tick)
             else:
                 left, right = pressed(setup.player, world, board, colliders, tick)
             score = world.score
@@ -253,22 +254,22 @@ def play_balls(
 
 @kernel
 def beginner_presses(
-    world: WorldRecord, board: BoardRecord, colliders: Colliders, wishes: Any, tick: float
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, decisions: Any, tick: float
 ) -> tuple[bool, bool]:
-    """The buttons (left, right) that the beginner holds in the next tick: its wish of one reaction time ago.
+    """The buttons (left, right) that the beginner holds in the next tick, decided one reaction time ago.
 
-    It allows for being slow and looks ahead by its usual reaction time.
+    To compensate for its delay it predicts the ball by its usual reaction time.
     """
     key = world.seed ^ BEGINNER_KEY
-    reaction = REACTION[0] + (REACTION[1] - REACTION[0]) * uniform(key, 0 + 0)
+    reaction = REACTION[0] + (REACTION[1] - REACTION[0]) * uniform(key, as_int(0))
     half_second = int(world.tick * tick / 0.5)
-    late = UNSTEADY * (2.0 * uniform(key, 1 + half_second) - 1.0)
-    now = world.tick % WISH_TICKS
+    late = REACTION_JITTER * (2.0 * uniform(key, 1 + half_second) - 1.0)
+    now = world.tick % REMEMBERED_TICKS
     for side in range(2):
         c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
-        wishes[side, now] = strikes(world, board, c, LOOK_AHEAD + reaction)
-    then = (world.tick - int((reaction + late) / tick)) % WISH_TICKS
-    return wishes[0, then], wishes[1, then]
+        decisions[side, now] = strikes(world, board, c, LOOK_AHEAD + reaction)
+    then = (world.tick - int((reaction + late) / tick)) % REMEMBERED_TICKS
+    return decisions[0, then], decisions[1, then]
 
 
 @internal
@@ -287,21 +288,21 @@ def follow_hits(
             continue
         if event.part in PADDLES:
             # A paddle that carries a ball meets it again and again: that is one strike.
-            is_same_strike = 0 < game.struck <= int(CARRY * TICK_RATE) and game.met == 0
+            is_same_strike = 0 < game.struck <= int(CARRY * TICK_RATE) and game.reached_any == 0
             if ball.vx > STRUCK:
                 game.struck = 1
                 if not is_same_strike:
                     game.strikes += 1
-                    game.topped, game.rung, game.met = 0, 0, 0
+                    game.reached_top, game.reached_cylinder, game.reached_any = 0, 0, 0
                     for part in range(len(seen)):
                         seen[part] = 0
             elif not is_same_strike:
                 game.struck = 0
         elif event.kind == EventKind.HIT and game.struck > 0 and seen[event.part] == 0:
-            seen[event.part], game.met = 1, 1
+            seen[event.part], game.reached_any = 1, 1
             reached[event.part] += 1
-            if geometry.colliders[first + event.part].kind == Kind.CYLINDER and game.rung == 0:
-                game.rung = 1
+            if geometry.colliders[first + event.part].kind == Kind.CYLINDER and game.reached_cylinder == 0:
+                game.reached_cylinder = 1
                 game.to_cylinder += 1
         if event.kind == EventKind.HIT:
             gaps[min(len(gaps) - 1, int(game.quiet / (0.1 * TICK_RATE)))] += 1
@@ -324,8 +325,8 @@ def follow_ball(
             if gap - board.ball_radius < ON_PADDLE:
                 game.on_paddle += 1
                 break
-    if game.struck > 0 and game.topped == 0 and ball.x > board.half_length - TOP:
-        game.topped = 1
+    if game.struck > 0 and game.reached_top == 0 and ball.x > board.half_length - TOP:
+        game.reached_top = 1
         game.to_top += 1
     away_x, away_z = ball.x - game.at_x, ball.z - game.at_z
     if sqrt(away_x * away_x + away_z * away_z) > STAY:

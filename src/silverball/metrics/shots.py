@@ -1,8 +1,8 @@
-"""Shots of a paddle: where they go, and how exactly one must press for them.
+"""Shots of a paddle: where they go, and how precisely they must be timed.
 
-A ball comes to a paddle in one of two ways that every player knows: it rolls down the guide onto the resting
+A ball approaches a paddle in one of two ways, as in any game: it rolls down the guide onto the resting
 paddle, or it has been held on the raised paddle, which is dropped, and rolls down that. The button is pressed
-at every tick of the way, one world for each, and the shot is followed until a paddle meets it again.
+at every tick of the approach, one world for each, and the shot is followed until a paddle meets it again.
 
 Directions are in degrees from straight up the table, to the right positive. Lengths are [u], times [s].
 """
@@ -10,7 +10,7 @@ Directions are in degrees from straight up the table, to the right positive. Len
 from __future__ import annotations
 
 from enum import IntEnum
-from math import atan2, hypot
+from math import atan2, hypot, isnan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,21 +18,22 @@ from numpy.typing import NDArray
 
 from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
 from silverball.physics.balls import put_ball
-from silverball.physics.kernel import kernel
+from silverball.physics.event_log import clear_log
+from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import NOTHING, BatchGeometry, BoardGeometry, EventKind, Lane, Lanes, records
 from silverball.physics.step import step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
 
-WAIT = 2.5  # [s] for which the raised paddle holds the ball before it is dropped: it lies still by then
-PRESSES = 2.0  # [s] over which the moment of the press is swept
-HOLD = 0.3  # [s] for which the button is held
+WAIT = 2.5  # [s] time on the raised paddle before that is dropped; the ball lies still by then
+PRESSES = 2.0  # [s] range of the swept moments of the press
+HOLD = 0.3  # [s] length of the press
 AFTER = 3.0  # [s] after the press, for which a shot is followed
 START = 1.5  # [u] up the guide from its lower end, where the ball is released; less on a shorter guide
 CLEAR = 0.002  # [u] between the ball and the guide there
 LOW, HIGH = 2.0, 5.0  # [u] the two x at which the crossing of a shot is recorded
-AIMED = 3.0  # [u] beyond the paddles' reach: a shot was aimed at what it meets from there on
-MIDDLE = 0.16  # of the board's width: a shot that comes nearer to the middle than this is one to the middle
+AIM_DISTANCE = 3.0  # [u] beyond the paddles' reach: a shot is aimed at the first part met from there on
+MIDDLE = 0.16  # of the board's width: a shot within this distance of the middle goes to the middle
 DEGREES = 180.0 / np.pi
 
 
@@ -62,7 +63,7 @@ SHOT = np.dtype(
 
 
 class Shots(NamedTuple):
-    """The shots of one paddle in one way.
+    """The shots of one paddle with one approach.
 
     Attributes:
         side: "left" or "right".
@@ -174,12 +175,17 @@ def shoot(
     for index in range(first, end):
         world, log, shot = lanes.worlds[index], lanes.logs[index], shots[index]
         lane = Lane(world, log, lanes.tallies[index])
-        log.count, log.lost = 0, 0
+        clear_log(log)
         put_ball(world, board, log, 0, approach.x, approach.z, 0.0, 0.0)
         ball = world.ball[0]
-        shot.first, shot.low_z, shot.high_z, shot.highest = NOTHING + 0, np.nan, np.nan, -board.half_length
+        shot.first, shot.low_z, shot.high_z, shot.highest = (
+            as_int(NOTHING),
+            np.nan,
+            np.nan,
+            -board.half_length,
+        )
         for now in range(shot.press + int(AFTER / tick)):
-            log.count, log.lost = 0, 0
+            clear_log(log)
             up = now < approach.wait or shot.press <= now < shot.press + int(HOLD / tick)
             before = ball.x
             step_world(lane, geometry, up and left, up and not left, False, tick)
@@ -187,18 +193,18 @@ def shoot(
                 break
             if now < shot.press:
                 continue
-            again = False
+            is_met_again = False
             for number in range(log.count):
                 event = log.event[number]
                 if event.kind not in CONTACTS:
                     continue
                 if event.part in PADDLES:
-                    again = shot.launched == 1
+                    is_met_again = shot.launched == 1
                 elif event.kind == EventKind.HIT and shot.first == NOTHING:
                     shot.first, shot.first_x, shot.first_z = event.part, event.x, event.z
-                    if shot.low_z != shot.low_z and event.x > board.paddle_top + AIMED:
+                    if isnan(shot.low_z) and event.x > board.paddle_top + AIM_DISTANCE:
                         shot.clean, shot.aim_z = shot.launched, event.z
-            if again:
+            if is_met_again:
                 break
             if shot.launched == 0 and ball.x > board.paddle_top >= before and ball.vx > STRUCK:
                 shot.launched = 1
@@ -206,9 +212,9 @@ def shoot(
                 shot.speed = (ball.vx * ball.vx + ball.vz * ball.vz) ** 0.5
             if shot.launched == 1:
                 shot.highest = max(shot.highest, ball.x)
-                if before < LOW <= ball.x and shot.low_z != shot.low_z:
+                if before < LOW <= ball.x and isnan(shot.low_z):
                     shot.low_z = ball.z
                     if shot.first == NOTHING:
                         shot.clean, shot.aim_z = 1, ball.z
-                if before < HIGH <= ball.x and shot.high_z != shot.high_z:
+                if before < HIGH <= ball.x and isnan(shot.high_z):
                     shot.high_z = ball.z

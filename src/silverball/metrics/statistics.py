@@ -20,7 +20,7 @@ class Estimate(NamedTuple):
 
 
 UNKNOWN = Estimate(math.nan, math.nan, math.nan)
-"""The estimate of something of which there is no case."""
+"""The estimate when there are no cases."""
 
 
 def mean(values: ArrayLike) -> Estimate:
@@ -70,7 +70,7 @@ def share(count: int, of: int) -> Estimate:
 
 
 def median_life(times: NDArray[np.float64], ended: NDArray[np.bool_]) -> Estimate:
-    """The median life, by the Kaplan–Meier estimate of survival, which is right for censored lives too.
+    """The median life, by the Kaplan–Meier estimate of survival, which allows for censored lives.
 
     Sources: E. L. Kaplan, P. Meier, "Nonparametric estimation from incomplete observations", J. Am. Stat.
     Assoc. 53 (1958); interval: R. Brookmeyer, J. Crowley, "A confidence interval for the median survival
@@ -81,7 +81,7 @@ def median_life(times: NDArray[np.float64], ended: NDArray[np.bool_]) -> Estimat
         ended: Whether its life ended then; otherwise it was censored, shape [case].
 
     Returns:
-        The median [s]; a figure is inf where its curve does not come down to one half.
+        The median [s]; a value is inf where its curve stays above one half.
     """
     survival, variance = 1.0, 0.0
     found = [math.inf, math.inf, math.inf]  # median, low, high

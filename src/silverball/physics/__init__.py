@@ -3,9 +3,9 @@
 Read `step.py` first: it is the whole simulation on one screen. Then:
 
 * `records.py`: the records that the step reads and writes
-* `skip_ahead.py`: for how many ticks nothing happens
+* `skip_ahead.py`: the number of ticks without events
 * `contact.py`, on `broad_phase.py`, `flight.py`, `paddle.py` and `shapes.py`: the next contact of a ball
-* `bounce.py`, `friction.py`: what a contact does to a ball
+* `bounce.py`, `friction.py`: the effect of a contact on a ball
 * `motion.py`: how a ball moves between contacts: sliding, slipping or rolling
 * `balls.py`: creating, shoving and separating balls
 * `validation.py`: checks of states that come from outside
@@ -15,7 +15,7 @@ Read `step.py` first: it is the whole simulation on one screen. Then:
 The physics knows nothing of tables, windows or players. It imports numpy and numba, and platformdirs for the
 cache of compiled code.
 
-`PHYSICS_VERSION` is raised whenever the same table, seed and inputs would give other bits than before.
+`PHYSICS_VERSION` is incremented when a change gives different bits for the same table, seed and inputs.
 """
 
 PHYSICS_VERSION = 3

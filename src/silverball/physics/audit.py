@@ -1,9 +1,9 @@
 """Audit: how deep a ball is inside a part, computed without any code of the solver.
 
-The solver trusts `shapes.py`; this check does not. It uses a part's corners alone, turns a paddle's with the
-library's sine, finds the nearest point of each side by clamping the foot, and tells inside from outside by
-the signs of three cross products. A part whose bounding box is further away than a ball's radius is culled.
-It runs only in tests, soaks and `silverball simulate`.
+The solver trusts `shapes.py`; this check does not. It uses a part's corners alone, turns a paddle's with
+the C library's sine, finds the nearest point of each side by clamping the foot, and tells inside from outside
+by the signs of three cross products. A part whose bounding box is further away than a ball's radius is
+culled. It runs only in tests, soaks and `silverball simulate`.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ def part_gap(c: ColliderRecord, angle: float, x: float, z: float) -> float:
         return corners_gap(x, z, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
     if c.kind != Kind.PADDLE:
         return inf
-    # Turn the ball backwards instead of the three corners; the right paddle is mirrored.
-    s, k = sin(-angle), cos(-angle)
+    # Rotate the ball backwards instead of the three corners; the right paddle is mirrored.
+    sine, cosine = sin(-angle), cos(-angle)
     dx, dz = x - c.x, (z - c.z) * c.side
-    return corners_gap(k * dx + s * dz, k * dz - s * dx, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
+    return corners_gap(cosine * dx + sine * dz, cosine * dz - sine * dx, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
 
 
 @kernel
@@ -168,7 +168,7 @@ def deepest(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> flo
 
 
 @kernel
-def turned_for(c: ColliderRecord, start: float, end: float, time: float) -> float:
+def angle_after(c: ColliderRecord, start: float, end: float, time: float) -> float:
     """Compute a paddle's angle `time` [s] after `start` [rad] on its way to `end` [rad], where it stays."""
     if end > start:
         return min(start + c.lift_speed * time, end)

@@ -1,7 +1,7 @@
 """Creating, shoving and separating balls.
 
-Creating tries random places first (as the original did), then the origin, then searches every place
-systematically. If nothing is free it refuses, and nothing changes, the random generator included. A place is
+A new ball is tried at random places first (as in the original), then at the origin, then systematically in
+every place. If nothing is free, it is refused, and nothing changes, not even the random generator. A place is
 a square of the board from which the gutter can be reached (computed once per table), so a ball never appears
 behind a corner wall.
 """

@@ -6,9 +6,8 @@ velocity u, the ball leaves with
     v′ = v + (w + e·w)·n,     e = e₀ / (1 + k·w).
 
 The restitution e₀ falls with the speed of the impact by the part's `restitution_falloff` k: real rubber rings
-return less of a hard hit than of a soft one. Source of the law: the "elasticity falloff" of the Visual
-Pinball simulator's tables, from which its authors' flippers get their feel. k = 0 gives Newton's law of
-restitution.
+return less of a hard hit than of a soft one. Source of the law: the "elasticity falloff" in tables of the
+Visual Pinball simulator. k = 0 gives Newton's law of restitution.
 
 Above `hit_speed` a contact is a *hit*: the part's `speed_factor` multiplies the whole velocity, and points
 are scored. Below it is a *touch*, which leaves at least the hop speed √(2·A·HOP): a ball at rest hops 5e-4 u
@@ -56,7 +55,7 @@ def clamp_speed(vx: float, vz: float, cap: float) -> tuple[float, float]:
 
 @inlined
 def clamp_speed_along(vx: float, vz: float, nx: float, nz: float, cap: float) -> tuple[float, float]:
-    """Limit the size of a velocity to the cap [u/s] by cutting the part along the surface first.
+    """Limit the size of a velocity to the cap [u/s] by reducing the component along the surface first.
 
     The ball must still leave the moving paddle that it has met. In a valid table every paddle's tip is slower
     than the cap, hop included, so the normal part may be cut to the cap itself.

@@ -11,6 +11,7 @@ from __future__ import annotations
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.records import BallMotion, BoardRecord, ColliderRecord, Colliders, Grid, Part
 from silverball.physics.shapes import distance
+from silverball.physics.tolerances import SPEED_MARGIN
 
 
 @inlined
@@ -51,18 +52,18 @@ def fill_grid(board: BoardRecord, colliders: Colliders, grid: Grid) -> int:
 
 
 @inlined
-def is_culled(c: ColliderRecord, here: BallMotion, speed: float, travel: float, sagitta: float) -> bool:
+def is_culled(c: ColliderRecord, state: BallMotion, speed: float, travel: float, sagitta: float) -> bool:
     """Whether a ball certainly misses a part's bounding circle.
 
-    `travel` [u] bounds how far the ball gets, `sagitta` [u] how far it gets from its straight line. The
-    line's distance from the circle's centre is  √(d² − (d·v)²/v²),  or d if the ball moves away.
+    `travel` [u] bounds the ball's path, `sagitta` [u] its deviation from the straight line. The line's
+    distance from the circle's centre is  √(d² − (d·v)²/v²),  or d if the ball moves away.
     """
-    dx, dz = here.x - c.x, here.z - c.z
+    dx, dz = state.x - c.x, state.z - c.z
     square = dx * dx + dz * dz
     if square > (c.reach + travel) * (c.reach + travel):
         return True
     outside = square - (c.reach + sagitta) * (c.reach + sagitta)
-    toward = -(dx * here.vx + dz * here.vz)
+    toward = -(dx * state.vx + dz * state.vz)
     return outside > 0.0 and (toward <= 0.0 or outside * speed * speed > toward * toward)
 
 
@@ -75,4 +76,4 @@ def is_near(x: float, z: float, px: float, pz: float, reach: float) -> bool:
 @inlined
 def max_travel(board: BoardRecord, start: float, end: float) -> float:
     """Bound a ball's travel [u] between two times of a tick [s] that it began below the speed cap."""
-    return (end - start) * (board.speed_cap * (1.0 + 1e-9) + board.max_accel * end)
+    return (end - start) * (board.speed_cap * SPEED_MARGIN + board.max_accel * end)

@@ -1,7 +1,7 @@
 """The cache of machine code on disk, which detects damaged files and has them compiled again.
 
-Numba's own cache unpickles whatever it finds in its files and runs it. This one unpickles only what is bit
-for bit what was written, and reports damage once. A function has two files for each set of argument types:
+Numba's own cache unpickles whatever its files hold and runs it. This one unpickles a file only if it is, bit
+for bit, what was written, and reports damage once. A function has two files for each set of argument types:
 
     NAME.TYPES.nbi     the index: the SHA-256 of the code
     NAME.SHA-256.nbc   the code; its SHA-256 covers the name of the index too
@@ -105,7 +105,7 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
         digest = code_digest(index, content)
         with contextlib.suppress(OSError):
             if not self._folder.is_dir():
-                remove(self._folder)  # it is something else
+                remove(self._folder)  # a file of this name, if there is one
             self._folder.mkdir(parents=True, exist_ok=True)
             write(code_path(index, digest), content)
             write(index, digest.encode())
@@ -124,7 +124,7 @@ def find_code(folder: Path, function: str) -> list[Path]:
 
 
 def sweep(folder: Path) -> bool:
-    """Discard damaged files in a folder of compiled code; whether all were intact.
+    """Discard damaged files in a folder of compiled code; return whether all were intact.
 
     An index that has disappeared is not damaged: another process clears the cache, indexes first.
     """

@@ -1,10 +1,10 @@
 """Compilation in another thread, so that Ctrl-C can interrupt the wait for it.
 
 Python handles Ctrl-C in the main thread only, between two of its instructions. Within the compiler that would
-leave half-made code, print tracebacks from destructors, or end the process. So the main thread only waits. An
-interruption ends the wait at once, and the compilation continues, since the next call needs it too. Python
-cannot exit while a thread is in the compiler, so its exit waits until the current function is compiled; the
-functions that call it are then not compiled.
+leave half-compiled code, print tracebacks from destructors, or end the process. So the main thread only
+waits. An interruption ends the wait at once, and the compilation continues, since the next call needs it too.
+Python cannot exit while a thread is in the compiler, so its exit waits until the current function is
+compiled; the functions that call it are then not compiled.
 """
 
 from __future__ import annotations

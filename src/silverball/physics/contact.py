@@ -45,8 +45,8 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     """
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     start = ball.contact_age
-    here = state_at(ball, start)
-    speed = sqrt(here.vx * here.vx + here.vz * here.vz)
+    state = state_at(ball, start)
+    speed = sqrt(state.vx * state.vx + state.vz * state.vz)
     span = board.search_time
     if ball.motion == Motion.SLIPPING:
         span = min(span, max(ball.age + tick - start, 0.0))
@@ -59,28 +59,28 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     sagitta = 0.5 * board.max_accel * span * span  # upper bound of the distance from the straight line
     travel = mean * span
 
-    if here.z - travel < board.low_z:
-        at = start + time_to_border(here.z - board.low_z, here.vz, ball.accel_z)
+    if state.z - travel < board.low_z:
+        at = start + time_to_border(state.z - board.low_z, state.vz, ball.accel_z)
         if at < time:
             time, part = at, as_int(Part.LEFT_WALL)
-    if here.z + travel > board.high_z:
-        at = start + time_to_border(board.high_z - here.z, -here.vz, -ball.accel_z)
+    if state.z + travel > board.high_z:
+        at = start + time_to_border(board.high_z - state.z, -state.vz, -ball.accel_z)
         if at < time:
             time, part = at, as_int(Part.RIGHT_WALL)
-    if here.x + travel > board.top_x:
-        at = start + time_to_border(board.top_x - here.x, -here.vx, -ball.accel_x)
+    if state.x + travel > board.top_x:
+        at = start + time_to_border(board.top_x - state.x, -state.vx, -ball.accel_x)
         if at < time:
             time, part = at, as_int(Part.TOP_WALL)
-    if here.x - travel < board.gutter:
-        at = start + time_to_border(here.x - board.gutter, here.vx, ball.accel_x)
+    if state.x - travel < board.gutter:
+        at = start + time_to_border(state.x - board.gutter, state.vx, ball.accel_x)
         if at < time:
             time, part = at, GUTTER
 
     reach = board.ball_radius + FREE_GAP
-    cell = cell_of(board, here.x, here.z)
+    cell = cell_of(board, state.x, state.z)
     for entry in range(grid[cell], grid[cell + 1]):
         index = board.collider_first + grid[entry]
-        if is_culled(colliders[index], here, speed, reach + travel, reach + sagitta):
+        if is_culled(colliders[index], state, speed, reach + travel, reach + sagitta):
             continue
         at, is_hit = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
         if at < time:
@@ -117,18 +117,18 @@ def first_contact(
         time = max(ball.contact_age - ball.age, start)
         if time < limit:
             best = Contact(time, ball.contact_part, 0.0, 0.0)
-    here = state_at(ball, ball.age + start)
+    state = state_at(ball, ball.age + start)
     span = best.time - start
-    if here.x + span * (min(here.vx, 0.0) - board.max_accel * span) > board.paddle_top:
+    if state.x + span * (min(state.vx, 0.0) - board.max_accel * span) > board.paddle_top:
         return best
-    speed = sqrt(here.vx * here.vx + here.vz * here.vz)
+    speed = sqrt(state.vx * state.vx + state.vz * state.vz)
     travel = span * (speed + board.max_accel * span)
-    if is_near(here.x, here.z, board.left_x, board.left_z, board.left_reach + travel):
+    if is_near(state.x, state.z, board.left_x, board.left_z, board.left_reach + travel):
         c = colliders[board.collider_first + Part.LEFT_PADDLE]
         best = contact_with_paddle(
             c, as_int(Part.LEFT_PADDLE), left, ball, board.ball_radius, speed, start, best
         )
-    if is_near(here.x, here.z, board.right_x, board.right_z, board.right_reach + travel):
+    if is_near(state.x, state.z, board.right_x, board.right_z, board.right_reach + travel):
         c = colliders[board.collider_first + Part.RIGHT_PADDLE]
         best = contact_with_paddle(
             c, as_int(Part.RIGHT_PADDLE), right, ball, board.ball_radius, speed, start, best

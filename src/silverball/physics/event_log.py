@@ -26,6 +26,12 @@ def begin_step(log: LogRecord) -> None:
     log.count, log.carried, log.done, log.lost = carried, carried, carried, 0
 
 
+@inlined
+def clear_log(log: LogRecord) -> None:
+    """Drop all events, created balls included."""
+    log.count, log.carried, log.done, log.lost = 0, 0, 0, 0
+
+
 @internal
 def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
     """Append an event of a ball at its present position (see `records.EVENT`), or count it as lost."""
@@ -56,7 +62,7 @@ def store_checksum(world: WorldRecord, log: LogRecord) -> None:
 def flight_checksum(world: WorldRecord) -> float:
     """Compute a number that identifies the flights, the next contacts and the paddles' angles.
 
-    It tells an unchanged state from a changed one, but is no protection against deliberate collisions.
+    It detects changed states, but does not protect against deliberate collisions.
     """
     angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
     return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles

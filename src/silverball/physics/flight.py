@@ -68,7 +68,7 @@ def state_at(ball: BallRecord, age: float) -> BallMotion:
 
 @inlined
 def newton_refined(time: float, gap: float, rate: float) -> float:
-    """Refine a time by one Newton step on the gap; a graze too flat for a short step is left as it is."""
+    """Refine a time by one Newton step on the gap; a graze too flat for a short step is not changed."""
     if abs(gap) >= abs(rate) * NEWTON_TIME:  # also where both are 0
         return time
     return max(0.0, time - gap / rate)
@@ -97,10 +97,10 @@ def time_to_shape(
     """
     time = start
     for _ in range(FLIGHT_STEPS):
-        here = state_at(ball, time)
-        gap, nx, nz = distance(c, here.x, here.z)
+        state = state_at(ball, time)
+        gap, nx, nz = distance(c, state.x, state.z)
         gap -= radius
-        rate = nx * here.vx + nz * here.vz
+        rate = nx * state.vx + nz * state.vz
         if gap <= CONTACT_GAP and rate < 0.0:
             return newton_refined(time, gap, rate), True
         gap = max(gap, 0.0)
@@ -139,7 +139,7 @@ def contact_with_ball(
         return Contact(limit, NOTHING, 0.0, 0.0)
     nx, nz = px + time * (vx + 0.5 * accel_x * time), pz + time * (vz + 0.5 * accel_z * time)
     apart, nx, nz = point_distance(nx, nz, 0.0, 0.0)
-    if apart > 2.0 * radius + CONTACT_GAP * 100.0:
+    if apart > 2.0 * radius + CONTACT_GAP * 100.0:  # the search ran out of steps before the contact
         return Contact(time, NULL_EVENT, 0.0, 0.0)
     return Contact(time, OTHER_BALL, nx, nz)
 

@@ -7,9 +7,9 @@ ball's surface slides over the other one with
                                along y:                s_y = r·(ω_x·n_z − ω_z·n_x).
 
 An impulse J along t changes s_t by 7/2·J (1 by the ball's speed, 5/2 by its spin) and ω_y by 5/(2r)·J. The
-playfield keeps y: an impulse along y only turns the ball, and changes s_y by 5/2·J. What would stop the slip
-is J = −(s_t/(7/2), s_y/(5/2)). Friction can give at most μ·P; if that is not enough, it acts against the slip
-with all of it. Between two balls all shares are twice as large.
+playfield fixes y: an impulse along y only turns the ball, and changes s_y by 5/2·J. The impulse that stops
+the slip is J = −(s_t/(7/2), s_y/(5/2)). Friction is limited to μ·P; if J is larger, the impulse is μ·P
+against the slip. Between two balls all factors are twice as large.
 
 Energy never grows: sticking removes the slip's energy; a slipping contact, with |J| = μ·P below that of
 sticking, so below |s|/(5/2), changes the energy by at most −|J|·|s| + ½·7/2·J² < 0.

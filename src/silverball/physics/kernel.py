@@ -40,6 +40,7 @@ from silverball.physics.code_cache import CodeCache, discard, find_code, remove,
 from silverball.physics.compile_thread import run_in_compiler_thread
 
 SETTINGS: Any = numba.core.config
+# The packages whose sources the machine code of some kernels depends on.
 PLAY = ("physics", "world", "players")
 STUDY = (*PLAY, "metrics", "soak")
 DRAWING = ("physics", "drawing/kernels")
@@ -101,8 +102,8 @@ def ir_inlined(function: F) -> F:
 def bind_types(function: Any, *arguments: Any) -> Callable[..., Any]:
     """Compile a kernel for the types of these arguments and return it without Numba's type dispatch.
 
-    The dispatch takes longer than a tick does. A call with arguments of other types than these would read
-    and write memory that is not theirs.
+    The dispatch takes longer than a tick. A call with arguments of other types would read and write
+    arbitrary memory.
 
     Args:
         function: A kernel.
@@ -158,7 +159,7 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     folder = code_folder(packages)
     try:
         if not folder.is_dir():
-            remove(folder)  # it is something else
+            remove(folder)  # a file of this name, if there is one
         folder.mkdir(parents=True, exist_ok=True)
         folder.touch()
     except OSError:

@@ -5,14 +5,14 @@ A ball of radius r with velocity v and spin ω touches the playfield with its lo
     u = v + ω × (−r·ŷ) = (vx + r·ω_z, vz − r·ω_x).
 
 While u ≠ 0 the ball *slips*: friction accelerates it by f = −μ·p·u/|u| (p: force onto the playfield by mass)
-and turns it, so that u changes by g + 7/2·f. Once u = 0 the ball *rolls*: friction keeps it so with
-f = −2/7·g, which leaves 5/7 of gravity. On a table without friction the ball *slides* with all of it.
+and turns it, so that u changes by g + 7/2·f. Once u = 0 the ball *rolls*: friction f = −2/7·g
+maintains that, which leaves 5/7 of gravity. On a table without friction the ball *slides* with all of g.
 
 The direction of slip is held during a flight, at most for a tick. So the flight stays a parabola, and
 friction never pushes along the slip: the slip along the held direction does not reverse before the flight
 ends. The error: in a tick h gravity turns the slip by at most g·h/|u|, and friction by as much. Where a slip
-ends, the rest across it, at most g·h, is removed at once and the ball rolls. Both errors go to zero with the
-tick.
+ends, its remaining transverse part, at most g·h, is removed at once and the ball rolls. Both errors go to
+zero with the tick.
 
 Source of 2/7 and 5/7: the moment of inertia 2/5·m·r² of a solid sphere; e.g. A. Sommerfeld, "Mechanics"
 (1952), § on the billiard ball. The spin about y acts on a point and does not change.
@@ -55,7 +55,7 @@ from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.records import NOTHING, BallMotion, BallRecord, BoardRecord, Motion
 from silverball.physics.tolerances import MIN_SLIP_SPEED, NEVER
 
-ROLLING_SHARE = 5.0 / 7.0  # of the acceleration of a sliding ball
+ROLLING_SHARE = 5.0 / 7.0  # acceleration of a rolling ball, as a share of that of a sliding one
 SLIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
 LONGER = 1.0 + 1e-9  # allows for the rounding of a time
 
@@ -79,7 +79,7 @@ def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
 
 @internal
 def hold_still(ball: BallRecord, offset: float) -> None:
-    """Keep a ball where its record says it is, from `offset` [s] into the tick until `release`."""
+    """Hold a ball at its recorded position, from `offset` [s] into the tick until `release`."""
     _set_start(ball, offset)
     ball.accel_x, ball.accel_z, ball.motion = 0.0, 0.0, as_int(Motion.HELD)
     ball.roll_age, ball.contact_age = NEVER, NEVER
@@ -94,7 +94,7 @@ def release(ball: BallRecord, board: BoardRecord, tick: float) -> None:
 
 @inlined
 def restart_slip(ball: BallRecord, board: BoardRecord) -> None:
-    """Start a new flight along a slipping ball's present slip, whose direction holds for one tick at most."""
+    """Start a new flight with the present slip direction of a slipping ball, which is valid for one tick."""
     if ball.motion == Motion.SLIPPING and ball.id != 0:
         _set_start(ball, 0.0)
         inline_friction_motion(ball, board)
@@ -116,7 +116,7 @@ def reset_search(ball: BallRecord) -> None:
 
 @internal
 def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
-    """Call `inline_friction_motion`, which is then not compiled into every caller."""
+    """Do what `inline_friction_motion` does, without being compiled into every caller."""
     inline_friction_motion(ball, board)
 
 
@@ -181,7 +181,7 @@ def _advance_spin(ball: BallRecord, board: BoardRecord, age: float) -> None:
 
 @internal
 def start_rolling(ball: BallRecord, board: BoardRecord) -> None:
-    """End the slip of a ball: an impulse −2/7·u removes what is left of it, and the ball rolls."""
+    """End the slip of a ball: an impulse −2/7·u removes the remaining slip, and the ball rolls."""
     time = ball.contact_age - ball.age
     advance_to(ball, board, ball.contact_age)
     slip_x, slip_z = slip(ball, board)
@@ -193,7 +193,7 @@ def start_rolling(ball: BallRecord, board: BoardRecord) -> None:
 
 @inlined
 def advance_ticks(ball: BallRecord, board: BoardRecord, tick: float, count: int) -> None:
-    """Advance a ball to the end of `count` ticks and clamp its speed; unless clamped, the flight goes on."""
+    """Advance a ball to the end of `count` ticks and clamp its speed; the flight continues unless clamped."""
     if ball.id == 0:
         return
     ball.ticks += count

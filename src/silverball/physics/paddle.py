@@ -83,7 +83,7 @@ def paddle_distance(c: ColliderRecord, angle: float, x: float, z: float) -> tupl
 
 @inlined
 def stationary_sine_cosine(c: ColliderRecord, angle: float) -> tuple[float, float]:
-    """Look up or compute sine and cosine of a stationary paddle's angle; precomputed at both stops."""
+    """Compute sine and cosine of a stationary paddle's angle; they are precomputed at both stops."""
     if angle == c.angle_rest:
         return c.sine_rest, c.cosine_rest
     if angle == c.angle_up:
@@ -160,21 +160,21 @@ def contact_with_paddle(
         sine, cosine = stationary_sine_cosine(c, angle)
     time = start
     for _ in range(FLIGHT_STEPS):
-        here = state_at(ball, ball.age + time)
+        state = state_at(ball, ball.age + time)
         if omega != 0.0:
             angle = angle_at(paddle, time)
             sine, cosine = sine_cosine(angle)
-        gap, nx, nz = _distance_turned(c, sine, cosine, here.x, here.z)
+        gap, nx, nz = _distance_turned(c, sine, cosine, state.x, state.z)
         gap -= radius
-        ux, uz = surface_velocity(c, omega, here.x, here.z)
-        rate = nx * (here.vx - ux) + nz * (here.vz - uz)
+        ux, uz = surface_velocity(c, omega, state.x, state.z)
+        rate = nx * (state.vx - ux) + nz * (state.vz - uz)
         if gap <= CONTACT_GAP and rate < 0.0:
             time = max(start, newton_refined(time, gap, rate))
             if not time < limit:
                 return best
-            here = state_at(ball, ball.age + time)
+            state = state_at(ball, ball.age + time)
             gap, nx, nz = paddle_distance(
-                c, angle_at(paddle, time) if omega != 0.0 else angle, here.x, here.z
+                c, angle_at(paddle, time) if omega != 0.0 else angle, state.x, state.z
             )
             return Contact(time, part, nx, nz)
         gap_accel = nx * ball.accel_x + nz * ball.accel_z if omega == 0.0 else -bound

@@ -75,16 +75,16 @@ def sine_cosine(x: float) -> tuple[float, float]:
 
 
 @inlined
-def _rotated(word: int, bits: int) -> int:
+def _rotate(word: int, bits: int) -> int:
     return ((word << bits) & WORD) | (word >> (32 - bits))
 
 
 @inlined
-def _mixed(a: int, b: int, first: int) -> tuple[int, int]:
+def _mix(a: int, b: int, first: int) -> tuple[int, int]:
     """Apply four rounds, each:  a ← a + b,  b ← rotate(b) xor a."""
     for number in range(first, first + 4):
         a = (a + b) & WORD
-        b = _rotated(b, ROTATIONS[number]) ^ a
+        b = _rotate(b, ROTATIONS[number]) ^ a
     return a, b
 
 
@@ -94,10 +94,10 @@ def threefry(key0: int, key1: int, counter0: int, counter1: int) -> tuple[int, i
     keys = (key0, key1, PARITY ^ key0 ^ key1)
     a = (counter0 + key0) & WORD
     b = (counter1 + key1) & WORD
-    for four in range(1, 6):
-        a, b = _mixed(a, b, 4 - 4 * (four % 2))
-        a = (a + keys[four % 3]) & WORD
-        b = (b + keys[(four + 1) % 3] + four) & WORD
+    for group in range(1, 6):  # of four rounds
+        a, b = _mix(a, b, 4 - 4 * (group % 2))
+        a = (a + keys[group % 3]) & WORD
+        b = (b + keys[(group + 1) % 3] + group) & WORD
     return a, b
 
 

@@ -22,10 +22,10 @@ BALL_COUNT = 2
 """Balls in a world record; a table may allow one or two (`max_balls`)."""
 
 LOG_SIZE = 64
-"""Events of one step that the log of a world holds; later ones are counted as lost."""
+"""Events of one step that a world's log holds; later ones are counted as lost."""
 
 LOG_LENGTH = LOG_SIZE + 2 * BALL_COUNT
-"""Slots of a log: those of a step, and of the balls created before it and after it."""
+"""Capacity of a log: the events of a step, and the balls created before it and after it."""
 
 LOG_RESERVE = 8
 """Slots of a log that contacts leave free: a jam comes after many touches and must not be lost."""
@@ -42,7 +42,7 @@ class Part(IntEnum):
     FIRST_SHAPE = 5
 
 
-# Other values of a field that holds part numbers; plain integers, so that they mix with these.
+# Special values in fields that hold part numbers; plain integers, so that both have one type in kernels.
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
@@ -166,7 +166,7 @@ BOARD = np.dtype(
         ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
         ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
-        # The grid (see grid.py): this board's first cell, cells along x and z, and cells per u.
+        # The grid (see broad_phase.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
         ("skin", "f8"),  # a cell lists all parts that a ball can touch within this travel [u]
         ("search_time", "f8"),  # the longest search for contacts [s]
@@ -218,7 +218,7 @@ EVENT = np.dtype(
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
-        ("carried", "i8"),  # the first events are balls created before the last step
+        ("carried", "i8"),  # the first events: balls created before the last step
         ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "f8"),  # of the flights and angles that the last call left
         ("event", EVENT, (LOG_LENGTH,)),

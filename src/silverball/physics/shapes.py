@@ -1,8 +1,8 @@
 """Distance of a point from a shape, and the unit normal there.
 
 Each function returns the distance [u] of the point (x, z) from the shape's surface (negative inside) and the
-unit normal, which points from the nearest feature to the point. The solver needs nothing else of a shape, so
-corners act as rounded ones, and the tip of a paddle needs no normal of its own.
+unit normal, which points from the nearest feature to the point. The solver needs nothing else from a
+shape: corners act as if rounded, and the tip of a paddle needs no normal of its own.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def point_distance(x: float, z: float, px: float, pz: float) -> tuple[float, flo
     dz = z - pz
     distance = sqrt(dx * dx + dz * dz)
     if distance == 0.0:
-        return 0.0, 1.0, 0.0  # any direction will do; up the table is mirrored to itself
+        return 0.0, 1.0, 0.0  # any direction works; this one is its own mirror image
     return distance, dx / distance, dz / distance
 
 

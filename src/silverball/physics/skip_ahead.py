@@ -26,7 +26,7 @@ def starts_rolling_next(ball: BallRecord, tick: float) -> bool:
 
 @inlined
 def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
-    """Whether a ball meets nothing in the next tick, the other ball left aside."""
+    """Whether a ball meets nothing in the next tick, apart from the other ball."""
     if ball.id == 0:
         return True
     end = ball.age + tick
@@ -57,7 +57,7 @@ def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, m
 
 @internal
 def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
-    """Make a ball roll that starts to do so in the next tick; whether it then meets nothing in that tick."""
+    """Start the roll that is due in the next tick; return whether the ball then meets nothing in it."""
     start_rolling(ball, geometry.board)
     find_contact(geometry, ball, tick)
     return ball.contact_age >= ball.age + tick
@@ -65,10 +65,10 @@ def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) ->
 
 @inlined
 def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: int) -> int:
-    """Bound for how many ticks, at least one, a ball that is undisturbed in the next one stays so.
+    """Compute a lower bound, at least one, of the ticks for which a ball stays undisturbed.
 
-    The bound is the first time at which its contact is due, a paddle can be in reach, or its speed reaches
-    the cap. The other ball is left aside.
+    The ball must be undisturbed in the next tick. The bound is the first time at which its contact is due, a
+    paddle can be in reach, or its speed reaches the cap. The other ball is ignored.
     """
     if ball.id == 0 or limit == 1:
         return limit
@@ -80,9 +80,8 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: 
     free = min(above, ball.contact_age - ball.age) * SHORTER
     count = int(free / tick) if free < limit * tick else limit
     end = state_at(ball, ball.age + count * tick)
-    max_square = (
-        board.speed_cap * board.speed_cap * SHORTER
-    )  # the square of the speed is greatest at one of the ends
+    # The square of the speed is greatest at one of the ends.
+    max_square = board.speed_cap * board.speed_cap * SHORTER
     is_slow = (
         ball.vx * ball.vx + ball.vz * ball.vz < max_square and end.vx * end.vx + end.vz * end.vz < max_square
     )

@@ -61,7 +61,7 @@ class EventCounts(NamedTuple):
 
     Attributes:
         a: Events of ball 0 since its last jam.
-        b: The same of ball 1.
+        b: The same for ball 1.
         shared: How many of these were contacts between the two balls.
         jams_a: Jams of ball 0.
         jams_b: Jams of ball 1.
@@ -78,7 +78,7 @@ class EventCounts(NamedTuple):
 def step_world(
     lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, shove: bool, tick: float
 ) -> None:
-    """Move a world on by one tick [s]. A world with a fault stands still."""
+    """Advance a world by one tick [s]. A world with a fault does not move."""
     world, board = lane.world, geometry.board
     if can_step(world, geometry, lane.log, tick):
         if shove:
@@ -220,12 +220,12 @@ def hold_jam(
     counts: EventCounts,
     limit: int,
 ) -> tuple[PaddleSweep, PaddleSweep, EventCounts]:
-    """Stop the balls that have reached `limit` events in this tick, and stall the paddles at them.
+    """Stop the balls that have reached `limit` events in this tick, and stall the paddles next to them.
 
     Both balls are stopped if most of their events were contacts with each other.
 
     Returns:
-        Both paddles and the counts after that.
+        The updated paddles and counts.
     """
     a, b, jams_a, jams_b = counts.a, counts.b, counts.jams_a, counts.jams_b
     is_shared = JAM_SHARE * counts.shared >= limit
@@ -248,12 +248,12 @@ def stop_jammed_ball(
     time: float,
     is_repeat: bool,
 ) -> tuple[PaddleSweep, PaddleSweep]:
-    """Stop a jammed ball at a time of the tick, and stall the paddles at it.
+    """Stop a jammed ball at a time of the tick, and stall the paddles next to it.
 
     A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
 
     Returns:
-        Both paddles after that.
+        The updated paddles.
     """
     if ball.id == 0 or ball.motion == Motion.HELD:
         return left, right
@@ -304,7 +304,7 @@ def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None
 
 @internal
 def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: float) -> bool:
-    """Whether a world can move on. A state that was changed from outside is validated first."""
+    """Whether a world can be advanced. A state that was changed from outside is validated first."""
     if world.fault != Fault.NONE:
         return False
     return is_unchanged(world, geometry.board, log, tick) or admit_state(world, geometry, tick)
@@ -324,10 +324,10 @@ def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
 def run_worlds(
     lanes: Lanes, geometries: BatchGeometry, actions: Any, first: int, end: int, ticks: int, tick: float
 ) -> None:
-    """Move the worlds first … end − 1 on by a number of ticks.
+    """Advance the worlds first … end − 1 by a number of ticks.
 
     Args:
-        lanes: The worlds. Their logs lose the events of the previous step, their tallies are added to.
+        lanes: The worlds. Events of the previous step are dropped first, tallies are added to.
         geometries: Their boards.
         actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
             ticks and the jitter comes on the first.

@@ -17,15 +17,15 @@ flight by less than 1e-11 u. Longer: a flat graze would be thrown past the surfa
 slow hits lose digits."""
 
 HOP = 5e-4
-"""[u] Height of the hop that a touch leaves at least, so that a ball at rest does not bounce ever faster.
-Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: it is
+"""[u] Height of the hop that a touch leaves at least, so that a ball at rest does not bounce more and more
+often. Under gravity 10 u/s² a hop takes 0.02 s, 50 events a second, and is 1/1000 of a ball high: it is
 invisible. Smaller: more events for a ball at rest. Larger: a ball at rest visibly trembles. Source:
 chosen."""
 
 MIN_HOP_SPEED = 1e-9
 """[u/s] The least speed after a touch: without gravity, a ball that has lost its speed towards a wall must
-not keep a rounding error of it, or it would meet the wall without end. Rounding errors reach 1e-14 u/s.
-Smaller: it would. Larger: each touch adds half its square to the energy."""
+not keep a rounding error of it, or it would meet the wall forever. Rounding errors reach 1e-14 u/s.
+Smaller: that happens. Larger: each touch adds half its square to the energy."""
 
 HOP_SHARE = 0.9
 """A hop is at most this share of `hit_speed`, so that it never comes back as a hit. Source: chosen."""
@@ -42,14 +42,15 @@ contact takes 1 to 4; a graze halves its distance every step, so 48 cover 14 dig
 
 JAM_EVENTS = 64
 JAM_EVENT_RATE = 6000.0
-"""A ball counts as jammed after this many events in one tick, plus this many per second of its length [1/s].
+"""A ball counts as jammed after JAM_EVENTS events in one tick, plus JAM_EVENT_RATE per second of tick [1/s].
 A ball at rest needs 50 a second, one carried by a paddle without restitution some 3000. Smaller: free
 balls are held by mistake. Larger: a pinched ball costs more time."""
 
 JAM_SHARE = 4
-"""Both balls jam together if at least 1/JAM_SHARE of these events were contacts between them. For a ball
-between the other one and a wall it is a half, in a corner a third. Smaller: a ball that presses the jammed
-one continues to press. Larger: a ball that only lies on the jammed one is stopped with it."""
+"""Both balls jam together if at least 1/JAM_SHARE of these events were contacts between them. A ball
+between the other one and a wall has a share of one half, in a corner of one third. Smaller: a ball that
+presses the jammed one continues to press. Larger: a ball that only lies on the jammed one is stopped with
+it."""
 
 JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""
@@ -61,17 +62,20 @@ CREATE_TRIES = 32
 """Random places that are tried before the search turns systematic."""
 
 PLACE_STEPS = 4
-"""The systematic search tries this many by this many points of every place."""
+"""The systematic search tries a square of PLACE_STEPS by PLACE_STEPS points in every place."""
 
 CAP_MARGIN = 1.0 - 4.5e-16
 """A clamped speed is multiplied by this too, so that rounding cannot leave the speed above the cap."""
 
+SPEED_MARGIN = 1.0 + 1e-9
+"""Factor on the speed cap in checks and in bounds of travel, so that rounding cannot matter."""
+
 MIN_SLIP_SPEED = 1e-9
 """[u/s] A ball whose lowest point is slower than this rolls. Rounding leaves a slip of some 1e-15 u/s on a
-ball that rolls. Smaller: a rolling ball is taken for a slipping one. Larger: a slow slip ends early."""
+ball that rolls. Smaller: a rolling ball is treated as slipping. Larger: a slow slip ends early."""
 
 GRID_CELL = 1.0
-"""[u] Side of a grid's cell, at the longest. Smaller: shorter lists, more memory. Source: measured."""
+"""[u] Longest side of a grid cell. Smaller: shorter lists, more memory. Source: measured."""
 
 SKIN = 2.0
 """[u] A search for contacts covers this travel at most. Smaller: more searches. Larger: longer lists."""
@@ -81,11 +85,11 @@ SEARCH_TIME = 0.25
 
 LOW_GRAVITY = 0.1
 """[u/s²] Under less gravity than this a search may be longer: a ball may stay in flight for hours, which must
-not take a million searches. Smaller: it would. Larger: no harm, but other bits."""
+not take a million searches. Smaller: it may. Larger: no harm, but different bits."""
 
 MAX_SEARCH_TIME = 1e4
-"""[s] No search is longer. Smaller: more searches for a ball at rest without gravity. Larger: times lose
-digits."""
+"""[s] Upper limit of any search. Smaller: more searches for a ball at rest without gravity. Larger: times
+lose digits."""
 
 SKIN_SHARE = 0.5
 """Where parts are close to each other, `skin` is this share of the mean distance between them. Source:

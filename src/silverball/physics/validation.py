@@ -1,8 +1,8 @@
-"""Validation of states from outside: possible or not, and whether each ball is on its flight.
+"""Validation of states from outside: whether a state is possible, and whether each ball is on its flight.
 
-A state that is as the last call left it continues; the log holds a checksum for that. Any other state comes
-from outside: it was restored, copied, shoved, or its fields were written to. Then the balls must be where
-balls can be, or the world gets a named fault. A flight that leads to where its ball is continues, but its
+A state that the last call left unchanged continues; the log holds a checksum to detect that. Any other state
+comes from outside: it was restored, copied, shoved, or its fields were written to. Then every ball must be in
+a possible place, or the world gets a named fault. A flight that leads to where its ball is continues, but its
 next contact is searched for again from the flight's start. A search is a function of the flight alone, so a
 restored world reaches the same bits. A ball that is not on its flight starts a new one from where it is.
 """
@@ -16,6 +16,7 @@ from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import has_valid_motion, is_on_flight, reset_search, start_flight
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.records import (
+    BALL_COUNT,
     BallRecord,
     BoardGeometry,
     BoardRecord,
@@ -25,7 +26,7 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.shapes import distance
-from silverball.physics.tolerances import MAX_DEPTH, NEVER
+from silverball.physics.tolerances import MAX_DEPTH, NEVER, SPEED_MARGIN
 
 
 @inlined
@@ -56,7 +57,7 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
     board = geometry.board
     if not validate_world(world, board) or not validate_positions(world, geometry):
         return False
-    for slot in range(2):
+    for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
@@ -69,9 +70,9 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
 
 @internal
 def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
-    """Whether the paddles are within their stops and no ball is inside anything; if not, set the fault.
+    """Check that the paddles are within their stops and no ball is inside anything; if not, set the fault.
 
-    Two balls that overlap are moved apart first, where that is possible.
+    Two overlapping balls are moved apart first, if that is possible.
     """
     board, colliders = geometry.board, geometry.colliders
     for side in range(2):
@@ -80,7 +81,7 @@ def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
             world.fault = as_int(Fault.BEYOND_STOP)
             return False
     is_free = separate_balls(world, board, colliders)
-    for slot in range(2):
+    for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id != 0:
             is_free = is_free and is_clear_of_parts(world, geometry, ball.x, ball.z)
@@ -112,8 +113,8 @@ def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: 
 
 @kernel
 def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
-    """Whether positions and speeds of the balls are possible; if not, set the world's fault."""
-    for slot in range(2):
+    """Check that positions and speeds of the balls are possible; if not, set the fault and return False."""
+    for slot in range(BALL_COUNT):
         ball = world.ball[slot]
         if ball.id == 0 or is_valid_ball(ball, board):
             continue
@@ -135,7 +136,7 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
 def is_valid_ball(ball: BallRecord, board: BoardRecord) -> bool:
     """Whether a ball's position, speed and spin are possible."""
     inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
-    max_speed = board.speed_cap * (1.0 + 1e-9)
+    max_speed = board.speed_cap * SPEED_MARGIN
     slow = ball.vx * ball.vx + ball.vz * ball.vz <= max_speed * max_speed
     return inside and slow and is_finite(ball.spin_x + ball.spin_y + ball.spin_z)
 

@@ -131,5 +131,5 @@ def batch_policy(player: str, batch: WorldBatch, branches: int = BRANCHES) -> Ba
 
 
 def kernel_player(player: str) -> PlayerKind:
-    """How the compiled loops know a player: by itself if it is a simple one, else as `DECIDED`."""
+    """The `PlayerKind` of a player in the compiled loops: its own if it is simple, else `DECIDED`."""
     return PlayerKind.__members__.get(player.upper(), PlayerKind.DECIDED)

@@ -1,9 +1,9 @@
 """Features: the ball and the paddles as numbers for the small network of the trained player.
 
 The raw features are ten numbers that every table has (`Raw`), in the units of the environments' state
-observation, so training and play use the same. Obstacles are not among them, and without obstacles a table is
-its own mirror image: a ball on the right is encoded, and answered, in the mirror, so only half of the game
-has to be learned.
+observation, so training and play use the same. They do not include obstacles. Without
+obstacles a table is symmetric, so a ball on the right is mirrored to the left, and the action is mirrored
+back: only half of the game has to be learned.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ COLUMNS = (1, 2, 3, 4, 10, 11, 12, 13, 14, 15)
 LEFT, RIGHT = slice(Raw.LEFT_ANGLE, Raw.LEFT_HELD + 1), slice(Raw.RIGHT_ANGLE, Raw.RIGHT_HELD + 1)
 PADDLES_AT = -0.65  # x of the paddles on the built-in tables, in half board lengths
 PIVOT = 0.3  # z of the middle of a paddle, in half board widths
-CLOSER = 4.0  # magnification of places near the paddles
+ZOOM = 4.0  # magnification of places near the paddles
 LOW = -0.4  # x below which a ball will soon be at the paddles
 ENCODED = len(Raw) + 8
 MIRRORED = np.array([0, 2, 1, 3])  # the mirror images of the actions none, left, right, both
@@ -68,15 +68,15 @@ def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
     for side, part in ((0, Part.LEFT_PADDLE), (1, Part.RIGHT_PADDLE)):
         collider, paddle = colliders[boards["collider_first"] + part], state["paddle"][:, side]
         swing = collider["angle_up"] - collider["angle_rest"]
-        there = swing > 0.0
+        is_present = swing > 0.0
         fastest = np.maximum(collider["lift_speed"], collider["return_speed"])
         first = Raw.LEFT_ANGLE if side == 0 else Raw.RIGHT_ANGLE
         turned = paddle["angle"] - collider["angle_rest"]
-        raw[:, first] = np.divide(turned, swing, out=np.zeros(len(state)), where=there)
+        raw[:, first] = np.divide(turned, swing, out=np.zeros(len(state)), where=is_present)
         raw[:, first + 1] = np.divide(
-            paddle["angular_velocity"], fastest, out=np.zeros(len(state)), where=there
+            paddle["angular_velocity"], fastest, out=np.zeros(len(state)), where=is_present
         )
-        raw[:, first + 2] = there & (paddle["angle_commanded"] == collider["angle_up"])
+        raw[:, first + 2] = is_present & (paddle["angle_commanded"] == collider["angle_up"])
     return raw
 
 
@@ -98,16 +98,16 @@ def encode(raw: Rows) -> tuple[Rows, NDArray[np.bool_]]:
     encoded[:, RIGHT] = np.where(is_mirrored[:, None], raw[:, LEFT], raw[:, RIGHT])
     x, z, vx, vz = encoded[:, Raw.X], encoded[:, Raw.Z], encoded[:, Raw.VX], encoded[:, Raw.VZ]
     is_low = x < LOW
-    closer = (
-        np.clip(CLOSER * (x - PADDLES_AT), -1.2, 1.2),
+    zoomed = (
+        np.clip(ZOOM * (x - PADDLES_AT), -1.2, 1.2),
         np.clip(2.0 * z, -1.2, 1.2),
-        np.clip(CLOSER * (z + PIVOT), -1.5, 1.5),
-        np.clip(CLOSER * (z - PIVOT), -1.5, 1.5),
+        np.clip(ZOOM * (z + PIVOT), -1.5, 1.5),
+        np.clip(ZOOM * (z - PIVOT), -1.5, 1.5),
         is_low,
         3.0 * vx,
         3.0 * vz,
         3.0 * vx * is_low,
     )
-    for number, values in enumerate(closer):
+    for number, values in enumerate(zoomed):
         encoded[:, len(Raw) + number] = values
     return encoded, is_mirrored

@@ -17,9 +17,9 @@ import numpy as np
 from silverball.physics.kernel import as_int, internal
 from silverball.physics.portable_math import uniform
 
-PLANNER_KEY = 0x9_1A77  # keeps the planner's random numbers apart from the world's own
+PLANNER_KEY = 0x9_1A77  # makes the planner's random numbers independent of the world's
 DRAWS = 4096  # random numbers reserved for one step
-PRESSES = 2  # of each paddle in one plan: to catch a ball and to shoot it
+PRESSES = 2  # presses of each paddle in a plan: to catch a ball and to shoot it
 
 PLAN = np.dtype(
     [
@@ -32,19 +32,19 @@ PLAN = np.dtype(
 PlanRecord: TypeAlias = Any  # a PLAN record
 
 # All of the following are in decision steps, and chosen, not tuned.
-FIRST_SPAN = 90  # within which a new press begins: long enough to let a caught ball come to rest
-SHORT, LONG = 10, 90  # the longest short press (a shot) and the longest long one (a catch)
-GAP = 30  # at most, between two presses of a new plan
-SHIFT = 8  # at most, by which a press is shifted to make another plan
-FRESH = 0.3  # of the plans are new, the others vary the best one
+FIRST_SPAN = 90  # a new press begins within this time: a caught ball comes to rest in it
+SHORT, LONG = 10, 90  # upper limits of a short press (a shot) and of a long one (a catch)
+GAP = 30  # longest time between two presses of a new plan
+SHIFT = 8  # longest shift of a press when a plan is varied
+NEW_SHARE = 0.3  # share of new plans; the others vary the best one
 
 
 class Change(IntEnum):
     """What `vary_plan` changes; the numbers 2 and 3 shift a whole press."""
 
-    START = 0  # of a press
-    END = 1  # of a press
-    DROP = 4  # a press
+    START = 0  # the start of a press
+    END = 1  # the end of a press
+    DROP = 4  # a press is removed
     UNTIL = 5  # the step from which on the reflex player presses
     COUNT = 6
 
@@ -98,7 +98,7 @@ def draw(seed: int, step: int, count: int, below: int) -> int:
 @internal
 def wants_new_plan(seed: int, step: int, count: int) -> bool:
     """Whether to draw a new plan, by the count-th random number of a step, rather than vary the best one."""
-    return uniform(seed ^ PLANNER_KEY, step * DRAWS + count) < FRESH
+    return uniform(seed ^ PLANNER_KEY, step * DRAWS + count) < NEW_SHARE
 
 
 @internal
@@ -146,10 +146,10 @@ def vary_plan(plan: PlanRecord, earliest: int, seed: int, step: int, count: int)
         if draw(seed, step, count + 4, 2) == 0:
             by = -by
         count += 5
-        is_over = plan.end[side, press] <= max(earliest, plan.start[side, press])
+        has_ended = plan.end[side, press] <= max(earliest, plan.start[side, press])
         if change == Change.UNTIL:
             plan.until = max(earliest, plan.until + 3 * by)
-        elif is_over:
+        elif has_ended:
             count = draw_press(plan, side, press, earliest, seed, step, count)
             plan.until = max(plan.until, plan.end[side, press])
         elif change == Change.DROP:

@@ -1,12 +1,12 @@
-"""The planner: plays copies of the world ahead and presses what led to the best future.
+"""The planner: simulates copies of the world and presses what led to the best future.
 
-Sixty times a second the planner copies the world, tries plans on the copies with the very step that moves the
-world, keeps the best plan and presses what it says first. It improves this plan at every decision until it
+Sixty times a second the planner copies the world, tries plans on the copies with the same step that moves the
+world, keeps the best plan and presses its first buttons. It improves this plan at every decision until it
 has been carried out, so a shot at a ball on its way down has been tried in a thousand ways when the ball
 arrives.
 
-It knows no more than a copy of the world shows. Nothing random happens in a copy: nothing shoves in it and no
-ball is created. Its work is bounded by a number of branches and moves and not by a clock, so a game it plays
+It sees only what a copy of the world shows. Nothing random happens in a copy, because no ball is shoved or
+created in it. Its work is bounded by a number of branches and moves and not by a clock, so a game it plays
 is the same on every machine.
 """
 
@@ -51,18 +51,18 @@ from silverball.players.plan import (
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import World, WorldBatch
 
-DECISIONS = 60  # per second
-BRANCHES = 60  # tried at one decision
-MOVES = 10_000  # that all branches of a decision may take together; skipping many steps ahead counts as one
-HORIZON = 10.0  # [s] to which a branch is played at most: a shot may return after 7 s, down the middle
-LOW_HORIZON = 4.0  # [s] of these, with a ball in reach of the paddles
+DECISIONS = 60  # decisions per second
+BRANCHES = 60  # branches tried at one decision
+MOVES = 10_000  # upper limit for all branches of a decision; a skip over many steps counts as one move
+HORIZON = 10.0  # [s] upper limit of a branch: a shot may return after 7 s, down the middle
+LOW_HORIZON = 4.0  # [s] upper limit of its time with a ball in reach of the paddles
 RISES = 2  # a branch ends when every ball has risen from the paddles this often
 RISE = 1.0  # [u] above the reach of the paddles to which a ball must rise
 LEAD = 12  # steps before a ball is in reach of the paddles at which branches begin to differ
 LOSS_TIME = 2.0  # [s] a ball lost after this time counts half
-GAIN = 0.1  # what points are worth at most, a ball lost at once being 1
-GAIN_HALF = 5.0  # hits of the most valuable part that are worth half of that
-DRY_FROM, DRY_TO = 6.0, 14.0  # [s] without points: from here on it counts, up to as much as a lost ball
+GAIN = 0.1  # upper limit of the value of points; a ball lost at once costs 1
+GAIN_HALF = 5.0  # hits of the most valuable part whose value is half of GAIN
+DRY_FROM, DRY_TO = 6.0, 14.0  # [s] without points that cost nothing, and as much as a lost ball
 
 MEMORY = np.dtype(
     [
@@ -140,8 +140,8 @@ def ticks_per_decision(tick_rate: int) -> int:
 class Planner:
     """The planner for a single world.
 
-    It remembers the plan that it follows: another planner put in front of the same world starts without one,
-    and may continue in another way.
+    It remembers the plan that it follows: another planner that takes over starts without one and may continue
+    differently.
 
     Args:
         branches: Futures to try at a decision, at most; it also ends after MOVES moves. Fewer are faster.
@@ -312,7 +312,7 @@ def look_ahead(
     scratch: Scratch, copy: int, geometry: BoardGeometry, first: int, horizon: int, length: float, dry: float,
     is_scout: bool,
 ) -> tuple[float, int]:  # fmt: skip
-    """Carry the TRIAL plan out on a copy (ROOT or BRANCH) from a step on, for `horizon` steps at most.
+    """Play the TRIAL plan on a copy (ROOT or BRANCH) from a step on, for `horizon` steps at most.
 
     A scout stops when a ball comes in reach of a paddle.
 
@@ -336,10 +336,10 @@ def look_ahead(
                 break
         now = first + played
         left, right = buttons_of(plan, world, board, colliders, now, length)
-        most = horizon - played
+        limit = horizon - played
         if now < plan.until:
-            most = min(most, next_change(plan, now) - now)
-        free = event_free_ticks(geometry, a, b, length, most)
+            limit = min(limit, next_change(plan, now) - now)
+        free = event_free_ticks(geometry, a, b, length, limit)
         if free == 0:
             play_tick(lane, geometry, left, right, length)
             played += 1

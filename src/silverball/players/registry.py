@@ -37,7 +37,7 @@ class Player(Protocol):
         """The buttons (left, right) to hold in the world's next tick.
 
         Args:
-            world: To be read. In a rollout it is a copy: moving it changes nothing but the copy.
+            world: Only read it. In a rollout it is a copy, so changes have no effect.
         """
 
 
@@ -52,7 +52,7 @@ class BatchPlayer(Protocol):
         """The buttons (left, right) to hold in the next tick of every world, bool [world, 2].
 
         Args:
-            batch: To be read only: these are the very worlds that are played.
+            batch: Only read it: these are the worlds that are played.
         """
 
 
@@ -70,7 +70,7 @@ _lock = RLock()  # the window imports entry points in a thread
 
 
 def register(name: str, factory: Factory) -> None:
-    """Add a player under a name of its own.
+    """Add a player under a new name.
 
     Args:
         name: A lower-case letter, then up to 19 lower-case letters, digits, `_` or `-`.
@@ -157,7 +157,7 @@ def make_player(name: str, seed: int = 0) -> Player:
 
 
 class CheckedPlayer:
-    """A registered player whose failures and wrong answers become one sentence each.
+    """A registered player whose failures and invalid results raise `PlayerError`.
 
     Args:
         name: Under which it was registered.

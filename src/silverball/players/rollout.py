@@ -15,6 +15,7 @@ import numpy as np
 
 from silverball.physics.audit import deepest
 from silverball.physics.balls import create_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.records import (
     BALL_COUNT,
@@ -31,7 +32,7 @@ from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import WorldBatch
 
-CHUNK_TICKS = 2_000_000  # of all worlds together, between two calls of `progress`
+CHUNK_TICKS = 2_000_000  # ticks of all worlds together between two calls of `progress`
 
 
 class Played(NamedTuple):
@@ -96,11 +97,11 @@ def play(
 
     Args:
         batch: The worlds.
-        player: The name of the player who presses.
+        player: The name of the player.
         seconds: Simulated time of each world [s], rounded to whole ticks.
         balls: Balls to keep on the board, at most the table's max_balls; 0 creates none.
         audit: Whether to check every tick for a ball inside anything (halves the speed).
-        progress: Called now and then with the simulated seconds so far.
+        progress: Called from time to time with the simulated seconds so far.
 
     Returns:
         The totals.
@@ -170,7 +171,7 @@ def play_worlds(
         lane = Lane(world, log, lanes.tallies[index])
         geometry = BoardGeometry(board, colliders, geometries.grid)
         for done in range(ticks):
-            log.count, log.lost = 0, 0
+            clear_log(log)
             # Before a decision `play` has created the balls, so that the player could see them.
             if ball_count(world) < rollout.balls and (done > 0 or not has_decided):
                 create_ball(world, board, colliders, rollout.places, log)

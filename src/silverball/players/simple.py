@@ -1,6 +1,6 @@
 """The simple players: idle, random, reflex and hold, as kernels.
 
-They see the state of the world and have none of their own, so a game can be continued from any snapshot.
+They read the state of the world and keep none themselves, so a game can be continued from any snapshot.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from silverball.physics.records import (
 )
 from silverball.world import World
 
-RANDOM_KEY = 0x5EED  # keeps the random player's numbers apart from the world's own
-RANDOM_HOLD = 0.15  # [s] for which the random player leaves a button as it is
+RANDOM_KEY = 0x5EED  # makes the random player's numbers independent of the world's
+RANDOM_HOLD = 0.15  # [s] for which the random player holds or releases a button
 # The three numbers of the reflex player are the best of 40 random choices, by score per minute on both
 # built-in tables: balls last 40 s on average. Without looking ahead they last longer, but lie on raised
 # paddles.
-NEAR_SHARE = 0.45  # of the paddle's length: nearer to the pivot the reflex player lets the ball roll on
-LOOK_AHEAD = 0.02  # [s] ahead, when the paddle starts to move, the reflex player looks for the ball
+NEAR_SHARE = 0.45  # of the paddle's length from the pivot, where the reflex player lets the ball roll
+LOOK_AHEAD = 0.02  # [s] for which the reflex player predicts the ball
 STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
 
 
 class PlayerKind(IntEnum):
-    """Who presses, as the compiled loops know it: a simple player, or whoever decided before the call."""
+    """The player in a compiled loop: a simple one, or one that has decided before the call."""
 
     IDLE = 0
     RANDOM = 1
@@ -90,7 +90,7 @@ def press_all(
 def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: float) -> bool:
     """Whether the reflex player lifts this paddle: a ball will be just above its outer half.
 
-    It looks `ahead` [s], as if the ball met nothing until then.
+    It predicts the ball `ahead` [s], without contacts.
     """
     if c.kind != Kind.PADDLE:
         return False

@@ -1,4 +1,4 @@
-"""The trained player: presses what a small network says that was trained on random boards.
+"""The trained player: a small neural network, trained on random boards, chooses the buttons.
 
 `examples/train_sb3.py` trains it. This module holds its weights and evaluates it, with NumPy alone.
 
@@ -24,10 +24,10 @@ from silverball.players.features import ENCODED, MIRRORED, Rows, encode, raw_fea
 from silverball.world import World, WorldBatch
 
 SCALE = 4096  # weights and values are rounded to multiples of 1/SCALE
-LARGEST = 2**17  # of a weight, in those multiples
-DECISIONS = 15  # per second
+MAX_WEIGHT = 2**17  # greatest weight, in multiples of 1/SCALE
+DECISIONS = 15  # decisions per second
 ACTIONS = 4  # none, left, right, both
-ROWS = 64  # evaluated at once; for more a BLAS starts threads, which mostly wait
+ROWS = 64  # rows evaluated at once; for more a BLAS starts threads, which mostly wait
 
 Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
 """Weights [in, out] and biases [out], in multiples of 1/SCALE."""
@@ -41,7 +41,7 @@ class Policy:
         command: The command that trained it.
 
     Raises:
-        ValueError: The layers do not fit each other, or have other than small 32-bit integers.
+        ValueError: The layers do not fit each other, or hold anything but small 32-bit integers.
     """
 
     def __init__(self, layers: list[Layer], command: str = "") -> None:
@@ -56,8 +56,8 @@ class Policy:
             )
         if any(part.dtype != np.int32 for layer in layers for part in layer):
             raise ValueError("its numbers are not 32-bit integers")
-        if any(np.abs(part).max() > LARGEST for layer in layers for part in layer):
-            raise ValueError(f"a number is beyond ±{LARGEST / SCALE:g}")
+        if any(np.abs(part).max() > MAX_WEIGHT for layer in layers for part in layer):
+            raise ValueError(f"a number is beyond ±{MAX_WEIGHT / SCALE:g}")
         self.layers, self.command = layers, command
         self._exact = [(weights / SCALE, biases / SCALE) for weights, biases in layers]
 
@@ -66,7 +66,8 @@ class Policy:
         """A policy of floating-point layers, rounded."""
         clipped = [
             tuple(
-                np.clip(np.rint(np.asarray(part) * SCALE), -LARGEST, LARGEST).astype(np.int32) for part in one
+                np.clip(np.rint(np.asarray(part) * SCALE), -MAX_WEIGHT, MAX_WEIGHT).astype(np.int32)
+                for part in one
             )
             for one in layers
         ]

@@ -1,4 +1,4 @@
-"""Soak campaigns: rounds until enough frames are done, with progress in a file and findings beside it.
+"""Soak campaigns: rounds until enough frames are done, with progress in one file and a file for each finding.
 
 After every round the totals are written to a file, whole or not at all. The same soak continues from there,
 so an interruption costs one round. The file belongs to the options and to the exact code of the physics:
@@ -26,10 +26,10 @@ from silverball.table.quantity import shown
 from silverball.wholefile import STDIN, is_missing, write_whole
 
 FORMAT = 1
-ENOUGH = 100  # findings after which a soak ends: the solver is broken, more of them add nothing
-MOST_FILES = 20  # findings that are written to files, for the same reason
+MAX_FINDINGS = 100  # a soak ends after these: the solver is broken, more of them add nothing
+MAX_FILES = 20  # findings that are written to files, for the same reason
 SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times its usual size
-WHAT = "a progress file of a soak"
+DESCRIPTION = "a progress file of a soak"
 
 
 def _file_name(name: str) -> str:
@@ -47,7 +47,7 @@ class SoakLog:
         code: The hash of the code that did it.
         rounds: Rounds done.
         totals: Totals of these rounds.
-        findings: The names of the files of findings, beside the log.
+        findings: The names of the files of findings, in the folder of the log.
     """
 
     options: dict[str, Any]
@@ -56,7 +56,7 @@ class SoakLog:
     totals: Totals = field(default_factory=Totals)
     # InstanceOf, because a file name may hold bytes that are not text, which pydantic refuses as a string.
     findings: Annotated[
-        list[Annotated[InstanceOf[str], AfterValidator(_file_name)]], Field(max_length=MOST_FILES)
+        list[Annotated[InstanceOf[str], AfterValidator(_file_name)]], Field(max_length=MAX_FILES)
     ] = field(default_factory=list)
 
     def to_text(self) -> str:
@@ -70,7 +70,7 @@ class SoakLog:
         Raises:
             StateError: The text is not the log of a soak.
         """
-        return parse_json(text, source, WHAT, FORMAT, cls._of)
+        return parse_json(text, source, DESCRIPTION, FORMAT, cls._of)
 
     @classmethod
     def _of(cls, values: dict[str, Any]) -> Self:
@@ -111,7 +111,7 @@ def load_or_begin(options: Options, path: Path) -> SoakLog:
     """
     if is_missing(path) and str(path) != STDIN:
         return SoakLog(options.as_dict(), code_digest())
-    log = SoakLog.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+    log = SoakLog.from_text(file_text(path, SIZE_LIMIT, DESCRIPTION), str(path))
     for key, value in options.as_dict().items():
         if log.options.get(key) != value:
             raise StateError(
@@ -133,10 +133,10 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
         options: The options of the soak.
         frames: Frames to do in total, earlier runs included; the last round is completed.
         path: The file of the log; its folder is created.
-        progress: Called now and then with the frames done.
+        progress: Called from time to time with the frames done.
 
     Returns:
-        The log; fewer frames are done only after `ENOUGH` findings.
+        The log; fewer frames are done only after `MAX_FINDINGS` findings.
 
     Raises:
         StateError: The file is of another soak.
@@ -147,11 +147,11 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise _unwritable(path, error) from None
-    while log.totals.frames < frames and sum(log.totals.found.values()) < ENOUGH:
+    while log.totals.frames < frames and sum(log.totals.found.values()) < MAX_FINDINGS:
         before = log.totals.frames
         report = (lambda done, before=before: progress(before + done)) if progress is not None else None
         totals, places = play_round(options, log.rounds, report)
-        for place in places[: max(0, MOST_FILES - len(log.findings))]:
+        for place in places[: max(0, MAX_FILES - len(log.findings))]:
             finding = record_finding(options, place)
             name = f"{path.stem}-{finding.kind}-{place.round}-{place.world}.json"
             _write(path.with_name(name), finding.to_text())

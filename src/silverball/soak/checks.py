@@ -1,8 +1,8 @@
 """Checks of the soak after every tick: places, contacts, passages, faults, and balls that are stuck.
 
-They use nothing of the solver's own geometry. A ball must be on the board and in the region it was created in
-(`regions.py`), inside nothing, and just at the surface at every contact (`audit.py`). It must not get through
-anything without a contact, nor stay in one place for a minute. The first finding stops a world.
+They do not use the solver's geometry. A ball must be on the board and in the region it was created in
+(`regions.py`), inside nothing, and just at the surface at every contact (`audit.py`). It must not pass
+through anything without a contact, nor stay in one place for a minute. The first finding stops a world.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from silverball.physics.audit import (
+    angle_after,
     depth_in_borders,
     depth_in_other_ball,
     depth_in_paddle,
     depth_in_stationary,
     gap_to,
     is_out_of_reach,
-    turned_for,
 )
 from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import (
@@ -55,7 +55,7 @@ DEPTH = 1e-9  # [u] deeper is a penetration
 STUCK_RADIUS = 0.3  # [u] a ball that does not get further than this from a place …
 STUCK_AFTER = 60.0  # [s] … for longer than this is stuck, unless it was counted as jammed meanwhile
 SAMPLE = 0.05  # [u] between two checked places of a path
-PASSED = 1e-6  # [u] deeper, on the path, is a passage
+PASSAGE_DEPTH = 1e-6  # [u] deeper, on the path, is a passage
 GUTTER_MARGIN = 1e-9  # [u] for the rounding of the moment at which a ball drains
 """Source of all these: chosen."""
 
@@ -64,11 +64,11 @@ class Found(IntEnum):
     """What a soak can find."""
 
     NOTHING = 0
-    ESCAPE = 1  # a ball where it cannot have got to
+    ESCAPE = 1  # a ball at a place that it cannot reach
     PENETRATION = 2  # a ball deeper than DEPTH inside something
-    PASSAGE = 3  # a ball that got through something without a contact
+    PASSAGE = 3  # a ball that passed through something without a contact
     PHANTOM = 4  # a contact with nothing
-    FAULT = 5  # the world has stopped by itself
+    FAULT = 5  # the solver has stopped the world with a fault
     STUCK = 6  # a ball in one place for too long
 
 
@@ -80,7 +80,7 @@ class PreviousBall(NamedTuple):
     z: float
 
 
-class Before(NamedTuple):
+class StateBefore(NamedTuple):
     """The balls and the paddles before a tick; angles of the left and right paddle [rad]."""
 
     a: PreviousBall
@@ -151,7 +151,7 @@ class Watches(NamedTuple):
 
 @kernel
 def register_new_balls(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
-    """Note where new balls start. On a board that was checked, that can only be the region of the gutter."""
+    """Record where new balls start. On a checked board, that can only be the region of the gutter."""
     for slot in range(BALL_COUNT):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id != tracker.id:
@@ -171,7 +171,7 @@ def report(world: WorldRecord, watch: WatchRecord, found: int, slot: int, since:
 
 @kernel
 def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
-    """Check that no ball is where it cannot be, or inside anything."""
+    """Check that every ball is at a possible place and not inside anything."""
     board, colliders, now = truth.board, truth.colliders, world.tick
     for slot in range(BALL_COUNT):
         ball = world.ball[slot]
@@ -199,8 +199,8 @@ def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
 
 
 @kernel
-def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
-    """Check that every ball was at the surface of the part that it met, neither inside nor away from it."""
+def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBefore, tick: float) -> None:
+    """Check that every ball touched the surface of the part that it met."""
     world, log = lane.world, lane.log
     if log.lost > 0:
         return
@@ -213,7 +213,7 @@ def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: Before,
             continue
         c = truth.colliders[truth.board.collider_first + event.part]
         side = 1 if event.part == Part.RIGHT_PADDLE else 0
-        angle = turned_for(c, before.angles[side], world.paddle[side].angle, event.offset)
+        angle = angle_after(c, before.angles[side], world.paddle[side].angle, event.offset)
         gap = gap_to(c, event.part, angle, event.x, event.z) - truth.board.ball_radius
         slot = 0 if event.ball == watch.tracker[0].id else 1
         watch.deepest = max(watch.deepest, -gap)
@@ -277,7 +277,7 @@ def depth_along_path(
         if at_paddle:
             for side in range(2):
                 c = colliders[paddles + side]
-                angle = turned_for(c, before[side], after[side], share * tick)
+                angle = angle_after(c, before[side], after[side], share * tick)
                 depth = max(depth, depth_in_paddle(c, angle, x, z, radius))
     return depth
 
@@ -286,7 +286,7 @@ def depth_along_path(
 def depth_of_meeting(
     previous_a: PreviousBall, a: BallRecord, previous_b: PreviousBall, b: BallRecord, radius: float
 ) -> float:
-    """How deep two balls were inside each other on their paths [u]; straight, so the relative one is too."""
+    """How deep two balls were inside each other on their straight paths [u]."""
     x, z = previous_b.x - previous_a.x, previous_b.z - previous_a.z
     dx, dz = b.x - a.x - x, b.z - a.z - z
     square = dx * dx + dz * dz
@@ -295,15 +295,15 @@ def depth_of_meeting(
 
 
 @kernel
-def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: Before, tick: float) -> None:
-    """Check that no ball got through something without a contact.
+def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBefore, tick: float) -> None:
+    """Check that no ball passed through anything without a contact.
 
-    The sagitta of a path may only seem to be inside, so that much is allowed.
+    The path is checked as a straight line, so a depth up to its sagitta is allowed.
     """
     world, log = lane.world, lane.log
     a, b = world.ball[0], world.ball[1]
     after = (world.paddle[0].angle, world.paddle[1].angle)
-    allowed = max_sagitta(truth.board, tick) + PASSED
+    allowed = max_sagitta(truth.board, tick) + PASSAGE_DEPTH
     free_a = a.id != 0 and a.id == before.a.id and is_untouched(log, a.id)
     free_b = b.id != 0 and b.id == before.b.id and is_untouched(log, b.id)
     if free_a:
@@ -344,7 +344,7 @@ def watched_tick(
     action: ActionRecord,
     tick: float,
 ) -> None:
-    """Do what the action says, move the world on by one tick, and check it.
+    """Apply an action, advance the world by one tick, and check it.
 
     Args:
         lane: The world.
@@ -359,7 +359,7 @@ def watched_tick(
     apply_action(world, geometry.board, geometry.colliders, places, lane.log, action)
     register_new_balls(world, truth, watch)
     a, b = world.ball[0], world.ball[1]
-    before = Before(
+    before = StateBefore(
         PreviousBall(a.id, a.x, a.z),
         PreviousBall(b.id, b.x, b.z),
         (world.paddle[0].angle, world.paddle[1].angle),
@@ -384,7 +384,7 @@ def soak_worlds(
 ) -> None:  # fmt: skip
     """Soak the worlds first … end − 1 for a number of ticks of length `tick` [s].
 
-    A world with a finding stands still.
+    A world with a finding is not advanced any further.
     """
     for index in range(first, end):
         world, log, tally = lanes.worlds[index], lanes.logs[index], lanes.tallies[index]

@@ -1,12 +1,12 @@
 """Random play for the soak: which buttons are held, and when balls are created, kicked and shoved.
 
-Two balls are kept on the board. Buttons are held for random times, now and then for only a tick or two; balls
+Two balls are kept on the board. Buttons are held for random times, sometimes for only a tick or two; balls
 are shoved; and in *wild* worlds a ball gets a random velocity about once a second. A *quiet* world presses
 nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball that lies somewhere forever is
 found.
 
 Everything random is a function of the world's seed and a counter, so one world can be run again alone. What
-is done in a tick is an ACTION record: it can be written to a file and done again without this module.
+is done in a tick is an ACTION record, which can be written to a file and replayed without this module.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
@@ -30,13 +31,13 @@ from silverball.physics.records import (
     records,
 )
 
-SOAK_KEY = 0x50A4  # keeps these random numbers apart from the world's own
+SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's
 # All of the following are chosen.
-HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] for which a button may be held or released, each as likely
-BOTH_SHARE = 0.2  # of the presses are of both buttons at once
-KICK_EVERY = 2.0  # [s] at most, between two random velocities of a ball; half of that on average
-CAP_SHARE = 0.25  # of the kicks are as fast as the cap allows
-SHOVE_EVERY = 4.0  # [s] at most, between two shoves
+HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] times of a press or a release, equally likely
+BOTH_SHARE = 0.2  # share of presses of both buttons at once
+KICK_EVERY = 2.0  # [s] longest time between two random velocities of a ball; half of it on average
+CAP_SHARE = 0.25  # share of kicks as fast as the cap
+SHOVE_EVERY = 4.0  # [s] longest time between two shoves
 QUIET, LIVELY = 75.0, 25.0  # [s]
 RETRY = 0.25  # [s] between two attempts to create a ball: a crowded board may have no free place
 
@@ -84,7 +85,7 @@ class Drivers(NamedTuple):
 
 
 @kernel
-def drawn(world: WorldRecord, driver: DriverRecord) -> float:
+def next_random(world: WorldRecord, driver: DriverRecord) -> float:
     """The next of the soak's random numbers of a world, in [0, 1)."""
     driver.draws += 1
     return uniform(world.seed ^ SOAK_KEY, driver.draws)
@@ -99,35 +100,35 @@ def choose_action(
     tick: float,
     wild: bool,
 ) -> None:
-    """Choose what is done to a world before and in its next tick, of length `tick` [s]."""
+    """Choose the action of a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
-    plays = wild or now * tick % (QUIET + LIVELY) >= QUIET
+    is_active = wild or now * tick % (QUIET + LIVELY) >= QUIET
     for side in range(2):
-        if plays and now >= driver.press_at[side]:
-            down = 1 if drawn(world, driver) < 0.5 else 0
-            hold = HOLDS[int(drawn(world, driver) * len(HOLDS))] * (0.5 + drawn(world, driver))
-            both = drawn(world, driver) < BOTH_SHARE
+        if is_active and now >= driver.press_at[side]:
+            down = 1 if next_random(world, driver) < 0.5 else 0
+            hold = HOLDS[int(next_random(world, driver) * len(HOLDS))] * (0.5 + next_random(world, driver))
+            both = next_random(world, driver) < BOTH_SHARE
             if side == 0 or both:
                 action.left, driver.press_at[0] = down, now + 1 + int(hold / tick)
             if side == 1 or both:
                 action.right, driver.press_at[1] = down, now + 1 + int(hold / tick)
-    if not plays:
+    if not is_active:
         action.left, action.right = 0, 0
     elif now >= driver.shove_at:
         action.shove = 1
-        driver.shove_at = now + 1 + int(drawn(world, driver) * SHOVE_EVERY / tick)
+        driver.shove_at = now + 1 + int(next_random(world, driver) * SHOVE_EVERY / tick)
     for slot in range(BALL_COUNT):
         action.kick[slot] = 0
         if world.ball[slot].id == 0:
             continue
         balls += 1
         if wild and now >= driver.kick_at[slot]:
-            driver.kick_at[slot] = now + 1 + int(drawn(world, driver) * KICK_EVERY / tick)
+            driver.kick_at[slot] = now + 1 + int(next_random(world, driver) * KICK_EVERY / tick)
             speed = board.speed_cap
-            if drawn(world, driver) >= CAP_SHARE:
-                speed *= drawn(world, driver)
-            sine, cosine = sine_cosine(2.0 * pi * drawn(world, driver))
+            if next_random(world, driver) >= CAP_SHARE:
+                speed *= next_random(world, driver)
+            sine, cosine = sine_cosine(2.0 * pi * next_random(world, driver))
             action.kick[slot], action.vx[slot], action.vz[slot] = 1, speed * sine, speed * cosine
     action.create = 0
     if balls < board.max_balls and now >= driver.create_at:
@@ -144,8 +145,8 @@ def apply_action(
     log: LogRecord,
     action: ActionRecord,
 ) -> None:
-    """Do the part of an action that comes before the tick: new velocities and a new ball."""
-    log.count, log.lost = 0, 0
+    """Apply the part of an action that comes before the tick: new velocities and a new ball."""
+    clear_log(log)
     for slot in range(BALL_COUNT):
         if action.kick[slot] != 0 and world.ball[slot].id != 0:
             world.ball[slot].vx, world.ball[slot].vz = action.vx[slot], action.vz[slot]

@@ -18,7 +18,6 @@ from pydantic import AfterValidator, Field, ValidationError
 from pydantic.dataclasses import dataclass
 
 from silverball.errors import StateError
-from silverball.game.replay.reader import has_mesh
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.records import BALL_COUNT, NOTHING, BoardGeometry, Lane, Motion
 from silverball.physics.validation import validate_world
@@ -31,11 +30,11 @@ from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 from silverball.world.saved_world import pack, unpack
 
 FORMAT = 1
-LEAD_SECONDS = 1.0  # [s] before the finding at which the state is saved
+LEAD_SECONDS = 1.0  # [s] from the saved state to the finding
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
-WHAT = "a finding of a soak"
-FASTEST = 1e4  # [u/s] of a kick; chosen: far above every speed cap
+DESCRIPTION = "a finding of a soak"
+MAX_KICK = 1e4  # [u/s] of a kick; chosen: far above every speed cap
 
 
 def _action(values: list[Any]) -> list[Any]:
@@ -51,7 +50,7 @@ def _is_kick(kick: Any) -> bool:
     return (
         isinstance(kick, list)
         and len(kick) == 2
-        and all(type(number) in (int, float) and abs(number) <= FASTEST for number in kick)
+        and all(type(number) in (int, float) and abs(number) <= MAX_KICK for number in kick)
     )
 
 
@@ -109,7 +108,7 @@ class Finding:
         Raises:
             StateError: The text is not a finding of this format.
         """
-        return parse_json(text, source, WHAT, FORMAT, cls._of)
+        return parse_json(text, source, DESCRIPTION, FORMAT, cls._of)
 
     @classmethod
     def load(cls, path: Path) -> Finding:
@@ -118,7 +117,7 @@ class Finding:
         Raises:
             StateError: The file does not exist, or cannot be read.
         """
-        return cls.from_text(file_text(path, SIZE_LIMIT, WHAT), str(path))
+        return cls.from_text(file_text(path, SIZE_LIMIT, DESCRIPTION), str(path))
 
     @classmethod
     def _of(cls, values: dict[str, Any]) -> Finding:
@@ -136,7 +135,7 @@ class Finding:
             table = Table.model_validate(tomllib.loads(self.table_text))
         except ValidationError:
             raise ValueError("table_text: is a table that cannot be used") from None
-        if table.random is not None or has_mesh(table):
+        if table.random is not None or table.has_mesh:
             raise ValueError("table_text: is not a finished table")
         if table_digest(table) != self.table_digest:
             raise ValueError("table_text: does not belong to table_digest; it was changed")
@@ -147,9 +146,9 @@ def record_finding(options: Options, place: FindingPlace) -> Finding:
     """Run the world of a finding again, alone, and record its last `LEAD_SECONDS`."""
     from silverball import __version__
 
-    rehearsal = round_batch(options, place.round, place.world)
-    rehearsal.run(place.tick)
-    watch = rehearsal.watches.states[0]
+    first_run = round_batch(options, place.round, place.world)
+    first_run.run(place.tick)
+    watch = first_run.watches.states[0]
     kind = Found(int(watch["found"]))
     since = int(watch["since"])
     start = since if kind == Found.STUCK else max(0, since - round(LEAD_SECONDS * options.tick_rate))
@@ -184,7 +183,7 @@ def record_finding(options: Options, place: FindingPlace) -> Finding:
 
 
 def reproduce(finding: Finding) -> Found:
-    """Do the actions of a finding again; what the checks find now, `Found.NOTHING` if nothing.
+    """Repeat the actions of a finding; return what the checks find now, `Found.NOTHING` if nothing.
 
     Raises:
         StateError: The state was changed, or is of another version of the physics.

@@ -1,6 +1,6 @@
 """Hostile boards: tables that break every rule of placement, to test the solver where it is weakest.
 
-Their parts overlap, touch, leave gaps of just a ball's width or just less, stand in the paddles' way, are as
+Their parts overlap, touch, leave gaps of just a ball's width or just less, obstruct the paddles, are as
 thin as a hair, or return a ball faster than it came. None of them passes `check_table`, and on none may a
 ball ever get inside anything, or off the board.
 """
@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from silverball.table import Board, Cylinder, Paddle, SlantWall, Table, TriangularPrism
 
-LEAST_FEATURES, MOST_FEATURES = 4, 12
+MIN_FEATURES, MAX_FEATURES = 4, 12
 HAIR = (1e-4, 1e-3, 1e-2, 0.05)  # [u] widths of thin parts, and clearances in narrow places
 
 Part = SlantWall | TriangularPrism | Cylinder
@@ -51,7 +51,7 @@ def hostile_table(seed: int) -> Table:
     )
     paddles = _paddles(pick, board)
     parts: list[Part] = []
-    for _ in range(pick.randint(LEAST_FEATURES, MOST_FEATURES)):
+    for _ in range(pick.randint(MIN_FEATURES, MAX_FEATURES)):
         x = pick.uniform(-4.0, 0.5 * board.length)
         z = pick.uniform(-0.5, 0.5) * board.width
         parts += pick.choice(FEATURES)(_Site(pick, board, paddles, x, z))
@@ -115,7 +115,7 @@ def heap(site: _Site) -> list[Part]:
 
 
 def pocket(site: _Site) -> list[Part]:
-    """A V of two slant walls, open at a random side: a ball is held where it gets too narrow for it."""
+    """A V of two slant walls, open at a random side, in which a ball gets stuck."""
     turn, half = site.pick.uniform(0.0, 2.0 * math.pi), site.pick.uniform(0.02, 0.6)
     long = site.pick.uniform(0.5, 2.5)
     return [
@@ -132,8 +132,8 @@ def pocket(site: _Site) -> list[Part]:
 def gate(site: _Site) -> list[Part]:
     """Two cylinders, a ball's width apart: a hair more, a hair less, or nothing but rounding."""
     radius, turn = site.pick.uniform(0.2, 0.8), site.pick.uniform(0.0, math.pi)
-    play = site.pick.choice((0.0, *HAIR, *(-width for width in HAIR)))
-    apart = 2.0 * radius + 2.0 * site.board.ball_radius + play
+    clearance = site.pick.choice((0.0, *HAIR, *(-width for width in HAIR)))
+    apart = 2.0 * radius + 2.0 * site.board.ball_radius + clearance
     x, z = site.x + apart * math.sin(turn), site.z + apart * math.cos(turn)
     return [_cylinder(site, site.x, site.z, radius), _cylinder(site, x, z, radius)]
 
@@ -155,8 +155,9 @@ def sliver(site: _Site) -> list[Part]:
 def at_border(site: _Site) -> list[Part]:
     """A cylinder that touches a border, cuts it, or leaves a narrow gap."""
     radius, side = site.pick.uniform(0.2, 1.0), site.pick.choice((-1.0, 1.0))
-    play = site.pick.choice((-radius, *(-width for width in HAIR), 0.0, *HAIR, 2.0 * site.board.ball_radius))
-    z = side * (0.5 * site.board.width - site.board.wall_thickness - radius - play)
+    widths = (-radius, *(-width for width in HAIR), 0.0, *HAIR, 2.0 * site.board.ball_radius)
+    clearance = site.pick.choice(widths)
+    z = side * (0.5 * site.board.width - site.board.wall_thickness - radius - clearance)
     return [_cylinder(site, site.x, z, radius)]
 
 

@@ -1,7 +1,7 @@
-"""Strict reading of JSON files that may come from anywhere.
+"""Strict reading of untrusted JSON files.
 
 A file must hold one object, with no key twice, no NaN or infinity and the known format; then every field is
-checked by its type and bounds. A refusal is one sentence that begins with the file and says what is wrong.
+checked by its type and bounds. An error message is one sentence: the file, and what is wrong.
 """
 
 from __future__ import annotations

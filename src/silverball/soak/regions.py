@@ -1,13 +1,13 @@
 """Region labelling: the places on a board that the centre of a ball can reach from one another.
 
 The board is cut into square cells. A cell is *blocked* when no point of it is free for a ball's centre, by
-the distance of its middle; *clear* when all of it is further than a ball's radius from every part that stands
-still; otherwise *narrow*. Cells that are not blocked and touch, corners included, form a *region*
+the distance of its middle; *clear* when all of it is further than a ball's radius from every stationary
+part; otherwise *narrow*. Cells that are not blocked and touch, corners included, form a *region*
 (connected-component labelling with 8 neighbours). No free point lies in a blocked cell, so a ball can never
 get from one region to another: a ball that does has escaped. Paddles move and block nothing. Regions that
 touch the gutter line are all number 1, because they are connected below it.
 
-Like `audit.py`, on which it rests, this shares no code with the solver.
+Like `audit.py`, which it uses, this module shares no code with the solver.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderR
 
 @kernel
 def cell_number(value: float, low: float, cell: float, count: int) -> int:
-    """The row or column of a coordinate, the first or last one if it lies beyond."""
+    """The row or column of a coordinate, clamped to the first and last one."""
     return int(min(max(floor((value - low) / cell), 0.0), count - 1.0))
 
 
@@ -180,5 +180,5 @@ def region_of(label: int) -> int:
 
 @kernel
 def is_narrow(label: int) -> bool:
-    """Whether a ball in a cell with this label may touch something that stands still."""
+    """Whether a ball in a cell with this label may touch a stationary part."""
     return label <= BLOCKED or label % 2 == 1

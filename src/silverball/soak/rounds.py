@@ -29,9 +29,9 @@ from silverball.world.compile import compile_tables
 # Simulated in each world of a round [s], and worlds that share a board. Making a board takes as long as some
 # 20,000 frames on it; hostile boards are made faster, so each world gets its own.
 ROUND_SECONDS, HOSTILE_SECONDS = 600.0, 200.0
-WORLDS_A_BOARD = 4
-QUIET_EVERY = 4  # of every four worlds one is quiet
-CHUNK_TICKS = 1_000_000  # of all worlds together, between two calls of `progress`
+WORLDS_PER_BOARD = 4
+QUIET_EVERY = 4  # one of every four worlds is quiet
+CHUNK_TICKS = 1_000_000  # ticks of all worlds together between two calls of `progress`
 
 KINDS = tuple(kind for kind in Found if kind != Found.NOTHING)
 
@@ -67,9 +67,9 @@ class Options(NamedTuple):
         return round((HOSTILE_SECONDS if self.hostile else ROUND_SECONDS) * self.tick_rate)
 
     @property
-    def worlds_a_board(self) -> int:
+    def worlds_per_board(self) -> int:
         """Worlds of a round that share a board."""
-        return 1 if self.hostile else WORLDS_A_BOARD
+        return 1 if self.hostile else WORLDS_PER_BOARD
 
 
 class FindingPlace(NamedTuple):
@@ -135,8 +135,8 @@ class SoakBatch:
         batch: The worlds.
         tables: The table of each world.
         drivers: What drives them.
-        watches: What watches them, with the tables compiled again for the checks alone: whatever happens to
-            the boards that the solver reads, the checks know where the parts are.
+        watches: What watches them, with the tables compiled again for the checks alone: damage to the boards
+            that the solver reads does not affect the checks.
     """
 
     def __init__(
@@ -195,7 +195,7 @@ class SoakBatch:
 def round_batch(options: Options, number: int, only: int | None = None) -> SoakBatch:
     """The worlds of a round at its start, or only one of them."""
     worlds = range(options.worlds) if only is None else range(only, only + 1)
-    board_of = {world: world // options.worlds_a_board for world in worlds}
+    board_of = {world: world // options.worlds_per_board for world in worlds}
     boards = {board: _board(options, number, board) for board in sorted(set(board_of.values()))}
     return SoakBatch(
         [boards[board_of[world]] for world in worlds],
@@ -214,7 +214,7 @@ def play_round(
     Args:
         options: The options of the soak.
         number: Which round, from 0.
-        progress: Called now and then with the frames of this round so far.
+        progress: Called from time to time with the frames of this round so far.
 
     Returns:
         The totals, and where findings were made.

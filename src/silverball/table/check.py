@@ -1,7 +1,7 @@
-"""Checks of a layout: every reason why its parts cannot be played on, with its path in the file.
+"""Checks of a layout: every reason why a table cannot be played, with its path in the file.
 
 In this order: each part by itself (degenerate, outside the board, a paddle faster than the cap), parts
-against each other (overlaps, gaps that a ball barely fits), the swing of the paddles, the way to the gutter,
+against each other (overlaps, gaps that a ball barely fits), the swing of the paddles, the path to the gutter,
 the places where a ball would lie forever, and the rules of a recipe.
 
 Single values are validated in `parts.py`, meshes in `mesh.py`; `placement.py` tries whether a recipe makes
@@ -33,7 +33,7 @@ from silverball.table.parts import (
     Paddle,
     RandomRecipe,
     SlantWall,
-    StandingPart,
+    StationaryPart,
     TriangularPrism,
 )
 from silverball.table.placement_rules import recipe_problems
@@ -44,17 +44,17 @@ from silverball.table.traps import level_faces, pockets
 if TYPE_CHECKING:
     from silverball.table.table import Table
 
-FLATTEST = 0.05  # [u] least height of a triangle and least length of a slant wall; chosen: a fifth of a ball
+MIN_HEIGHT = 0.05  # [u] least height of a triangle and length of a slant wall; chosen: a fifth of a ball
 ROUNDING = 1e-9  # [u] by which a part may extend beyond an edge of the board
-LEAST_OPEN = 0.5  # share of the board that must lead to the gutter; corners may be closed off
-CROWD = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500
-OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
+MIN_OPEN_SHARE = 0.5  # share of the board that must lead to the gutter; corners may be closed off
+MAX_CLOSE_PAIRS = 4000  # pairs of parts closer than a ball is wide; an arc of 256 short walls makes 2,500
+MAX_OVERLAPS_LISTED = 100  # with more overlaps, traps are not searched for
 
 
 class Layout(NamedTuple):
     """The parts of a table, each with its path in the file.
 
-    The valid parts of a file with mistakes make a layout too.
+    A file with mistakes has a layout too, made of its valid parts.
     """
 
     board: Board
@@ -78,10 +78,10 @@ class Layout(NamedTuple):
 
 
 class Measured(NamedTuple):
-    """The standing parts of a layout that have an extent, with their shapes."""
+    """The stationary parts of a layout that have an extent, with their shapes."""
 
     paths: list[str]
-    parts: list[StandingPart]
+    parts: list[StationaryPart]
     shapes: Shapes
 
 
@@ -90,28 +90,28 @@ def check_layout(layout: Layout) -> list[Problem]:
     board_problems = _board_problems(layout.board)
     paddle_problems = _paddle_problems(layout)
     problems = board_problems + _hop_problems(layout.board) + paddle_problems
-    standing, part_problems = _standing(layout)
+    stationary, part_problems = _stationary(layout)
     problems += part_problems
     if board_problems:
         return problems
-    layout = layout._replace(paddles=_one_a_side(layout.paddles))  # the others are problems already
-    overlaps, tight = _pair_problems(standing, layout.board)
-    problems += overlaps[:OVERLAPS_LISTED]
-    if len(overlaps) > OVERLAPS_LISTED:
-        problems.append(Problem("", f"and {len(overlaps) - OVERLAPS_LISTED:,} more overlaps"))
-    problems += _sweep_problems(layout, standing)
+    layout = layout._replace(paddles=_one_per_side(layout.paddles))  # the others are problems already
+    overlaps, tight = _pair_problems(stationary, layout.board)
+    problems += overlaps[:MAX_OVERLAPS_LISTED]
+    if len(overlaps) > MAX_OVERLAPS_LISTED:
+        problems.append(Problem("", f"and {len(overlaps) - MAX_OVERLAPS_LISTED:,} more overlaps"))
+    problems += _sweep_problems(layout, stationary)
     paddles = tuple(paddle for _, paddle in layout.paddles)
-    outlines = [part.outline() for part in standing.parts]
+    outlines = [part.outline() for part in stationary.parts]
     ball_space = space(layout.board, paddles, outlines)
     problems += [problem for problem, place in tight if ball_space.reaches(place)]
-    problems += _way_problems(layout, paddles, ball_space)
-    crowd = _crowd_problems(standing, layout.board)
+    problems += _exit_problems(layout, paddles, ball_space)
+    crowd = _crowd_problems(stationary, layout.board)
     problems += crowd
     can_rest_anywhere = layout.board.gravity == 0.0
-    if len(overlaps) <= OVERLAPS_LISTED and not crowd and not can_rest_anywhere:
-        problems += _trap_problems(layout, standing, ball_space)
+    if len(overlaps) <= MAX_OVERLAPS_LISTED and not crowd and not can_rest_anywhere:
+        problems += _trap_problems(layout, stationary, ball_space)
     if layout.random is not None:
-        problems += recipe_problems(layout.board, standing.parts, paddles, layout.random)
+        problems += recipe_problems(layout.board, stationary.parts, paddles, layout.random)
     return problems
 
 
@@ -133,7 +133,7 @@ def _board_problems(board: Board) -> list[Problem]:
 
 
 def _hop_problems(board: Board) -> list[Problem]:
-    """A ball at rest hops; if a hop counted as a hit, the ball would score forever."""
+    """Check that a hop cannot count as a hit: a ball at rest hops, and would score forever."""
     hop = math.sqrt(2.0 * board.gravity * HOP)
     if board.hit_speed >= hop / HOP_SHARE:
         return []
@@ -146,7 +146,7 @@ def _hop_problems(board: Board) -> list[Problem]:
 
 
 def _paddle_problems(layout: Layout) -> list[Problem]:
-    """Paddles by themselves: one per side, on the board, slower than the cap."""
+    """Problems of single paddles: one per side, on the board, slower than the cap."""
     problems = []
     seen: dict[str, str] = {}
     for path, paddle in layout.paddles:
@@ -162,14 +162,14 @@ def _paddle_problems(layout: Layout) -> list[Problem]:
     return problems
 
 
-def _one_a_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, Paddle], ...]:
+def _one_per_side(paddles: tuple[tuple[str, Paddle], ...]) -> tuple[tuple[str, Paddle], ...]:
     """The first paddle of each side."""
     first = {paddle.side: (path, paddle) for path, paddle in reversed(paddles)}
     return tuple(sorted(first.values(), key=lambda item: item[0]))
 
 
 def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
-    """A tip as fast as the speed cap would pass through balls that it has just hit."""
+    """Check that the tip is slower than the cap; otherwise it would pass through balls that it has hit."""
     if _tip_and_hop(paddle.tip_speed, paddle, board) < board.speed_cap:
         return []
     quick = "stroke" if paddle.stroke <= paddle.return_stroke else "return_stroke"
@@ -195,12 +195,12 @@ def _tip_and_hop(tip_speed: float, paddle: Paddle, board: Board) -> float:
     return tip_speed + math.sqrt(2.0 * (board.gravity + tip_speed**2 / paddle.reach) * HOP)
 
 
-def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
-    """The standing parts with an extent, and the problems of those without one or beyond the board."""
+def _stationary(layout: Layout) -> tuple[Measured, list[Problem]]:
+    """The stationary parts with an extent, and the problems of those without one or beyond the board."""
     problems: list[Problem] = []
     paths: list[str] = []
-    parts: list[StandingPart] = []
-    everything: tuple[tuple[str, StandingPart], ...] = (
+    parts: list[StationaryPart] = []
+    everything: tuple[tuple[str, StationaryPart], ...] = (
         *layout.slant_walls,
         *layout.triangular_prisms,
         *layout.cylinders,
@@ -215,18 +215,18 @@ def _standing(layout: Layout) -> tuple[Measured, list[Problem]]:
     return Measured(paths, parts, Shapes.of([part.outline() for part in parts])), problems
 
 
-def _own_problem(path: str, part: StandingPart, board: Board) -> Problem | None:
+def _own_problem(path: str, part: StationaryPart, board: Board) -> Problem | None:
     core, radius = part.outline()
     points = np.array(core)
     path = f"{path}.{_place_key(part)}"
     if isinstance(part, SlantWall):
-        if math.dist(part.start, part.end) < FLATTEST:
-            return Problem(path, f"is flat: start and end must be at least {FLATTEST:g} u apart")
+        if math.dist(part.start, part.end) < MIN_HEIGHT:
+            return Problem(path, f"is flat: start and end must be at least {MIN_HEIGHT:g} u apart")
         beyond = max(abs(x) - 0.5 * board.length for x, _ in core[:2])
         beyond = max(beyond, *(abs(z) - 0.5 * board.width for _, z in core[:2]))
     else:
-        if isinstance(part, TriangularPrism) and _height(points) < FLATTEST:
-            return Problem(path, f"is flat: the triangle must be at least {FLATTEST:g} u high everywhere")
+        if isinstance(part, TriangularPrism) and _height(points) < MIN_HEIGHT:
+            return Problem(path, f"is flat: the triangle must be at least {MIN_HEIGHT:g} u high everywhere")
         low_edge = points[:, 0].min() - radius + 0.5 * board.length
         beyond = -min(float(border_gaps(points, board).min()) - radius, float(low_edge))
     if beyond > ROUNDING:
@@ -241,7 +241,7 @@ def _height(corners: Floats) -> float:
     return abs(twice_area) / longest if longest > 0.0 else 0.0
 
 
-def _place_key(part: StandingPart) -> str:
+def _place_key(part: StationaryPart) -> str:
     """The key of a part's position."""
     if isinstance(part, SlantWall):
         return "end"
@@ -249,12 +249,12 @@ def _place_key(part: StandingPart) -> str:
 
 
 def _pair_problems(
-    standing: Measured, board: Board
+    stationary: Measured, board: Board
 ) -> tuple[list[Problem], list[tuple[Problem, tuple[float, float]]]]:
     """Overlaps; and gaps that a ball barely fits, each with the middle of the gap."""
     overlaps: list[Problem] = []
     tight: list[tuple[Problem, tuple[float, float]]] = []
-    shapes, parts, paths = standing.shapes, standing.parts, standing.paths
+    shapes, parts, paths = stationary.shapes, stationary.parts, stationary.paths
     if not parts:
         return overlaps, tight
     widest = (2.0 + PASSAGE) * board.ball_radius
@@ -268,26 +268,28 @@ def _pair_problems(
             overlaps.append(Problem(path, f"overlaps {paths[one]}: move one of the two"))
         elif 2.0 * board.ball_radius <= gap < widest:
             place = _middle(shapes.core[one], shapes.core[other])
-            tight.append((_tight(path, gap, paths[one], board), place))
+            tight.append((_gap_problem(path, gap, paths[one], board), place))
     to_border = border_gaps(shapes.core, board).min(axis=1) - shapes.radius[:, None]
     for shape, border in np.argwhere((to_border >= 2.0 * board.ball_radius) & (to_border < widest)).tolist():
         path = f"{paths[shape]}.{_place_key(parts[shape])}"
         corner = shapes.core[shape, np.argmin(border_gaps(shapes.core[shape], board)[:, border])]
-        problem = _tight(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
+        problem = _gap_problem(path, float(to_border[shape, border]), BORDER_NAMES[border], board)
         tight.append((problem, (float(corner[0]), float(corner[1]))))
     return overlaps, tight
 
 
-def _crowd_problems(standing: Measured, board: Board) -> list[Problem]:
-    """Slant walls may overlap, but each pair may make pockets, so their number is limited."""
-    pairs = len(near_pairs(standing.shapes, 2.0 * board.ball_radius)[0])
-    if pairs <= CROWD:
+def _crowd_problems(stationary: Measured, board: Board) -> list[Problem]:
+    """Limit the number of close pairs: slant walls may overlap, but each pair may make pockets."""
+    pairs = len(near_pairs(stationary.shapes, 2.0 * board.ball_radius)[0])
+    if pairs <= MAX_CLOSE_PAIRS:
         return []
-    message = f"has {pairs:,} pairs of parts between which no ball fits, at most {CROWD:,}: remove parts"
+    message = (
+        f"has {pairs:,} pairs of parts between which no ball fits, at most {MAX_CLOSE_PAIRS:,}: remove parts"
+    )
     return [Problem("board", message)]
 
 
-def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
+def _gap_problem(path: str, gap: float, other: str, board: Board) -> Problem:
     ball = 2.0 * board.ball_radius
     message = (
         f"leaves {gap:.3f} u to {other}, which a ball of {ball:g} u barely fits: "
@@ -296,7 +298,7 @@ def _tight(path: str, gap: float, other: str, board: Board) -> Problem:
     return Problem(path, message)
 
 
-def _cross(one: StandingPart, other: StandingPart) -> bool:
+def _cross(one: StationaryPart, other: StationaryPart) -> bool:
     """Whether two slant walls cross away from their ends."""
     (a, b, _), near = one.outline()
     (c, d, _), far = other.outline()
@@ -324,7 +326,7 @@ def _middle(first: Floats, second: Floats) -> tuple[float, float]:
     return best[1], best[2]
 
 
-def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
+def _sweep_problems(layout: Layout, stationary: Measured) -> list[Problem]:
     """The parts that the paddles touch while they turn."""
     problems = []
     for index, (path, paddle) in enumerate(layout.paddles):
@@ -336,25 +338,25 @@ def _sweep_problems(layout: Layout, standing: Measured) -> list[Problem]:
                 problems.append(Problem(other_path, message))
         border = touches_border(paddle, layout.board)
         if border is not None:
-            problems.append(_touch(path, border[0], BORDER_NAMES[border[1]]))
-        for other_path, part in zip(standing.paths, standing.parts, strict=True):
+            problems.append(_swing_problem(path, border[0], BORDER_NAMES[border[1]]))
+        for other_path, part in zip(stationary.paths, stationary.parts, strict=True):
             angle = touches_shape(paddle, *part.outline())
             if angle is not None:
-                problems.append(_touch(path, angle, other_path))
+                problems.append(_swing_problem(path, angle, other_path))
     return problems
 
 
-def _touch(path: str, angle: float, other: str) -> Problem:
+def _swing_problem(path: str, angle: float, other: str) -> Problem:
     message = f"must stay {CLEARANCE:g} u clear of {other} in its swing, but comes closer at {angle:.0f} deg"
     return Problem(path, f"{message}: move one of the two")
 
 
-def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
-    """Whether a ball can be created, and whether it can leave from most of the board."""
+def _exit_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space) -> list[Problem]:
+    """Check that a ball can be created, and that it can leave from most of the board."""
     board = layout.board
     above = ball_space.free[ball_space.grid.floor_row :]
     leads_out = ball_space.reached[ball_space.grid.floor_row :]
-    if above.any() and leads_out.sum() >= LEAST_OPEN * above.sum():
+    if above.any() and leads_out.sum() >= MIN_OPEN_SHARE * above.sum():
         return []
     if not above.any():
         floor = creation_floor(board, paddles)
@@ -368,12 +370,12 @@ def _way_problems(layout: Layout, paddles: tuple[Paddle, ...], ball_space: Space
     return [Problem("board", message)]
 
 
-def _trap_problems(layout: Layout, standing: Measured, ball_space: Space) -> list[Problem]:
+def _trap_problems(layout: Layout, stationary: Measured, ball_space: Space) -> list[Problem]:
     """The places where a ball would lie forever, with the paddles at rest."""
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for _, paddle in layout.paddles]
-    shapes = Shapes.of([*(part.outline() for part in standing.parts), *resting])
-    paths = [*standing.paths, *(path for path, _ in layout.paddles)]
-    keys = [*(_place_key(part) for part in standing.parts), *("rest_angle" for _ in layout.paddles)]
+    shapes = Shapes.of([*(part.outline() for part in stationary.parts), *resting])
+    paths = [*stationary.paths, *(path for path, _ in layout.paddles)]
+    keys = [*(_place_key(part) for part in stationary.parts), *("rest_angle" for _ in layout.paddles)]
     problems = []
     for shape, slope, (x, z) in level_faces(shapes, layout.board, ball_space):
         message = (

@@ -2,7 +2,7 @@
 
 Each mistake becomes a `Problem` with its path in the file (``triangular_prism[2].vertices``) and a sentence
 that says what was expected and what was given. An unknown key gets a suggestion: the key that is spelled
-alike, our name for another word of pinball, or the section to which it belongs.
+alike, the name used here for another pinball term, or the section to which it belongs.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from silverball.errors import Problem
 from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
 from silverball.table.quantity import shown
 
-LISTED = 100  # mistakes that are listed; chosen: more than a person fixes at once
+MAX_LISTED = 100  # mistakes that are listed; chosen: more than a person fixes at once
 
 # Other words for the keys of a table file; the first key that the section has is suggested.
 SYNONYMS: dict[str, tuple[str, ...]] = {
@@ -91,9 +91,11 @@ def explain(error: ValidationError, root: type[BaseModel]) -> list[Problem]:
         root: The model of the whole file.
     """
     details = error.errors(include_url=False)
-    problems = [Problem(path_of(detail["loc"]), _message(dict(detail), root)) for detail in details[:LISTED]]
-    if len(details) > LISTED:
-        problems.append(Problem("", f"and {len(details) - LISTED:,} more problems of this kind"))
+    problems = [
+        Problem(path_of(detail["loc"]), _message(dict(detail), root)) for detail in details[:MAX_LISTED]
+    ]
+    if len(details) > MAX_LISTED:
+        problems.append(Problem("", f"and {len(details) - MAX_LISTED:,} more problems of this kind"))
     return problems
 
 

@@ -80,7 +80,7 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
 
     Args:
         text: The text of a table file.
-        source: What to call it in messages: a path or a name.
+        source: Its name in messages, for example a path.
         folder: Where its meshes are looked for; the current folder by default.
 
     Raises:
@@ -90,7 +90,7 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
 
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:
-    """Write a table to a file, or leave what was there unchanged if anything goes wrong.
+    """Write a table to a file; on any error, an existing file stays unchanged.
 
     Args:
         table: The table to write.
@@ -140,9 +140,10 @@ def table_digest(table: Table) -> str:
     Raises:
         TableError: A mesh cannot be read.
     """
-    unsaid = {"arcade"} if table.arcade == Arcade() else set()  # as it was before there was this section
+    # A default section is left out, so that digests from before it existed stay valid.
+    excluded = {"arcade"} if table.arcade == Arcade() else set()
     text = json.dumps(
-        table.resolved().model_dump(mode="json", exclude=unsaid), sort_keys=True, separators=(",", ":")
+        table.resolved().model_dump(mode="json", exclude=excluded), sort_keys=True, separators=(",", ":")
     )
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
@@ -155,8 +156,8 @@ def _built_in(name: str) -> Table:
 
 
 def _looks_like_path(text: str) -> bool:
-    separators = [mark for mark in ("/", os.sep, os.altsep) if mark]
-    return text == STDIN or text.endswith(".toml") or any(mark in text for mark in separators)
+    separators = [separator for separator in ("/", os.sep, os.altsep) if separator]
+    return text == STDIN or text.endswith(".toml") or any(separator in text for separator in separators)
 
 
 def _no_such_name(name: str) -> str:
@@ -168,7 +169,7 @@ def _no_such_name(name: str) -> str:
 
 
 def _read(path: str) -> str:
-    """Return the text of a table file, or raise a `TableError` that says why there is none."""
+    """Return the text of a table file, or raise a `TableError` with the reason why it cannot be read."""
     try:
         return read_text(path, SIZE_LIMIT, "a table file")
     except Unreadable as error:

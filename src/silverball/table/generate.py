@@ -1,4 +1,4 @@
-"""Random boards: `generate_table` makes the board of a seed from a recipe."""
+"""Random boards: `generate_table` makes a board from a recipe and a seed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from silverball.table.table import Table
 
 
 def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random") -> Table:
-    """Make the board of a seed from a recipe.
+    """Make a random board from a recipe and a seed.
 
     Args:
         seed: An integer ≥ 0; the same seed always makes the same board, on every machine.
@@ -40,7 +40,7 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
         raise TableError("a random board", [Problem("seed", message)])
     table = recipe if isinstance(recipe, Table) else load_table(recipe)
     if table.random is None:
-        message = "must be there: a table without a [random] section has nothing to place; load it instead"
+        message = "is missing: a table without a [random] section has nothing to place; load it instead"
         raise TableError(table.name, [Problem("random", message)])
     problems = _parts_problems(table)
     if problems:
@@ -50,5 +50,5 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
 
 @functools.lru_cache(maxsize=16)
 def _parts_problems(table: Table) -> tuple[Problem, ...]:
-    """The problems of the standing parts and the rules of a recipe, checked once for all seeds."""
+    """The problems of the stationary parts and the rules of a recipe, checked once for all seeds."""
     return tuple(check_layout(Layout.of(table)))

@@ -28,10 +28,10 @@ if TYPE_CHECKING:
     from silverball.table.parts import Point, Triangle
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
-CORNERS_LIMIT = 1000  # of a prism's footprint; chosen: the largest triangle is found in a second
+CORNERS_LIMIT = 1000  # corners of a prism's footprint; chosen: the largest triangle is found in a second
 HULL_LIMIT = 2**16  # corners of a hull; chosen: the most that points in single precision can have
-FURTHEST = 1e6  # [u] from the origin; a point further out means that the file is damaged
-NARROWEST = 1e-3  # [u] a footprint narrower than this is flat
+MAX_COORDINATE = 1e6  # [u] from the origin; a point further out means that the file is damaged
+MIN_WIDTH = 1e-3  # [u] a footprint narrower than this is flat
 _ROUNDED = 6  # decimals of a footprint [u]; STL stores single precision
 
 
@@ -156,12 +156,12 @@ def _points(path: Path) -> Floats:
         raise _unusable(name, f"cannot be read: {name} ({error.strerror or error})") from error
     except MeshError as error:
         raise _unusable(name, f"cannot be used: {name} {error}") from error
-    if not (np.abs(vertices) <= FURTHEST).all():  # also not for NaN
+    if not (np.abs(vertices) <= MAX_COORDINATE).all():  # also not for NaN
         raise _unusable(
-            name, f"has coordinates beyond {FURTHEST:,.0f} u or that are not numbers: {name} is damaged"
+            name, f"has coordinates beyond {MAX_COORDINATE:,.0f} u or that are not numbers: {name} is damaged"
         )
     points = vertices[:, [0, 2]]
-    if len(points) < 3 or _width(points) < NARROWEST:
+    if len(points) < 3 or _width(points) < MIN_WIDTH:
         raise _unusable(name, f"is flat or empty seen from above (along y): {name} has no footprint")
     return points
 
@@ -186,11 +186,11 @@ def _circle_of_few(points: list[Point]) -> tuple[tuple[float, float, float], lis
     """The smallest circle around up to four points, and the two or three that define it."""
     pairs = [(_circle_of_two(p, q), [p, q]) for p, q in itertools.combinations(points, 2)]
     triples = [(_circle_of_three(p, q, r), [p, q, r]) for p, q, r in itertools.combinations(points, 3)]
-    holding = [found for found in pairs + triples if all(_holds(found[0], point) for point in points)]
+    holding = [found for found in pairs + triples if all(_contains(found[0], point) for point in points)]
     return min(holding or triples or pairs, key=lambda found: found[0][2])
 
 
-def _holds(circle: tuple[float, float, float], point: Point) -> bool:
+def _contains(circle: tuple[float, float, float], point: Point) -> bool:
     return math.dist(circle[:2], point) <= circle[2] * (1.0 + 1e-12) + 1e-12
 
 
@@ -199,7 +199,7 @@ def _circle_of_two(p: Point, q: Point) -> tuple[float, float, float]:
 
 
 def _circle_of_three(p: Point, q: Point, r: Point) -> tuple[float, float, float]:
-    """The circle through three points; if they lie on a line, the largest one through two of them."""
+    """The circle through three points; for collinear points the largest one through two of them."""
     ax, az, bx, bz = q[0] - p[0], q[1] - p[1], r[0] - p[0], r[1] - p[1]
     twice = 2.0 * (ax * bz - az * bx)
     if twice == 0.0:

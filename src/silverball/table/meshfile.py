@@ -1,8 +1,8 @@
-"""Readers of mesh files: the vertices that the faces use, at their places in the scene.
+"""Readers of mesh files: the vertices that the faces use, at their positions in the scene.
 
 STL (binary and text), OBJ and GLB (binary glTF 2.0) are read, as far as a footprint needs: no colours, no
-textures, no other files. The file size limits the vertices of STL and OBJ. A GLB can ask for far more than it
-holds (many nodes with one mesh, accessors without data), so its vertices are counted before they are made.
+textures, no other files. The file size limits the vertices of STL and OBJ. A GLB can describe far more than
+it holds (many nodes with one mesh, accessors without data), so its vertices are counted before they are made.
 
 Source: Khronos Group, glTF 2.0 specification, sections 3.5 (scenes), 3.6 (accessors) and 4.4 (GLB).
 """
@@ -24,14 +24,13 @@ from silverball.table.geometry import Floats
 KINDS = ("stl", "obj", "glb")
 POINTS_LIMIT = 1_100_000  # vertices of all instances; chosen: those of the largest binary STL
 JSON_LIMIT = 2**20  # [bytes] of a GLB's scene; chosen: a thousand nodes take a tenth of it
-NODES_LIMIT = 10_000  # of a scene, counted once per path
-LINES_LIMIT = 2_200_000  # of text; chosen: the most short lines ("v 1 1 1", "f 1 2 3") in 16 MiB
+NODES_LIMIT = 10_000  # nodes of a scene, counted once per path
+LINES_LIMIT = 2_200_000  # lines of text; chosen: the most short lines ("v 1 1 1", "f 1 2 3") in 16 MiB
 LINE_LIMIT = 2**16  # [bytes] of a line of text; chosen: a face of 5,000 corners
-KNOWN = (
-    "KHR_mesh_quantization",
-    "KHR_materials_",
-    "KHR_texture_",
-)  # extensions that are supported, or do not change the shape
+# Extensions that are supported, or do not change the shape
+SUPPORTED_EXTENSIONS = ("KHR_mesh_quantization", "KHR_materials_", "KHR_texture_")
+STL_HEADER = 84  # [bytes] header of a binary STL; its last four are the number of triangles
+GLB_JSON, GLB_BINARY = 0x4E4F534A, 0x004E4942  # types of the chunks of a GLB
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("attribute", "<u2")])  # 50 bytes
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 
@@ -48,7 +47,7 @@ def mesh_points(content: bytes, kind: str) -> Floats:
         kind: One of `KINDS`.
 
     Raises:
-        MeshError: The file is damaged, or asks for too much.
+        MeshError: The file is damaged, or exceeds a limit.
     """
     read = {"stl": _stl, "obj": _obj, "glb": _glb}[kind]
     try:
@@ -74,19 +73,20 @@ def mesh_points(content: bytes, kind: str) -> Floats:
 
 def _stl(content: bytes) -> Floats:
     """Every corner of every triangle."""
-    count = int.from_bytes(content[80:84], "little") if len(content) >= 84 else 0
-    ends = 84 + 50 * count
-    is_text = content.lstrip()[:5].lower() == b"solid" and len(content) != ends
+    is_binary = len(content) >= STL_HEADER
+    count = int.from_bytes(content[STL_HEADER - 4 : STL_HEADER], "little") if is_binary else 0
+    end = STL_HEADER + _TRIANGLE.itemsize * count
+    is_text = content.lstrip()[:5].lower() == b"solid" and len(content) != end
     if not is_text:
-        if len(content) < max(ends, 84):
+        if len(content) < max(end, STL_HEADER):
             raise ValueError(f"{len(content):,} bytes are too few for {count:,} triangles")
-        triangles = np.frombuffer(content, _TRIANGLE, count, 84)
+        triangles = np.frombuffer(content, _TRIANGLE, count, STL_HEADER)
         return triangles["corner"].reshape(-1, 3).astype(np.float64)
     values = array("d")
     for line in _lines(content):
         words = line.split()
         if words and words[0].lower() == b"vertex":
-            values.extend(_three(words[1:]))
+            values.extend(_vertex(words[1:]))
     return np.array(values).reshape(-1, 3)
 
 
@@ -101,7 +101,7 @@ def _obj(content: bytes) -> Floats:
         if not words:
             continue
         if words[0] == b"v":
-            values.extend(_three(words[1:]))
+            values.extend(_vertex(words[1:]))
         elif words[0] in (b"f", b"l", b"p"):
             count = len(values) // 3
             for word in words[1:]:
@@ -125,7 +125,7 @@ def _lines(content: bytes) -> Iterator[bytes]:
         yield line
 
 
-def _three(words: list[bytes]) -> tuple[float, float, float]:
+def _vertex(words: list[bytes]) -> tuple[float, float, float]:
     return float(words[0]), float(words[1]), float(words[2])
 
 
@@ -136,7 +136,7 @@ def _glb(content: bytes) -> Floats:
     """The vertices of all meshes of the scene, transformed by their nodes."""
     scene, binary = _chunks(content)
     for extension in scene.get("extensionsRequired", ()):
-        if not str(extension).startswith(KNOWN):
+        if not str(extension).startswith(SUPPORTED_EXTENSIONS):
             raise MeshError(
                 f"needs the extension {str(extension)[:60]!r}, which is not supported: export it without"
             )
@@ -148,7 +148,9 @@ def _glb(content: bytes) -> Floats:
         many = f"has {total:,} vertices in {len(places):,} places"
         raise MeshError(f"{many}, a mesh has at most {POINTS_LIMIT:,}: simplify it")
     points = {
-        mesh: np.concatenate([np.empty((0, 3)), *(_used(scene, binary, each) for each in primitives)])
+        mesh: np.concatenate(
+            [np.empty((0, 3)), *(_used_vertices(scene, binary, each) for each in primitives)]
+        )
         for mesh, primitives in parts.items()
     }
     found = (points[mesh] @ matrix[:3, :3].T + matrix[:3, 3] for mesh, matrix in places)
@@ -158,7 +160,7 @@ def _glb(content: bytes) -> Floats:
 def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
     """The scene, and the binary data that it refers to."""
     magic, version, _, length, kind = struct.unpack_from("<4sIIII", content)
-    if magic != b"glTF" or version != 2 or kind != 0x4E4F534A:
+    if magic != b"glTF" or version != 2 or kind != GLB_JSON:
         raise ValueError("it does not have the header of binary glTF 2.0")
     if length > JSON_LIMIT:
         raise MeshError(f"has a scene of {length:,} bytes, at most {JSON_LIMIT:,}: simplify it")
@@ -169,7 +171,7 @@ def _chunks(content: bytes) -> tuple[dict[str, Any], memoryview]:
     if len(rest) < 8:
         return scene, rest[:0]
     size, kind = struct.unpack_from("<II", rest)
-    return scene, rest[8 : 8 + size] if kind == 0x004E4942 else rest[:0]
+    return scene, rest[8 : 8 + size] if kind == GLB_BINARY else rest[:0]
 
 
 def _instances(scene: dict[str, Any]) -> list[tuple[int, Floats]]:
@@ -222,10 +224,12 @@ def _matrix(node: dict[str, Any]) -> Floats:
 def _count(scene: dict[str, Any], primitive: dict[str, Any]) -> int:
     """The number of vertices that reading a primitive makes."""
     names = [primitive["attributes"]["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]
-    return max(_whole(scene["accessors"][_index(name, scene["accessors"])]["count"]) for name in names)
+    return max(
+        _checked_count(scene["accessors"][_index(name, scene["accessors"])]["count"]) for name in names
+    )
 
 
-def _used(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) -> Floats:
+def _used_vertices(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) -> Floats:
     """The vertices of a primitive, shape [vertex, 3]; with indices only those that are used."""
     points = _accessor(scene, binary, primitive["attributes"]["POSITION"], 3).astype(np.float64)
     if "indices" not in primitive:
@@ -237,7 +241,7 @@ def _used(scene: dict[str, Any], binary: memoryview, primitive: dict[str, Any]) 
 def _accessor(scene: dict[str, Any], binary: memoryview, name: Any, width: int) -> NDArray[Any]:
     """The rows of an accessor, shape [row, width] or [row]."""
     accessor = scene["accessors"][_index(name, scene["accessors"])]
-    kind, count = np.dtype(_TYPES[accessor["componentType"]]), _whole(accessor["count"])
+    kind, count = np.dtype(_TYPES[accessor["componentType"]]), _checked_count(accessor["count"])
     if accessor["type"] != {1: "SCALAR", 3: "VEC3"}[width]:
         raise ValueError(f"an accessor of type {str(accessor['type'])[:20]}")
     if "bufferView" in accessor:
@@ -255,7 +259,7 @@ def _with_sparse(
     scene: dict[str, Any], binary: memoryview, sparse: dict[str, Any], rows: NDArray[Any]
 ) -> NDArray[Any]:
     """The rows with the sparse ones filled in."""
-    count = _whole(sparse["count"])
+    count = _checked_count(sparse["count"])
     if count > len(rows):
         raise ValueError("more sparse rows than rows")
     where = _rows(
@@ -276,11 +280,11 @@ def _rows(
 ) -> NDArray[Any]:
     """Rows of a buffer view, possibly with a stride; nothing is read beyond the view."""
     view = scene["bufferViews"][_index(given["bufferView"], scene["bufferViews"])]
-    if _whole(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only buffer 0 is in this file
+    if _checked_count(view["buffer"]) != 0 or "uri" in scene["buffers"][0]:  # only buffer 0 is in this file
         raise MeshError("has its data in another file, which is not read: export it as one GLB file")
-    start, size = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
-    offset, row = _whole(given.get("byteOffset", 0)), kind.itemsize * width
-    stride = _whole(view.get("byteStride", 0)) or row
+    start, size = _checked_count(view.get("byteOffset", 0)), _checked_count(view["byteLength"])
+    offset, row = _checked_count(given.get("byteOffset", 0)), kind.itemsize * width
+    stride = _checked_count(view.get("byteStride", 0)) or row
     if count == 0 or stride < row or start + size > len(binary) or offset + (count - 1) * stride + row > size:
         raise ValueError("an accessor reaches beyond its data")
     return np.ndarray((count, width), kind, binary, start + offset, (stride, kind.itemsize))
@@ -288,13 +292,13 @@ def _rows(
 
 def _index(value: Any, among: list[Any]) -> int:
     """Check a number that refers to an item of a list."""
-    number = _whole(value)
+    number = _checked_count(value)
     if number >= len(among):
         raise ValueError(f"it names number {number:,} of {len(among):,}")
     return number
 
 
-def _whole(value: Any) -> int:
+def _checked_count(value: Any) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**32:
         raise ValueError("an invalid count")
     return value

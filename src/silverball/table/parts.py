@@ -10,8 +10,8 @@ player's right, and the origin is the centre of the board. Lengths are in table 
 angles in degrees, counter-clockwise as the player sees the board, from +z (right) towards +x (up).
 
 A constructor refuses unknown names and values out of range with pydantic's `ValidationError`, a `ValueError`.
-`replace` makes a changed copy. Whether the parts fit together is checked by `check_table`. Other words for
-the same things: flipper for paddle, bumper for cylinder, drain for gutter, nudge for jitter.
+`replace` makes a changed copy. Whether the parts fit together is checked by `check_table`. Other words in
+use: flipper for paddle, bumper for cylinder, drain for gutter, nudge for jitter.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from pydantic import (
     model_validator,
 )
 
-from silverball.table.quantity import COORDINATE, POINT, Count, Interval, Quantity, Several, refuse, shown
+from silverball.table.quantity import COORDINATE, POINT, Count, FixedList, Interval, Quantity, refuse, shown
 
 __all__ = [
     "Arcade",
@@ -57,7 +57,7 @@ SineCosine: TypeAlias = Callable[[float], tuple[float, float]]
 """The sine and the cosine of an angle [rad]."""
 
 _Place = Annotated[Point, POINT]
-_Corners = Annotated[Triangle, Several(POINT, 3, "[[x, z], [x, z], [x, z]]")]
+_Corners = Annotated[Triangle, FixedList(POINT, 3, "[[x, z], [x, z], [x, z]]")]
 _Restitution = Annotated[float, Quantity(0.0, 1.0)]
 _Falloff = Annotated[float, Quantity(0.0, 10.0, "s/u")]
 _SpeedFactor = Annotated[float, Quantity(0.1, 3.0)]
@@ -269,14 +269,14 @@ class Paddle(_Part):
 
 
 class PrismSurface(Model):
-    """How a triangular prism bounces a ball: it slows it down."""
+    """The surface of a triangular prism, which slows a ball down."""
 
     restitution: _Restitution = 0.8
     """Restitution at a slow contact."""
     restitution_falloff: _Falloff = 0.0
     """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
     speed_factor: _SpeedFactor = 0.85
-    """At a hit, the whole velocity after the bounce is multiplied by this: less than 1 slows it down."""
+    """At a hit, the whole velocity after the bounce is multiplied by this; below 1 it slows the ball."""
     points: _Points = 50
     """Points for a hit."""
 
@@ -301,19 +301,19 @@ class TriangularPrism(PrismSurface, _Part):
 
     @model_validator(mode="after")
     def _one_shape(self) -> Self:
-        turned = "rotation" in self.model_fields_set
+        has_rotation = "rotation" in self.model_fields_set
         given = [
             key
             for key, is_given in (
                 ("vertices", self.vertices is not None),
-                ("center", self.center is not None or self.size is not None or turned),
+                ("center", self.center is not None or self.size is not None or has_rotation),
                 ("mesh", self.mesh is not None),
             )
             if is_given
         ]
-        ways = "`vertices`, or `center` with `size` and `rotation`, or `mesh`"
+        forms = "`vertices`, or `center` with `size` and `rotation`, or `mesh`"
         if len(given) != 1:
-            refuse(f"needs exactly one of {ways}, got {' and '.join(given) if given else 'none of them'}")
+            refuse(f"needs exactly one of {forms}, got {' and '.join(given) if given else 'none of them'}")
         if given == ["center"] and (self.center is None or self.size is None):
             refuse(
                 f"needs `{'center' if self.center is None else 'size'}` too: an equilateral prism has both"
@@ -360,14 +360,14 @@ class TriangularPrism(PrismSurface, _Part):
 
 
 class CylinderSurface(Model):
-    """How a cylinder bounces a ball: it speeds it up."""
+    """The surface of a cylinder, which speeds a ball up."""
 
     restitution: _Restitution = 0.9
     """Restitution at a slow contact."""
     restitution_falloff: _Falloff = 0.0
     """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
     speed_factor: _SpeedFactor = 1.25
-    """At a hit, the whole velocity after the bounce is multiplied by this: more than 1 speeds it up."""
+    """At a hit, the whole velocity after the bounce is multiplied by this; above 1 it boosts the ball."""
     points: _Points = 100
     """Points for a hit."""
 
@@ -384,11 +384,11 @@ class Cylinder(CylinderSurface, _Part):
 
     @model_validator(mode="after")
     def _one_shape(self) -> Self:
-        drawn = [key for key in ("center", "radius") if getattr(self, key) is not None]
-        if self.mesh is not None and drawn:
-            refuse(f"needs either `mesh` or `center` and `radius`, got mesh and {' and '.join(drawn)}")
-        if self.mesh is None and len(drawn) < 2:
-            missing = " and ".join(f"`{key}`" for key in ("center", "radius") if key not in drawn)
+        given = [key for key in ("center", "radius") if getattr(self, key) is not None]
+        if self.mesh is not None and given:
+            refuse(f"needs either `mesh` or `center` and `radius`, got mesh and {' and '.join(given)}")
+        if self.mesh is None and len(given) < 2:
+            missing = " and ".join(f"`{key}`" for key in ("center", "radius") if key not in given)
             refuse(f"needs {missing}: a cylinder has `center` and `radius`, or a `mesh`")
         return self
 
@@ -422,7 +422,7 @@ class Cylinder(CylinderSurface, _Part):
         return ((x, z), (x, z), (x, z)), radius
 
 
-StandingPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
+StationaryPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
 """A part that does not move."""
 
 PART_KINDS: dict[str, type[SlantWall | Paddle | TriangularPrism | Cylinder]] = {
@@ -445,7 +445,7 @@ class RandomRecipe(Model):
     """[u] circumradius of a prism, [least, greatest]."""
     cylinder_radius: Annotated[tuple[float, float], Interval(Quantity(0.1, 5.0, "u"))] = (0.5, 0.7)
     """[u] radius of a cylinder, [least, greatest]."""
-    area: Annotated[tuple[Point, Point], Several(POINT, 2, "[[x, z], [x, z]]")] = ((-2.0, -4.0), (8.5, 4.0))
+    area: Annotated[tuple[Point, Point], FixedList(POINT, 2, "[[x, z], [x, z]]")] = ((-2.0, -4.0), (8.5, 4.0))
     """[u] the rectangle for the centres: its lower left and its upper right corner."""
     gap: Annotated[float, Quantity(0.0, 10.0, "u")] = 0.9
     """[u] least free space between the bounding circles of two obstacles; more than a ball."""
@@ -477,7 +477,8 @@ class Arcade(Model):
     """Balls of a game. With three the reflex player lasts for two minutes."""
     ball_save: Annotated[float, Quantity(0.0, 60.0, "s")] = 5.0
     """[s] a ball that is lost within this time of its start is returned to the player; 0: never. A second
-    ball launched beside the first is not. Choose a little less than an unplayed ball lasts (about 8 s)."""
+    ball launched while the first is in play is not. Choose a little less than an unplayed ball lasts (about
+    8 s)."""
     ball_saves: Annotated[int, Count(0, 9, "times")] = 1
     """How often the same ball is returned; with 1 a returned ball is not saved again."""
     combo_window: Annotated[float, Quantity(0.0, 10.0, "s")] = 1.0

@@ -29,15 +29,15 @@ PLACES = 64  # random places tried for one obstacle in one layout
 LAYOUTS = 500  # layouts started before giving up
 BOARDS = 20  # finished layouts that may fail the checks before giving up
 ROUNDING = 1e-9  # [u] by which the rules are met more strictly, so that rounding cannot break them
-_DECIMALS = 3  # of lengths [u] in a generated table
+_DECIMALS = 3  # decimals of the lengths [u] in a generated table
 
-# The trial of a recipe spends a tenth of the effort that a game may spend on a board, so that luck decides
-# nothing: a recipe of which one layout in a hundred can be played passes the trial and fails later with a
-# chance of 4 in a million; for every other share the chance is less.
+# The trial of a recipe spends a tenth of the effort that a game may spend on a board, so that the
+# result does not depend on luck: a recipe of which one layout in a hundred can be played passes the trial and
+# fails later with a chance of 4 in a million; for every other share the chance is less.
 TRIAL_SHARE = 10
-TRIAL_SEEDS = 8  # that must each make a board
-FEW_TRIAL_SEEDS = 2  # where a board costs up to a second
-MANY_PARTS = 100  # from which it does
+TRIAL_SEEDS = 8  # each of these seeds must make a board
+FEW_TRIAL_SEEDS = 2  # for tables of which one board takes up to a second
+MANY_PARTS = 100  # with this many parts or more it does
 
 
 class _Placed(NamedTuple):
@@ -89,7 +89,7 @@ def try_recipe(table: Table) -> list[Problem]:
     """
     if table.random is None:
         return []
-    for seed in range(TRIAL_SEEDS if len(table.standing_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
+    for seed in range(TRIAL_SEEDS if len(table.stationary_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
         try:
             board_of(table, seed, layouts=LAYOUTS // TRIAL_SHARE, boards=BOARDS // TRIAL_SHARE)
         except TableError as error:
@@ -101,7 +101,7 @@ def try_recipe(table: Table) -> list[Problem]:
 def _prepare(table: Table) -> _Prepared:
     """Prepare a recipe, once for all seeds."""
     assert table.random is not None
-    around = Surroundings.of(table.board, table.standing_parts, table.paddle)
+    around = Surroundings.of(table.board, table.stationary_parts, table.paddle)
     return _Prepared(table, table.random, around, np.array(allowed_rotations(table.random)))
 
 

@@ -16,10 +16,10 @@ import numpy as np
 
 from silverball.errors import Problem
 from silverball.table.geometry import Floats, Shapes, border_gaps, distances
-from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StandingPart
+from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StationaryPart
 from silverball.table.reach import PASSAGE
 
-EDGE_ANGLE = 10  # [deg] of every edge of a placed prism from both axes
+EDGE_ANGLE = 10  # [deg] least angle between an edge of a placed prism and an axis
 _TRIALS = 48  # sample points along each side of the area
 
 # Angles are drawn as integers, in tenths of a degree: exact, and readable in the file.
@@ -45,7 +45,7 @@ class Surroundings(NamedTuple):
     def of(
         cls,
         board: Board,
-        parts: Sequence[StandingPart],
+        parts: Sequence[StationaryPart],
         paddles: Sequence[Paddle],
     ) -> Surroundings:
         """Return the surroundings made of some parts and paddles."""
@@ -87,7 +87,7 @@ def allowed_rotations(recipe: RandomRecipe) -> list[float]:
 
 def recipe_problems(
     board: Board,
-    parts: Sequence[StandingPart],
+    parts: Sequence[StationaryPart],
     paddles: Sequence[Paddle],
     recipe: RandomRecipe,
 ) -> list[Problem]:

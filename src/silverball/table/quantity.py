@@ -26,7 +26,7 @@ SHOWN = 40  # characters of a refused value in a message; chosen to keep it on o
 
 
 def shown(value: object) -> str:
-    """Return a value as it stands in a message: as TOML would write it, and short."""
+    """Format a value for a message: as TOML would write it, and short."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, dict):
@@ -54,7 +54,7 @@ class Rule(ABC):
 
     @abstractmethod
     def check(self, value: Any) -> Any:
-        """Return the canonical value, or refuse with what was expected and what was given."""
+        """Return the canonical value, or refuse with a sentence: what was expected, what was given."""
 
     @abstractmethod
     def json_schema(self) -> JsonSchemaValue:
@@ -129,7 +129,7 @@ class Count(Rule):
 
 
 @dataclass(frozen=True)
-class Several(Rule):
+class FixedList(Rule):
     """A list of a fixed length with one rule for its items: a point, a triangle, an area.
 
     Attributes:
@@ -162,15 +162,15 @@ class Interval(Rule):
 
     def check(self, value: Any) -> tuple[float, float]:
         """Return the two bounds, in order."""
-        low, high = Several(self.item, 2, "[least, greatest]").check(value)
+        low, high = FixedList(self.item, 2, "[least, greatest]").check(value)
         if low > high:
             refuse(f"must be written [least, greatest], got {shown(value)}: swap the two")
         return low, high
 
     def json_schema(self) -> JsonSchemaValue:
         """Return the schema of an array of two numbers."""
-        return Several(self.item, 2, "[least, greatest]").json_schema()
+        return FixedList(self.item, 2, "[least, greatest]").json_schema()
 
 
 COORDINATE = Quantity(-100.0, 100.0, "u")
-POINT = Several(COORDINATE, 2, "[x, z]")
+POINT = FixedList(COORDINATE, 2, "[x, z]")

@@ -1,7 +1,7 @@
 """Reachability: where a ball can be on the board, and where one may be created.
 
 The places of a ball's centre are sampled on a square grid. A sample is free if a ball there touches no
-border, no standing part and no paddle at rest. It is reached if it is eight-connected to the gutter. A
+border, no stationary part and no paddle at rest. It is reached if it is eight-connected to the gutter. A
 passage is found if it is wider than a ball by about 0.45 ball radii; `check.py` refuses narrower ones, so for
 a checked table the result is exact.
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 CELL = 1.25  # [ball radii] side of a cell in which a ball may be created
 SAMPLES = 4  # samples along each side of a cell
+NEAR_SAMPLES = 4  # samples around a point that count as near it, in each direction
 STEP = CELL / SAMPLES  # [ball radii] between two samples
 PASSAGE = (
     math.sqrt(2.0) * STEP
@@ -75,10 +76,12 @@ class Space(NamedTuple):
     reached: Bools
 
     def reaches(self, point: tuple[float, float]) -> bool:
-        """Return whether a way leads from the gutter to a place, within four steps."""
+        """Return whether a point is within a few samples of one that leads to the gutter."""
         row = round((point[0] - float(self.grid.x[0])) / self.grid.step) if len(self.grid.x) else 0
         column = round((point[1] - float(self.grid.z[0])) / self.grid.step)
-        rows, columns = slice(max(0, row - 4), max(0, row + 5)), slice(max(0, column - 4), max(0, column + 5))
+        rows, columns = (
+            slice(max(0, index - NEAR_SAMPLES), max(0, index + NEAR_SAMPLES + 1)) for index in (row, column)
+        )
         return bool(self.reached[rows, columns].any())
 
     def places(self) -> tuple[Floats, float]:
@@ -115,16 +118,16 @@ def ball_places(table: Table) -> tuple[Floats, float]:
         The centres of the cells (x, z) [u], shape [cell, 2], row by row from the paddles to the top, each
         from left to right; and the side of a cell [u].
     """
-    return space(table.board, table.paddle, [part.outline() for part in table.standing_parts]).places()
+    return space(table.board, table.paddle, [part.outline() for part in table.stationary_parts]).places()
 
 
-def space(board: Board, paddles: tuple[Paddle, ...], standing: list[Outline]) -> Space:
-    """Return the free space for a ball between the standing parts and the paddles at rest."""
+def space(board: Board, paddles: tuple[Paddle, ...], stationary: list[Outline]) -> Space:
+    """Return the free space for a ball between the stationary parts and the paddles at rest."""
     grid = Grid.of(board, paddles)
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in paddles]
     margin = board.wall_thickness + board.ball_radius
     free = np.outer(grid.x <= 0.5 * board.length - margin, np.abs(grid.z) <= 0.5 * board.width - margin)
-    for core, radius in [*standing, *resting]:
+    for core, radius in [*stationary, *resting]:
         _block(free, grid, core, radius + board.ball_radius)
     return Space(grid, free, _connected_to_first_row(free))
 

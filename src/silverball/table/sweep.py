@@ -18,9 +18,9 @@ import numpy as np
 from silverball.table.geometry import Floats, border_gaps, core_distances, distances, paddle_cores
 from silverball.table.parts import Board, Paddle, Triangle
 
-CLEARANCE = 0.02  # [u] that a turning paddle must leave; chosen: far above rounding, far below a ball
-FINEST = 1e-4  # [u] least motion that is still bisected
-CACHED = 256  # cached results; the boards of a recipe share their standing parts
+CLEARANCE = 0.02  # [u] least gap to a turning paddle; chosen: far above rounding, far below a ball
+MIN_MOTION = 1e-4  # [u] least motion that is still bisected
+CACHED = 256  # cached results; the boards of a recipe share their stationary parts
 SPLITS = 40  # halvings at most; from 170° and a reach of 10 u, twenty are enough
 
 
@@ -31,7 +31,7 @@ def sweep_angles(paddle: Paddle) -> tuple[float, float]:
 
 @functools.lru_cache(maxsize=CACHED)
 def touches_shape(paddle: Paddle, core: Triangle, radius: float) -> float | None:
-    """Return an angle [deg] at which a paddle is too close to a standing part, or None."""
+    """Return an angle [deg] at which a paddle is too close to a stationary part, or None."""
     other = np.array(core)
     if float(distances(np.array(paddle.pivot), other)) - radius > paddle.reach + CLEARANCE:
         return None
@@ -68,7 +68,7 @@ def touches_paddle(first: Paddle, second: Paddle) -> tuple[float, float] | None:
             worst = int(np.argmin(gap))
             return float(middle[worst, 0]), float(middle[worst, 1])
         motion = np.radians(half) * reach
-        open_ = (gap - motion.sum(axis=1) < CLEARANCE) & (motion.sum(axis=1) > FINEST)
+        open_ = (gap - motion.sum(axis=1) < CLEARANCE) & (motion.sum(axis=1) > MIN_MOTION)
         if not open_.any():
             return None
         low, high, middle, wider = low[open_], high[open_], middle[open_], np.argmax(motion[open_], axis=1)
@@ -90,7 +90,7 @@ def _nearest_below(paddle: Paddle, gap_at: Callable[[Floats], Floats]) -> float 
         if (gap < CLEARANCE).any():
             return float(middle[np.argmin(gap)])
         motion = np.radians(half) * paddle.reach
-        open_ = (gap - motion < CLEARANCE) & (motion > FINEST)
+        open_ = (gap - motion < CLEARANCE) & (motion > MIN_MOTION)
         if not open_.any():
             return None
         low, high, middle = low[open_], high[open_], middle[open_]

@@ -1,8 +1,8 @@
 """A whole table: the model `Table`, and the checks that make one of data.
 
-Tables from files and changed copies (`Table.replace`) take the same way: the data are validated, meshes are
-replaced by their footprints, the layout is checked, and a recipe is tried out. A constructor alone validates
-the fields and nothing else, so that strange boards can be tried; `check_table` says what is wrong with one.
+Tables from files and changed copies (`Table.replace`) go through the same steps: the data are validated,
+meshes are replaced by their footprints, the layout is checked, and a recipe is tried out. A constructor
+validates the fields only, so that unusual boards are possible; `check_table` lists the problems of one.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from silverball.table.parts import (
     Paddle,
     RandomRecipe,
     SlantWall,
-    StandingPart,
+    StationaryPart,
     TriangularPrism,
 )
 from silverball.table.placement import try_recipe
@@ -38,7 +38,7 @@ MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
 
 _MeshPart: TypeAlias = TriangularPrism | Cylinder
 
-# Without these a layout cannot be measured; chosen to be what `check` needs to know of a board.
+# Without these a layout cannot be measured; these are what `check` needs to know about a board.
 _MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
 
 
@@ -81,7 +81,7 @@ class Table(Model):
     """The rules of an arcade game."""
 
     @property
-    def standing_parts(self) -> tuple[StandingPart, ...]:
+    def stationary_parts(self) -> tuple[StationaryPart, ...]:
         """The parts that do not move: slant walls, triangular prisms, cylinders, in this order."""
         return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
 
@@ -91,7 +91,7 @@ class Table(Model):
         return any(part.mesh for part in self.triangular_prism) or any(part.mesh for part in self.cylinder)
 
     def resolved(self) -> Table:
-        """The same table with the footprints of its meshes, so that it needs no other file.
+        """Return the table with the footprints of its meshes, so that it needs no other file.
 
         Raises:
             TableError: A mesh cannot be read or used.
@@ -150,11 +150,11 @@ def check_table(table: Table) -> list[Problem]:
 
 
 def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = None) -> Table:
-    """Make a table of the data of a table file, with every check.
+    """Make a table from the data of a table file, with every check.
 
     Args:
         data: The sections of the file; a section may be a dict or a model.
-        source: What to call it in messages.
+        source: The name of the data in messages.
         folder: Where meshes are looked for; the current folder by default.
 
     Raises:
@@ -188,12 +188,12 @@ def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = No
 
 
 def _merged(model: BaseModel, changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The data of a model, as its section of a file holds them, with changes merged into it."""
+    """Return the data of a model, as in a table file, with changes merged into them."""
     data = model.model_dump(exclude_defaults=True)
     for key, value in changes.items():
-        now = getattr(model, key, None) if key in type(model).model_fields else None
-        if isinstance(value, Mapping) and isinstance(now, BaseModel):
-            data[key] = _merged(now, value)
+        current = getattr(model, key, None) if key in type(model).model_fields else None
+        if isinstance(value, Mapping) and isinstance(current, BaseModel):
+            data[key] = _merged(current, value)
         else:
             data[key] = _plain_data(value)
     return data
@@ -222,11 +222,11 @@ def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | N
     # Each remaining key is valid, but perhaps not together with the default of an invalid one (`rolling`
     # needs `friction`), so the board is built without validation.
     board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
-    left: dict[str, list[tuple[str, Any]]] = {}
+    valid: dict[str, list[tuple[str, Any]]] = {}
     for kind, model in PART_KINDS.items():
         usable = (kind,) not in broken
         bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
-        left[kind] = [
+        valid[kind] = [
             (f"{kind}[{index}]", model.model_validate(item))
             for index, item in enumerate(data.get(kind, []) if usable else [])
             if index not in bad
@@ -234,7 +234,7 @@ def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | N
     recipe = None
     if "random" in data and not any(place[0] == "random" for place in broken):
         recipe = RandomRecipe.model_validate(data["random"])
-    parts = {f"{kind}s": tuple(left[kind]) for kind in PART_KINDS}
+    parts = {f"{kind}s": tuple(valid[kind]) for kind in PART_KINDS}
     return Layout(board=board, random=recipe, **parts)
 
 
@@ -260,7 +260,7 @@ def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem
         place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
         return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
 
-    def solid(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
+    def with_footprints(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
         kept: list[tuple[str, _MeshPart]] = []
         for path, part in parts:
             found = part if part.mesh is None else resolved(part)
@@ -271,6 +271,7 @@ def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem
         return tuple(kept)
 
     whole = layout._replace(
-        triangular_prisms=solid(layout.triangular_prisms), cylinders=solid(layout.cylinders)
+        triangular_prisms=with_footprints(layout.triangular_prisms),
+        cylinders=with_footprints(layout.cylinders),
     )
     return whole, problems

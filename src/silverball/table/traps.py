@@ -10,7 +10,7 @@ every border. A crossing is a pocket if
     a ball can get there (`Space.reaches`), and
     the way out over the lower part climbs higher than the hops that every touch leaves.
 
-On a single round top a ball can only balance, which is not a trap. Paddles are at rest here: a ball that only
+A ball can only balance on a single round top, which is not a trap. Paddles are at rest here: a ball that only
 a paddle can free would lie there forever in an unplayed game.
 """
 
@@ -86,7 +86,7 @@ def pockets(shapes: Shapes, board: Board, space: Space) -> list[Pocket]:
     found: list[Pocket] = []
     for ball in balls:
         if space.reaches((float(ball[0]), float(ball[1]))):
-            pocket = _held(ball, shapes, board)
+            pocket = _pocket_at(ball, shapes, board)
             if pocket is not None:
                 found.append(pocket)
     return found
@@ -106,7 +106,7 @@ def _gaps(balls: Floats, shapes: Shapes, board: Board) -> Floats:
     return np.concatenate([to_shapes, border_gaps(balls, board) - board.ball_radius], axis=1)
 
 
-def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
+def _pocket_at(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
     """The pocket made of the contacts that hold a ball at a place, or None."""
     gaps = _gaps(ball[None, :], shapes, board)[0]
     contacts: list[tuple[float, int]] = []  # (angle of the normal to the right [rad], shape)
@@ -137,7 +137,7 @@ def _held(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
 def _crossings(shapes: Shapes, board: Board) -> Floats:
     """The places where a ball touches two shapes and overlaps nothing, [ball, 2].
 
-    The lowest first, and each once: overlapping walls cross in the same places.
+    Sorted from the lowest up, without duplicates: overlapping walls cross in the same places.
     """
     if len(shapes.radius) == 0:
         return np.empty((0, 2))

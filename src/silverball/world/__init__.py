@@ -1,4 +1,4 @@
-"""Tables in motion: `World` (one), `WorldBatch` (thousands), and `Snapshot` (saved worlds)."""
+"""Simulated tables: `World` (one), `WorldBatch` (thousands), and `Snapshot` (saved worlds)."""
 
 from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState

@@ -1,4 +1,4 @@
-"""Checks of arguments: integers in a range, seeds, and the ways to choose some of many worlds."""
+"""Checks of arguments: integers in a range, seeds, and selections of worlds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-LARGEST_SEED = 2**63 - 1
+MAX_SEED = 2**63 - 1
 
 Index = int | slice | Sequence[int] | ArrayLike | None
 """Which worlds: None (all), one number, a slice, a list of numbers, or a mask bool [world]."""
@@ -32,11 +32,11 @@ def checked_seeds(seed: int | Sequence[int], count: int) -> list[int]:
         ValueError: A seed is invalid, or there is not one for each world.
     """
     if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
-        first = checked_int("seed", seed, 0, LARGEST_SEED - count + 1)
+        first = checked_int("seed", seed, 0, MAX_SEED - count + 1)
         return [first + index for index in range(count)]
     if isinstance(seed, (bool, float, str)) or seed is None:
         raise ValueError(f"seed must be an integer from 0 to 2⁶³ − 1, or one for each world, got {seed!r}")
-    seeds = [checked_int("seed", value, 0, LARGEST_SEED) for value in seed]
+    seeds = [checked_int("seed", value, 0, MAX_SEED) for value in seed]
     if len(seeds) != count:
         raise ValueError(f"seed must be one integer or {count} of them, one for each world, got {len(seeds)}")
     return seeds

@@ -28,7 +28,7 @@ from silverball.world.snapshot import Snapshot, gather, scatter
 from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
-SMALLEST_SLICE = 512  # world-ticks; a smaller slice costs more to hand out than to run
+MIN_SLICE = 512  # world-ticks; a smaller slice costs more to schedule than to run
 CHUNK = 2**16  # world-ticks per thread and call, some 50 ms; Python notices Ctrl-C between two calls
 
 
@@ -43,7 +43,7 @@ class WorldBatch:
         tables: The finished tables; worlds on the same table share one.
         board_of: The number of each world's table in `tables`, int64 [world].
         tallies: Hits of every part since the batch was made, int64 [world, part]; statistics, not state.
-            `part_numbers` says which column is whose.
+            `part_numbers` gives the column of each part.
         boards: The compiled tables, for kernels (see `silverball.world.compile`).
         logs: LOG records, shape [world], for kernels; `events` reads them.
 
@@ -85,13 +85,13 @@ class WorldBatch:
         tick_rate = checked_int("tick_rate", tick_rate, 10, 100_000)
         threads = cores() if threads is None else checked_int("threads", threads, 1, 4096)
         seeds = checked_seeds(seed, count)
-        tables, board_of = _finished(table, seeds, count)
+        tables, board_of = _finished_tables(table, seeds, count)
         boards = compile_tables(tables)
         state = blank_worlds(boards, board_of)
         state["seed"] = seeds
-        self._hold(tables, boards, state, board_of, tick_rate, threads)
+        self._set_attributes(tables, boards, state, board_of, tick_rate, threads)
 
-    def _hold(
+    def _set_attributes(
         self,
         tables: tuple[Table, ...],
         boards: Boards,
@@ -120,18 +120,18 @@ class WorldBatch:
 
     @property
     def lanes(self) -> Lanes:
-        """What changes in the worlds, as kernels take it."""
+        """The arrays that a step changes, bundled for kernels."""
         return Lanes(self.state, self.board_of, self.logs, self.tallies)
 
     @property
     def geometries(self) -> BatchGeometry:
-        """What the worlds move through, as kernels take it."""
+        """The compiled boards of the worlds, bundled for kernels."""
         return BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
 
     def step(self, actions: ArrayLike, ticks: int = 1) -> None:
         """Advance every world by a number of ticks.
 
-        Ctrl-C ends a long call within a fraction of a second; all worlds then stand at the end of the same
+        Ctrl-C ends a long call within a fraction of a second; all worlds are then at the end of the same
         tick, as after a shorter call.
 
         Args:
@@ -154,18 +154,17 @@ class WorldBatch:
         self.step_unchecked(held, ticks)
 
     def step_unchecked(self, held: NDArray[np.bool_], ticks: int) -> None:
-        """Do what `step` does without its checks.
+        """Advance every world, without the checks of `step`.
 
         Args:
             held: The actions, a C-contiguous bool array [1 or ticks, world, 3].
-            ticks: The number of ticks; a negative one continues the call before: events are kept, and a
-                single row shoves no ball again.
+            ticks: The number of ticks; a negative one continues the previous call: events are kept, and a
+                single row does not shove again.
         """
         if ticks > 1 and ticks > (chunk := CHUNK * self.threads // self.count or 1):
             self._step_in_chunks(held, ticks, chunk)
             return
-        lanes = Lanes(self.state, self.board_of, self.logs, self.tallies)
-        geometries = BatchGeometry(self.boards.board, self.boards.collider, self.boards.grid)
+        lanes, geometries = self.lanes, self.geometries
         self.on_threads(
             lambda first, end: run_worlds(lanes, geometries, held, first, end, ticks, 1.0 / self.tick_rate),
             self.count * abs(ticks),
@@ -189,7 +188,7 @@ class WorldBatch:
                 the last.
             work: The cost of all worlds [world-ticks].
         """
-        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // SMALLEST_SLICE)
+        slices = min(self.count, self.threads * SLICES_PER_THREAD, work // MIN_SLICE)
         if self.threads == 1 or slices < 2:
             task(0, self.count)
             return
@@ -204,7 +203,7 @@ class WorldBatch:
 
         Returns:
             Where a ball was created, bool [world]. A world that has `max_balls`, no free place or a fault
-            stays as it is.
+            is not changed.
 
         Raises:
             ValueError: The mask has another shape.
@@ -265,7 +264,7 @@ class WorldBatch:
         return gather(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
 
     def restore(self, snapshot: Snapshot, index: Index = None) -> None:
-        """Go back to saved states, bit for bit; each world then stands on the table it was saved on.
+        """Restore saved states, bit for bit; each world is then on the table it was saved on.
 
         Record i of the snapshot goes into the i-th chosen world, a single record into all of them:
         ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches share the seed, so
@@ -335,7 +334,7 @@ def _create_balls(
             outcomes[index] = create_ball(worlds[index], board, colliders, places, logs[index])
 
 
-def _finished(
+def _finished_tables(
     table: Table | str | os.PathLike[str] | Sequence[Table], seeds: list[int], count: int
 ) -> tuple[tuple[Table, ...], NDArray[np.int64]]:
     """The distinct finished tables of a batch, and the number of each world's table, int64 [world]."""

@@ -9,7 +9,7 @@ and a collider row name a part by this number.
     part_numbers     the number of each part, without compiling
 
 Tables from files and from the generator have passed `check_table`. A table made in Python is not checked, so
-that strange boards can be tried; only parts without an extent are refused.
+that unusual boards are possible; only parts without an extent are refused.
 """
 
 from __future__ import annotations
@@ -49,9 +49,9 @@ SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
 FIRST_GRID_SIZE = 1024  # numbers for a board's grid at first; most need fewer
 TINY = 1e-300  # least divisor
 FAR = 1e9  # [u] place of a paddle that the table does not have, out of every ball's reach
-NAMES_OF_FIRST_PARTS = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
+FIRST_PART_NAMES = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
 PADDLES = ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right"))
-SAME_NAMES = (
+SHARED_FIELDS = (
     "ball_radius", "ball_restitution", "friction", "gravity", "gutter", "hit_speed", "jitter", "max_balls",
     "speed_cap",
 )  # fmt: skip
@@ -118,13 +118,13 @@ def compile_parts(table: Table) -> NDArray[Any]:
         TableError: A part has no extent, or two paddles are on one side.
     """
     _refuse_degenerate(table)
-    rows = records(Part.FIRST_SHAPE + len(table.standing_parts), COLLIDER)
+    rows = records(Part.FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
     rows["speed_factor"] = 1.0
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
     for number, side in PADDLES:
         _set_paddle(rows[number], paddles.get(side))
-    for row, part in zip(rows[Part.FIRST_SHAPE :], table.standing_parts, strict=True):
+    for row, part in zip(rows[Part.FIRST_SHAPE :], table.stationary_parts, strict=True):
         if isinstance(part, SlantWall):
             _set_slant_wall(row, part, table.board)
         elif isinstance(part, TriangularPrism):
@@ -139,7 +139,7 @@ def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
     kinds = ("slant_wall", "triangular_prism", "cylinder")
     return (
-        *NAMES_OF_FIRST_PARTS,
+        *FIRST_PART_NAMES,
         *(f"{kind}[{index}]" for kind in kinds for index in range(len(getattr(table, kind)))),
     )
 
@@ -176,8 +176,8 @@ def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
 
 
 def _set_board(row: Any, board: Board) -> None:
-    """Set what a board says of itself, and the greatest acceleration that a flight on it can have."""
-    for name in SAME_NAMES:
+    """Set the fields of a board, and the bound on the acceleration of flights on it."""
+    for name in SHARED_FIELDS:
         row[name] = getattr(board, name)
     row["accel_x"], row["accel_z"] = 0.0 - board.gravity, 0.0  # not −0.0
     row["curvature"] = 1.0 / board.ball_radius
@@ -223,7 +223,7 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
 
 
 def _search_time(board: Any) -> float:
-    """How far ahead a search may look [s]; at low gravity, until a ball from rest has moved by the skin."""
+    """The longest time of a search [s]; at low gravity that in which a ball from rest moves by the skin."""
     if board["gravity"] >= LOW_GRAVITY:
         return SEARCH_TIME
     return min(math.sqrt(board["skin"] / max(board["max_accel"], TINY)), MAX_SEARCH_TIME)

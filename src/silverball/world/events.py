@@ -1,4 +1,4 @@
-"""What a caller sees of a world: balls, paddles and events as named tuples.
+"""The public view of a world: balls, paddles and events as named tuples.
 
 Positions are (x, y, z) [u]: x runs up the table, z to the player's right, y is the height of the board.
 """
@@ -110,7 +110,7 @@ def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
 
 def read_paddles(world: Any) -> tuple[PaddleState, PaddleState]:
     """Return the left and the right paddle of a WORLD record."""
-    left, right = (PaddleState(angle, turn) for angle, _, turn in world["paddle"].tolist())
+    left, right = (PaddleState(angle, velocity) for angle, _, velocity in world["paddle"].tolist())
     return left, right
 
 

@@ -74,7 +74,7 @@ class SingleStepper:
         self._step: Callable[[Any, int, int], int] = self._first_step
 
     def __reduce__(self) -> Any:
-        """Refuse to be copied: a copy would hold the addresses of the original's arrays."""
+        """Refuse copies: a copy would hold the addresses of the original's arrays."""
         raise TypeError("SingleStepper holds addresses and cannot be copied; copy the World that owns it")
 
     def step(self, buttons: int, ticks: int) -> int:
@@ -99,7 +99,7 @@ class SingleStepper:
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
         """Compile the step at the first call, and do it."""
-        self._step = step = bind_types(step_alone, addresses, buttons, ticks)
+        self._step = step = bind_types(step_single_world, addresses, buttons, ticks)
         fault: int = step(addresses, buttons, ticks)
         return fault
 
@@ -124,7 +124,7 @@ def _compiled_array_at(typing_context: Any, address: Any, shape: Any, dtype: Any
 
 
 def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Do the same without the compiler."""
+    """Make the same array without the compiler."""
     size = math.prod(shape) * dtype.itemsize
     memory: Any = (ctypes.c_char * size).from_address(int(address))
     array: NDArray[Any] = np.frombuffer(memory, dtype).reshape(shape)
@@ -135,7 +135,7 @@ array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_arr
 
 
 @kernel
-def step_alone(addresses: Any, buttons: int, ticks: int) -> int:
+def step_single_world(addresses: Any, buttons: int, ticks: int) -> int:
     """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
     at = addresses[0]
     worlds = array_at(at.world, (1,), WORLD)

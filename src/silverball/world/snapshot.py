@@ -112,7 +112,7 @@ class Snapshot:
         return cls(saved, tables, table_of, tick_rate)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """How `copy` and `pickle` make another."""
+        """Support `copy` and `pickle`."""
         return Snapshot.from_bytes, (bytes(self),)
 
 
@@ -172,23 +172,23 @@ def scatter(
         )
     if len(snapshot) > 1 and not isinstance(rows, slice) and np.bincount(rows).max() > 1:
         raise ValueError("the index names a world twice, which cannot take two records")
-    numbers = _numbers_here(snapshot, tables)
+    numbers = _local_numbers(snapshot, tables)
     worlds.view(WHOLE_RECORD)[rows] = snapshot.records.view(WHOLE_RECORD)
     table_of[rows] = numbers
     return rows
 
 
-def _numbers_here(snapshot: Snapshot, tables: tuple[str, ...]) -> NDArray[np.int64]:
+def _local_numbers(snapshot: Snapshot, tables: tuple[str, ...]) -> NDArray[np.int64]:
     """The number of each record's table among these tables, int64 [record]."""
     if snapshot.tables is tables or snapshot.tables == tables:
         return snapshot.table_of
     number_of = {table: number for number, table in enumerate(tables)}
     numbers = np.array([number_of.get(table, -1) for table in snapshot.tables], np.int64)
-    here = numbers[snapshot.table_of]
-    if here.size and here.min() < 0:
-        unknown = int((here < 0).sum())
+    local = numbers[snapshot.table_of]
+    if local.size and local.min() < 0:
+        unknown = int((local < 0).sum())
         raise StateError(
             f"{unknown} of the {len(snapshot)} records belong to a table that this batch does not have; "
             "make the batch with the tables that they were saved on"
         )
-    return here
+    return local

@@ -22,21 +22,21 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
-class _Work:
-    """Slices of work that threads take one after the other."""
+class _SliceQueue:
+    """Slices of worlds that threads take one after the other."""
 
     def __init__(self, task: Callable[[int, int], None], slices: Sequence[tuple[int, int]]) -> None:
         self._task = task
-        self._to_do = deque(slices)
-        self._open = [None] * len(slices)  # one item for each slice that is not done
+        self._pending = deque(slices)
+        self._unfinished = [None] * len(slices)  # one item for each slice that is not done
         self.errors: list[BaseException] = []
-        self.over = threading.Event()
+        self.done = threading.Event()
 
-    def work(self) -> None:
+    def run(self) -> None:
         """Run slices until none is left; the operations on the list and the deque are atomic."""
         while True:
             try:
-                slice_ = self._to_do.popleft()
+                slice_ = self._pending.popleft()
             except IndexError:
                 return
             try:
@@ -44,9 +44,9 @@ class _Work:
             except BaseException as error:  # raised again by the thread that waits
                 self.errors.append(error)
             finally:
-                self._open.pop()
-                if not self._open:
-                    self.over.set()
+                self._unfinished.pop()
+                if not self._unfinished:
+                    self.done.set()
 
 
 def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -> None:
@@ -58,22 +58,22 @@ def run_on_threads(task: Any, slices: Sequence[tuple[int, int]], threads: int) -
     if code not in _compiled:
         task(0, 0)  # no world: its kernel is compiled here, where it can be interrupted
         _compiled.add(code)
-    work = _Work(task, slices)
+    queue = _SliceQueue(task, slices)
     interruption: BaseException | None = None
-    while not work.over.is_set():
+    while not queue.done.is_set():
         try:
             for _ in range(min(threads, len(slices))):
-                thread_pool(threads).submit(work.work)
-            while not work.over.wait(WAIT_SECONDS):
+                thread_pool(threads).submit(queue.run)
+            while not queue.done.wait(WAIT_SECONDS):
                 pass
         except RuntimeError:  # Python is shutting down: no new threads
-            work.work()
+            queue.run()
         except BaseException as error:
             interruption = error
     if interruption is not None:
         raise interruption
-    if work.errors:
-        raise work.errors[0]
+    if queue.errors:
+        raise queue.errors[0]
 
 
 @cache

@@ -32,7 +32,7 @@ from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
 from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
 
-MEASURES = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
+BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
 COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
 
@@ -90,7 +90,7 @@ class World:
         return _rebuild, arguments
 
     def copy(self) -> World:
-        """Make another world in the same state, which from then on is independent.
+        """Make an independent world in the same state.
 
         Example:
             >>> import silverball as sb
@@ -107,7 +107,7 @@ class World:
     def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
         """Advance the world by a number of ticks.
 
-        Ctrl-C ends a long call within a fraction of a second; the world then stands at the end of a tick, as
+        Ctrl-C ends a long call within a fraction of a second; the world is then at the end of a tick, as
         after a shorter call.
 
         Args:
@@ -180,7 +180,7 @@ class World:
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """What happened since the step before the last one ended, in order.
+        """The events since the end of the step before the last one, in order.
 
         These are the balls created before the last step, what happened in that step, and the balls created
         since. So a loop that reads after each step sees every event once. A step holds at most 64 events,
@@ -302,7 +302,7 @@ class World:
         return saved_world.pack(self._record, self._batch.boards.digests[0], self.tick_rate)
 
     def restore(self, state: bytes) -> None:
-        """Go back to a saved state, bit for bit.
+        """Restore a saved state, bit for bit.
 
         The events are dropped. Two overlapping balls in an edited state are moved apart equally. On any error
         nothing has changed.
@@ -335,7 +335,7 @@ class World:
         return self._batch.boards.grid
 
     def _step_in_chunks(self, buttons: int, ticks: int) -> int:
-        """Play all but the last chunk of a step; returns the rest, as `run_worlds` takes it."""
+        """Play all but the last chunk of a step; return the remaining ticks for `run_worlds`."""
         sign = 1
         while ticks > CHUNK_TICKS and not self._stepper.step(buttons, sign * CHUNK_TICKS):
             ticks, sign = ticks - CHUNK_TICKS, -1
@@ -344,7 +344,7 @@ class World:
     def clearance(self, x: float, z: float) -> float:
         """Return the smallest gap [u] between a ball centred at (x, z) and any part.
 
-        Paddles count as they stand now, other balls do not. Negative inside a part.
+        Paddles are taken at their present angles, other balls are ignored. Negative inside a part.
         """
         return float(clearance(self._record, *self._static, x, z)[0])
 
@@ -398,10 +398,10 @@ class World:
         if record["fault"] not in Fault.__members__.values():
             raise StateError(f"the state has an unknown fault, number {record['fault']}")
         if record["fault"]:
-            return  # a stopped world does not move; its state is shown as it is
+            return  # a stopped world does not move, so its state need not be possible
         if any((record[name] < 0).any() for name in COUNTS):
             raise StateError("the state holds a negative count")
-        rows = [*balls[list(MEASURES)].tolist(), *record["paddle"].tolist()]
+        rows = [*balls[list(BALL_FIELDS)].tolist(), *record["paddle"].tolist()]
         if not all(math.isfinite(number) for row in rows for number in row):
             raise StateError("the state holds a number that is not finite")
         ids = balls["id"][balls["id"] != 0]
@@ -435,7 +435,7 @@ def _rebuild(table: Table, seed: int, tick_rate: int, state: bytes, tallies: NDA
 
 
 def _pair(name: str, value: Any, middle: float) -> tuple[float, float]:
-    """Return (x, z) from two finite numbers, or from three of which y has the only value possible."""
+    """Return (x, z) from two finite numbers, or from three with y = `middle`."""
     try:
         numbers = [float(number) for number in value]
     except (TypeError, ValueError):

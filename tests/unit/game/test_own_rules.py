@@ -129,7 +129,7 @@ def test_other_rules_of_the_same_name_give_another_game():
 def test_verifying_without_the_right_rules_says_which_are_needed():
     own, built_in = played(Streak()).replay, sb.Game(CLASSIC).replay
     for replay, rules, message in (
-        (own, None, r"rules of its own, 'streak 1'; .*replay.verify\(rules=…\)"),
+        (own, None, r"custom rules, 'streak 1'; .*replay.verify\(rules=…\)"),
         (own, Walls(), "by the rules 'streak 1', not by 'walls'"),
         (built_in, Walls(), "by the built-in rules, not by 'walls'"),
     ):
@@ -171,13 +171,13 @@ def test_a_game_with_own_rules_never_enters_the_score_lists(tmp_path: Path):
     game = played(Streak())
     text = game.replay.to_text()
     with Store(tmp_path) as store:
-        with pytest.raises(sb.SilverballError, match="rules of its own"):
+        with pytest.raises(sb.SilverballError, match="custom rules"):
             store.add_score("ABC", game.score, "arcade", "Classic", "digest", game.seed, text)
         assert store.scores() == []
         row = store.add_score("ABC", 5, "arcade", "Classic", "digest", 1, sb.Game(CLASSIC).replay.to_text())
         forged = store.score(row)
     claim: Score = forged._replace(score=game.score, seed=game.seed)
-    assert verify_score(claim, text) == (False, "its replay is of a game with rules of its own, 'streak 1'")
+    assert verify_score(claim, text) == (False, "its replay is of a game with custom rules, 'streak 1'")
 
 
 def test_the_built_in_rules_write_what_they_always_wrote():

@@ -128,7 +128,7 @@ def test_a_score_saved_under_the_last_initials_is_renamed(store):
 def test_marks_persist_and_can_be_undone(store):
     number, other = add(store, 10), add(store, 20)
     for mark in ((False, "its replay reaches 9"), (True, ""), (None, "")):
-        store.mark({number: mark})
+        store.save_verdicts({number: mark})
         assert (store.score(number).verified, store.score(number).why) == mark
         assert store.score(other).verified is None
 
@@ -136,14 +136,14 @@ def test_marks_persist_and_can_be_undone(store):
 def test_a_mark_for_a_removed_score_is_ignored(store):
     number, removed = add(store, 10), add(store, 20)
     store.remove(removed)
-    store.mark({removed: (True, ""), number: (True, "")})
+    store.save_verdicts({removed: (True, ""), number: (True, "")})
     assert [(score.id, score.verified) for score in store.scores()] == [(number, True)]
 
 
 def test_a_rejected_score_ranks_below_all_others_and_blocks_none(store):
     points = [90, 80, 70, 60]
     ids = {score: add(store, score) for score in points}
-    store.mark({ids[90]: (False, "why"), ids[70]: (True, ""), ids[80]: (False, "why")})
+    store.save_verdicts({ids[90]: (False, "why"), ids[70]: (True, ""), ids[80]: (False, "why")})
     assert [score.score for score in store.scores()] == [70, 60, 90, 80]
     for score in (95, 85, 65, 5):
         expected = sum(other >= score for other in (70, 60)) + 1

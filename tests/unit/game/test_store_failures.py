@@ -37,7 +37,7 @@ def assert_play_goes_on(store: Store) -> None:
     number = add(store, 123_456)
     assert store.high_score_rank(123_457, "arcade", "d" * 64) == 1
     store.rename(number, "NEW")
-    store.mark({number: (True, "")})
+    store.save_verdicts({number: (True, "")})
     store.save_last_game("last")
     store.save_settings({"volume": 2})
     assert store.scores()[0][:3] == (number, "NEW", 123_456)

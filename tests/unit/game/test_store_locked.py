@@ -368,7 +368,7 @@ def test_a_blocking_store_that_waited_in_vain_says_so_in_a_sentence(folder, monk
                 ask()
             assert len(str(error.value).splitlines()) == 1
     with Store(folder) as store, held(folder / FILE):
-        for change in (lambda: store.remove(1), lambda: store.mark({1: (True, "")})):
+        for change in (lambda: store.remove(1), lambda: store.save_verdicts({1: (True, "")})):
             with pytest.raises(SilverballError, match="another program holds it; try again"):
                 change()
         add(store, 15)  # what cannot be done again is not lost

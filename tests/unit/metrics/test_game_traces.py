@@ -13,10 +13,10 @@ from silverball.metrics.game_traces import (
     GAME,
     ON_PADDLE,
     REACTION,
+    REACTION_JITTER,
+    REMEMBERED_TICKS,
     STAY,
     TICK_RATE,
-    UNSTEADY,
-    WISH_TICKS,
     Over,
     beginner_presses,
     play_games,
@@ -117,17 +117,17 @@ def test_a_part_is_reached_at_most_once_per_strike() -> None:
 
 def test_the_beginner_presses_a_reaction_time_after_the_ball_could_be_seen_coming() -> None:
     world = World(TABLE, 3, TICK_RATE)
-    wishes = np.zeros((2, WISH_TICKS), np.bool_)
-    wished, pressed = [], []
+    decisions = np.zeros((2, REMEMBERED_TICKS), np.bool_)
+    decided, pressed = [], []
     world.create_ball((-1.5, -1.2), (-9.0, 0.0))  # falls onto the outer half of the left paddle
     for tick in range(TICK_RATE):
         record, board, colliders = world.records
-        buttons = beginner_presses(record, board, colliders, wishes, 1.0 / TICK_RATE)
-        wished += [tick] * bool(wishes[0, tick % WISH_TICKS])
+        buttons = beginner_presses(record, board, colliders, decisions, 1.0 / TICK_RATE)
+        decided += [tick] * bool(decisions[0, tick % REMEMBERED_TICKS])
         pressed += [tick] * bool(buttons[0])
         world.step(*(bool(button) for button in buttons))
-    late = (pressed[0] - wished[0]) / TICK_RATE
-    assert REACTION[0] - UNSTEADY - 1.0 / TICK_RATE <= late <= REACTION[1] + UNSTEADY
+    late = (pressed[0] - decided[0]) / TICK_RATE
+    assert REACTION[0] - REACTION_JITTER - 1.0 / TICK_RATE <= late <= REACTION[1] + REACTION_JITTER
 
 
 def test_the_worlds_and_their_tallies_are_restored_after_the_games() -> None:

@@ -105,8 +105,8 @@ def test_a_file_of_other_code_or_of_no_soak_is_refused(short_rounds, tmp_path) -
 def test_a_soak_of_a_hopeless_solver_ends_and_writes_some_of_its_findings(
     short_rounds, monkeypatch, tmp_path
 ) -> None:
-    monkeypatch.setattr("silverball.soak.campaign.ENOUGH", 3)
-    monkeypatch.setattr("silverball.soak.campaign.MOST_FILES", 2)
+    monkeypatch.setattr("silverball.soak.campaign.MAX_FINDINGS", 3)
+    monkeypatch.setattr("silverball.soak.campaign.MAX_FILES", 2)
     monkeypatch.setattr(soak_module, "WorldBatch", Holed)
     log = soak(options_of(worlds=6), 10**9, tmp_path / "soak.json")
     assert sum(log.totals.found.values()) >= 3

@@ -321,10 +321,10 @@ def random_clutter(seed):
 
 
 def exact_pockets(table):
-    standing = [part.outline() for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
+    stationary = [part.outline() for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
     resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in table.paddle]
-    shapes = Shapes.of(standing + resting)
-    where = space(table.board, table.paddle, standing)
+    shapes = Shapes.of(stationary + resting)
+    where = space(table.board, table.paddle, stationary)
     return where, pockets(shapes, table.board, where)
 
 

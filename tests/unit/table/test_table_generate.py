@@ -131,7 +131,7 @@ def test_a_recipe_may_be_named_or_given():
     assert generate_table(7) == generate_table(7, "random") == generate_table(7, RECIPE)
 
 
-def test_a_recipe_may_be_a_file_and_keeps_its_standing_parts(tmp_path):
+def test_a_recipe_may_be_a_file_and_keeps_its_stationary_parts(tmp_path):
     crowded = CLASSIC.model_copy(
         update={
             "cylinder": CLASSIC.cylinder[:1],

@@ -12,7 +12,7 @@ CLASSIC = load_table("classic")
 
 
 def is_free(table, points):
-    """Whether a ball at each point touches no border and no standing part."""
+    """Whether a ball at each point touches no border and no stationary part."""
     radius = table.board.ball_radius
     free = border_gaps(points, table.board).min(axis=-1) >= radius - 1e-12
     for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder):

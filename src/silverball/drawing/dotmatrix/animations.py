@@ -30,9 +30,8 @@ BALL = picture(
 """A ball, 9 × 9 dots."""
 HALF_BALL = BALL.shape[0] // 2
 
-GOLDEN = (
-    0.6180339887  # the fractional parts of its multiples are spread evenly: sparks without random numbers
-)
+GOLDEN = 0.6180339887
+"""The fractional parts of its multiples are spread evenly: sparks without random numbers."""
 
 
 def draw_ball(dots: Dots, x: float, y: float) -> None:

@@ -117,13 +117,13 @@ class Dots:
         window: tuple[int, int] = (0, WIDTH),
     ) -> None:
         """Set the dots of a mask, shape [row, column], whose upper left dot is at (x, y)."""
-        here, there = _overlap(mask.shape, x, y, window)
-        self.pixels[here][mask[there]] = brightness
+        target, source = _overlap(mask.shape, x, y, window)
+        self.pixels[target][mask[source]] = brightness
 
     def sprite(self, levels: Levels, x: int, y: int) -> None:
         """Blend a small picture at (x, y) into this one; the brighter dot wins."""
-        here, there = _overlap(levels.shape, x, y, (0, WIDTH))
-        self.pixels[here] = np.maximum(self.pixels[here], levels[there])
+        target, source = _overlap(levels.shape, x, y, (0, WIDTH))
+        self.pixels[target] = np.maximum(self.pixels[target], levels[source])
 
     def dot(self, x: int, y: int, brightness: int = FULL) -> None:
         """Set one dot."""
@@ -135,8 +135,8 @@ class Dots:
         count = max(abs(x1 - x0), abs(y1 - y0)) + 1
         x = np.rint(np.linspace(x0, x1, count)).astype(np.int64)
         y = np.rint(np.linspace(y0, y1, count)).astype(np.int64)
-        there = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
-        self.pixels[y[there], x[there]] = brightness
+        is_inside = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
+        self.pixels[y[is_inside], x[is_inside]] = brightness
 
     def box(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
         """Fill a rectangle."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 Glyph: TypeAlias = NDArray[np.bool_]
 """The dots of a character, true where lit, shape [row, column]."""
 
-RASTER_SIZE = 200  # [pixel] of the letters that are rasterized
+RASTER_SIZE = 200  # [pixel] size of the letters that are rasterized
 FULL_COVER = 255  # alpha of a pixel that a letter covers
 LIT_COVER = 0.5  # share of a dot that a letter must cover to light it
 BELOW = 0.3  # how far a rasterized letter may reach below the baseline, in heights of a capital
@@ -135,7 +135,7 @@ def _box(width: int, height: int, thickness: int) -> Glyph:
 
 _fonts = _load(Path(__file__).with_name("fonts.txt"))
 TINY = _fonts["tiny"]
-"""3 × 5 dots, capitals only: for what is of little importance."""
+"""3 × 5 dots, capitals only: for minor texts."""
 NORMAL = _fonts["normal"]
 """5 × 7 dots, with small letters: for all texts."""
 BOLD = _fonts["bold"]

@@ -17,7 +17,7 @@ AMBER: Color = (255, 140, 24)
 GLASS: Color = (12, 8, 6)
 BEZEL: Color = (34, 32, 38)
 
-RADIUS = 0.43  # of a dot, in spacings; at 0.5 neighbours would touch
+RADIUS = 0.43  # radius of a dot, in spacings; at 0.5 neighbours would touch
 UNLIT = 0.075  # light of a dot that is off: a plasma display is never quite dark
 BLOOM = 0.26  # light between the dots if the whole neighbourhood is lit
 HOT = 0.42  # how far the centre of the brightest dot goes from its colour to white
@@ -26,7 +26,7 @@ GAMMA = 0.8  # raises dim dots, which look darker beside unlit ones
 LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
 MIN_SPACING = 4.0  # [pixel]; dots with less are drawn larger and shrunk
 WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels if that leaves this share of the size
-BEZEL_SHARE = 0.03  # of the height, on each side, at least
+BEZEL_SHARE = 0.03  # least width of the bezel, by the height
 
 
 class DotPanel:
@@ -67,9 +67,8 @@ class DotPanel:
     def draw(self, target: pygame.Surface, dots: Dots) -> None:
         """Draw dots with the bezel around them; unchanged dots are only copied."""
         if self._face.get_masks() != target.get_masks() or self._face.get_bitsize() != target.get_bitsize():
-            self._face = self._face.convert(
-                target
-            )  # once, because surfaces of the same format are copied fastest
+            # Once, because surfaces of the same format are copied fastest
+            self._face = self._face.convert(target)
         if self._shown is None or not np.array_equal(self._shown, dots.pixels):
             self._shown = dots.pixels.copy()
             self._light(dots.pixels)

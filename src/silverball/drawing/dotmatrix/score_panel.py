@@ -40,9 +40,8 @@ class ScorePanel:
     def draw(self, target: pygame.Surface, moment: Moment, dots: Dots | None = None) -> None:
         """Draw the panel with the given dots, or with the moment's score."""
         if self._frame.get_masks() != target.get_masks() or self._frame.get_bitsize() != target.get_bitsize():
-            self._frame = self._frame.convert(
-                target
-            )  # once, because surfaces of the same format are copied fastest
+            # Once, because surfaces of the same format are copied fastest
+            self._frame = self._frame.convert(target)
         target.blit(self._frame, self.area)
         self._panel.draw(target, self._score(moment.score) if dots is None else dots)
 

@@ -25,7 +25,7 @@ from silverball.drawing.kernels.tones import (
 from silverball.physics.kernel import inlined, internal
 
 RAYS = 22
-EMBLEM_AT = -0.05  # of the board's length, from the centre: where the rays meet
+EMBLEM_AT = -0.05  # x at which the rays meet, by the board's length
 EMBLEM_SIZE = 0.105  # radius of the emblem by the board's width
 
 

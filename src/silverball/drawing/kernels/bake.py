@@ -20,9 +20,9 @@ from silverball.drawing.kernels.surfaces import surface_of
 from silverball.drawing.kernels.tones import RGB, add_scaled, scale, tone_map
 from silverball.physics.kernel import inlined, internal, kernel
 
-CONTRAST = 0.045  # of neighbours, 0 to 1, above which a pixel gets more rays
-FINE = 4  # rays of such a pixel
-FLASH = 2.6  # how much brighter a part glows that has just been hit
+CONTRAST = 0.045  # difference of neighbours, 0 to 1, above which a pixel gets more rays
+FINE = 4  # rays per pixel then
+FLASH = 2.6  # factor of the glow of a part that has just been hit
 
 
 class Canvas(NamedTuple):
@@ -66,7 +66,7 @@ def _ray_direction(s: StageRecord, across: float, down: float) -> tuple[float, f
 
 @internal
 def _trace_pixel(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
-    """Return what is seen at a point of the picture: its light, its height, its number."""
+    """Trace the ray through a point of the picture: the light, the height, the number of the part."""
     s = scene.stage[0]
     dx, dy, dz = _ray_direction(s, across, down)
     t, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)

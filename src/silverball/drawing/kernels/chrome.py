@@ -29,7 +29,7 @@ def cast_shadow(
     """Darken what a ball (x, z, radius) [u] shades; its shadow climbs onto raised parts.
 
     The ray from a point to the lamp passes the ball's centre at distance q after a path t; the edge of the
-    shadow is the softer, the farther the ball. Under the ball the light from everywhere is gone too:
+    shadow is softer the farther away the ball is. Under the ball the ambient light is blocked too:
     a sphere covers (n·u)·r²/d² of the sky, d its distance and u its direction.
     Source: I. Quilez, "sphere ambient occlusion" and "sphere soft shadow", 2006 and 2014.
     """

@@ -10,7 +10,7 @@ from silverball.drawing.kernels.solids import apron_distance, cell_at, part_dist
 from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 
-STEPS = 72  # of a ray at most
+STEPS = 72  # upper limit of steps of a ray
 GAP = 0.0012  # [u] at which a ray has arrived; 1/15 pixel of a picture 1152 pixels high
 SHADOW_STEPS = 22
 SHADOW_SHARPNESS = 9.0  # of the penumbra: higher values give harder shadows
@@ -52,11 +52,11 @@ def trace(
         at_x, at_z = x + floor * dx, z + floor * dz
         is_inside = abs(at_x) < s.half_length + s.rail and abs(at_z) < s.half_width + s.rail
         if is_inside and floor < limit:
-            end, there = floor, FLOOR
+            end, end_part = floor, FLOOR
         else:
-            end, there = min(limit, (BELOW * s.unit - y) / dy), ROOM
+            end, end_part = min(limit, (BELOW * s.unit - y) / dy), ROOM
     else:
-        end, there = limit, ROOM
+        end, end_part = limit, ROOM
         if dy > 0.0:
             end = min(end, (s.top - y) / dy)
     for _ in range(STEPS):
@@ -65,7 +65,7 @@ def trace(
             return t, part
         t += gap
         if t >= end:
-            return end, there
+            return end, end_part
     return t, part
 
 
@@ -73,8 +73,8 @@ def trace(
 def lamp_visibility(scene: Scene, x: float, y: float, z: float) -> float:
     """Return how much of the lamp is visible from a point, 0 to 1, with soft shadows.
 
-    A ray to the lamp that passes a part at distance d, after a path t, is dimmed to about k·d/t: the
-    farther the part, the softer its shadow. Source: I. Quilez, "soft shadows in raymarched SDFs", 2010.
+    A ray to the lamp that passes a part at distance d, after a path t, is dimmed to about k·d/t, so
+    the shadow of a farther part is softer. Source: I. Quilez, "soft shadows in raymarched SDFs", 2010.
     """
     s = scene.stage[0]
     light, t = 1.0, 0.03 * s.unit

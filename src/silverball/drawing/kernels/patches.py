@@ -1,7 +1,7 @@
 """Layers of a frame: kernels that blend paddles, light and spots into rectangles of its pixels.
 
-A frame is RGB, uint8 [row, column, 3]; beside it lies the height [u] of what each pixel shows, float32
-[row, column]. Rectangles are given by their first column and row and may hang over the frame's edge.
+A frame is RGB, uint8 [row, column, 3]; a second array holds the height [u] of what each pixel shows, float32
+[row, column]. Rectangles are given by their first column and row and may extend beyond the frame.
 """
 
 from __future__ import annotations

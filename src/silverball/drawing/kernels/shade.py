@@ -29,7 +29,7 @@ from silverball.physics.kernel import inlined, internal
 
 RING_AT = 0.27  # [u] from a cylinder to the ring of light around it
 RING_CORE = 0.032  # [u] half the width of its bright line
-MIRROR_REACH = 2.2  # [u] within which parts are mirrored in the lacquer
+MIRROR_REACH = 2.2  # [u] greatest distance at which parts are mirrored in the lacquer
 MAX_GRAZING = 0.25  # reflectance at grazing angles, beyond a surface's gloss
 FRONT = 0.20  # unshadowed light from the player's side, relative to the lamp
 
@@ -56,7 +56,7 @@ def radiance(scene: Scene, part: int, point: Vector, direction: Vector, pixel: f
     light = (light[0] + f.light[0], light[1] + f.light[1], light[2] + f.light[2])
     # It mirrors more at grazing angles. Source: C. Schlick, "An inexpensive BRDF model", 1994.
     grazing = clamp01(1.0 - toward)
-    # Limited, because far edges, one pixel wide, would flicker between sky and paint.
+    # Limited, because distant edges, one pixel wide, would flicker between sky and paint.
     share = f.gloss + min(1.0 - f.gloss, MAX_GRAZING) * grazing**5
     rx, ry, rz = dx + 2.0 * toward * f.nx, dy + 2.0 * toward * f.ny, dz + 2.0 * toward * f.nz
     if part == FLOOR:

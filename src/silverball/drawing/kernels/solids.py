@@ -5,7 +5,7 @@ edge rounded by r is
 
     d = |max(a + r, b + r, 0)| + min(max(a + r, b + r), 0) − r        (|…| of the two clipped components)
 
-which never exceeds the true distance, so a ray that advances by it passes through nothing. Bodies have no
+which never exceeds the true distance, so a ray that advances by it cannot pass through a body. Bodies have no
 underside: they continue below the playfield.
 """
 

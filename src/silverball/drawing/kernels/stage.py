@@ -36,10 +36,8 @@ CELL = 0.5  # [u] least side of a cell
 MAX_CELLS = 128  # along the longer side
 NEAR = 1.0  # [u] parts within this distance are listed in a cell, for marching
 HALO = 2.4  # [u] parts light up nothing farther away than this, for shading
-LIGHT = (
-    0.75,
-    0.66143782776614768,
-)  # towards the lamp: x and y of a unit vector; z is 0, so that both sides are lit alike
+LIGHT = (0.75, 0.66143782776614768)
+"""Direction to the lamp: x and y of a unit vector; z is 0, so that both sides are lit alike."""
 
 
 class Form(IntEnum):

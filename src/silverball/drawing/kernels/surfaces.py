@@ -39,7 +39,7 @@ from silverball.drawing.kernels.tones import (
 from silverball.physics.kernel import inlined, internal
 
 STEP = 0.004  # [u] between the points whose distances give a normal
-SPOKES = 8  # of a cap's star
+SPOKES = 8  # spokes of the star on a cap
 BOLT_SPACING = 2.4  # [u] between the bolts of the rails
 
 

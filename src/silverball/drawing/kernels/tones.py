@@ -32,7 +32,7 @@ def add_scaled(a: RGB, b: RGB, strength: float) -> RGB:
 
 @inlined
 def multiply(a: RGB, b: RGB) -> RGB:
-    """Return the product of each channel."""
+    """Multiply two colours channel by channel."""
     return a[0] * b[0], a[1] * b[1], a[2] * b[2]
 
 

@@ -1,8 +1,8 @@
 """Digests of a game: a short one for each group of fields, for every second, and a full one for the end.
 
 The state falls into groups that fail in different ways: a changed input shows in the paddles first, a changed
-rule in the rules alone. A short digest has two characters, 12 bits: one difference in 4,096 goes unseen in
-one second, and hardly any goes unseen for long.
+rule in the rules alone. A short digest has two characters, 12 bits: one difference in 4,096 is missed in
+one second, and hardly any is missed for long.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _PADDLES, _TICK, _SEED, _SCORE, _REST = (
 GROUPS = ("paddles", "random", "balls", "counts", "points", "rules")
 """In the order in which differences spread from one to the next."""
 
-CHARACTERS = 2  # of each group's digest
+CHARACTERS = 2  # length of the digest of a group
 
 
 def short_digests(record: bytes, rules: str) -> str:

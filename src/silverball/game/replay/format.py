@@ -1,8 +1,8 @@
 """Replays: a recorded game as an object, as text and as a file.
 
     silverball replay 1           the version of the format
-    program = 0.1.0               the version of Silverball that wrote it; then, on a line each, what must be
-    ...                           the same for the same game
+    program = 0.1.0               the version of Silverball that wrote it; then, one per line, everything that
+    ...                           decides the game
     --- table
     ...                           the table as a table file
     --- play
@@ -12,8 +12,8 @@
     ...
     checksum = 0a1b...            of all text before this line
 
-Format 2 has one more line before the table, `own_rules = NAME`, for games with rules that are not built in.
-`reader` reads text that may come from anywhere.
+Format 2 has one more line before the table, `own_rules = NAME`, for games with custom rules.
+`reader` reads and checks untrusted text.
 """
 
 from __future__ import annotations
@@ -33,7 +33,6 @@ from silverball.game.replay.reader import (
     TEXT_LIMIT,
     Reader,
     checksum,
-    has_mesh,
 )
 from silverball.game.replay.recording import FIRST, FORMAT, FORMAT_WITH_RULES
 from silverball.game.replay.verify import Verdict, verify
@@ -108,7 +107,7 @@ class Replay:
         from silverball import __version__
 
         return cls(
-            __version__, mode, without_meshes(world.table), world.seed, world.tick_rate,
+            __version__, mode, world.table.resolved(), world.seed, world.tick_rate,
             lines, tail, world.tick, score, ended, digest, rules,
         )  # fmt: skip
 
@@ -139,7 +138,7 @@ class Replay:
 
         Args:
             text: The text of `to_text`.
-            source: What to call it in messages, for example the name of its file.
+            source: Its name in messages, for example that of its file.
 
         Raises:
             StateError: The text is not a replay, is damaged, was changed, or is of another version.
@@ -186,18 +185,9 @@ class Replay:
             progress: Called after every second of play with the ticks so far.
 
         Returns:
-            The verdict, in words, too.
+            The verdict, which includes a sentence.
 
         Raises:
             StateError: The rules are missing, or are not those of the game.
         """
         return verify(self, progress, rules=rules)
-
-
-def without_meshes(table: Table) -> Table:
-    """The table with footprints in place of its mesh files, so that it needs no other file."""
-    if not has_mesh(table):
-        return table
-    prisms = tuple(part.resolved() for part in table.triangular_prism)
-    cylinders = tuple(part.resolved() for part in table.cylinder)
-    return table.model_copy(update={"triangular_prism": prisms, "cylinder": cylinders})

@@ -1,7 +1,7 @@
 """Playing a replay again: from its beginning or from any moment, as fast as the machine can.
 
-`ReplayPlayer` owns a game and gives it the recorded inputs. `seek` goes to any tick: the game is saved at
-intervals, so going back is quick however long the game was.
+`ReplayPlayer` owns a game and applies the recorded inputs to it. `seek` goes to any tick: the game is saved
+at intervals, so going back is quick however long the game was.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class InputRefusedError(SilverballError):
 
 
 class Playback:
-    """A game that gets the inputs of a replay.
+    """A game that is played with the inputs of a replay.
 
     Args:
         replay: The replay.
@@ -58,7 +58,7 @@ class Playback:
         return self.game.tick
 
     def advance(self, ticks: int = 1) -> None:
-        """Play on with the recorded inputs, at most to the end; there the game ends as it did.
+        """Advance with the recorded inputs, at most to the end; there the game ends as recorded.
 
         Raises:
             InputRefusedError: The game refused an input, so it is not the game that was recorded.
@@ -68,13 +68,13 @@ class Playback:
             self.finish()
 
     def play(self, ticks: int) -> None:
-        """Play on with the recorded inputs, without those that come after the last tick."""
+        """Advance with the recorded inputs, without those that come after the last tick."""
         rate = self.replay.tick_rate
         target = min(self.tick + max(ticks, 0), self.replay.ticks)
         while self.tick < target and not self.game.is_over:
             if self.tick // rate != self._second:
                 self._begin_second(self.tick // rate)
-            self._give_inputs()
+            self._apply_inputs()
             following = self._inputs[self._next].tick if self._next < len(self._inputs) else rate
             stop = min(target, self._second * rate + following)
             self.game.step(*self._held, ticks=stop - self.tick)
@@ -91,8 +91,8 @@ class Playback:
         line = lines[second].partition(" ")[2] if second < len(lines) else self.replay.tail
         self._second, self._inputs, self._next = second, list(parse_inputs(line)), 0
 
-    def _give_inputs(self) -> None:
-        """Give the game the inputs before its next tick."""
+    def _apply_inputs(self) -> None:
+        """Apply the inputs before the next tick of the game."""
         at = self.tick - self._second * self.replay.tick_rate
         while self._next < len(self._inputs) and self._inputs[self._next].tick == at:
             kind = self._inputs[self._next].kind
@@ -116,11 +116,11 @@ class Playback:
             raise InputRefusedError(f"tick {self.tick}: {what} was recorded, but {error}") from None
 
     def finish(self) -> None:
-        """Give the inputs that come after the last tick, and end the game as it ended."""
+        """Apply the inputs that come after the last tick, and end the game as recorded."""
         if self.tick == self.replay.ticks:
             if self.tick // self.replay.tick_rate != self._second:
                 self._begin_second(self.tick // self.replay.tick_rate)
-            self._give_inputs()
+            self._apply_inputs()
         self.at_end = True
         if self.replay.ended == "stopped":
             self.game.end()
@@ -151,7 +151,7 @@ class ReplayPlayer(Playback):
     def prepare(self, ticks: int) -> float:
         """Play some ticks ahead in the background, so that `seek` is quick up to there.
 
-        Call it now and then while something else is shown: an hour of play takes about a second in all.
+        Call it repeatedly while something else is shown: an hour of play takes about a second in all.
 
         Args:
             ticks: How many ticks, at most.
@@ -200,7 +200,7 @@ def check_rules(replay: Replay, rules: Rules | None) -> None:
         raise StateError(f"this replay was scored by the built-in rules, not by {given!r}; leave `rules` out")
     if not given:
         raise StateError(
-            f"this replay was scored by rules of its own, {replay.rules!r}; play it in Python and give them, "
+            f"this replay was scored by custom rules, {replay.rules!r}; play it in Python and pass them, "
             "as in replay.verify(rules=…)"
         )
-    raise StateError(f"this replay was scored by the rules {replay.rules!r}, not by {given!r}; give those")
+    raise StateError(f"this replay was scored by the rules {replay.rules!r}, not by {given!r}; pass those")

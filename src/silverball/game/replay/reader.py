@@ -1,8 +1,8 @@
-"""The reader of replays: it checks text from anywhere and refuses it in one sentence.
+"""The reader of replays: it checks untrusted text and refuses invalid text in one sentence.
 
-A refusal says the line, what was expected, what was found, and what to do. All sizes and counts have limits:
-reading takes time proportional to the length of the text, and so does playing, because every second of play
-has a line.
+An error message names the line, what was expected, what was found, and the remedy. All sizes and counts have
+limits: reading takes time proportional to the length of the text, and so does playing, because every second
+of play has a line.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from silverball.game.replay.recording import (
     TAIL,
     parse_inputs,
 )
-from silverball.game.rules import NAME_LIMIT, RULES_VERSION, is_own_name
+from silverball.game.rules import NAME_LIMIT, RULES_VERSION, is_custom_name
 from silverball.game.view import Mode
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.records import Fault
@@ -46,7 +46,7 @@ HEADER_KEYS = ("program", "physics", "rules", "mode", "seed", "tick_rate", "tabl
 RULES_KEY = "own_rules"
 HEADER_LINE = 2  # the first line of the header
 END_KEYS = ("ticks", "score", "ended", "digest", "checksum")
-AGAIN = "get the file again from where it was written"
+COPY_AGAIN = "copy the file again from where it was written"
 _NUMBER = re.compile(r"0|[1-9]\d{0,18}", re.ASCII)
 _HEX = re.compile(r"[0-9a-f]{64}", re.ASCII)
 
@@ -62,7 +62,7 @@ class Reader:
     """Reads one replay.
 
     Args:
-        source: What to call the text in messages.
+        source: The name of the text in messages.
         text: The text of the replay.
     """
 
@@ -126,19 +126,20 @@ class Reader:
     def _sections(self) -> tuple[_Section, _Section, _Section, _Section]:
         """The header, the table, the lines of play and the end."""
         starts = [1]
-        for mark in (TABLE, PLAY, END):
+        for heading in (TABLE, PLAY, END):
             try:
-                starts.append(self.lines.index(mark, starts[-1]) + 1)
+                starts.append(self.lines.index(heading, starts[-1]) + 1)
             except ValueError:
                 self.refuse(
-                    len(self.lines), f"the file is cut off or damaged: there is no line '{mark}'; {AGAIN}"
+                    len(self.lines),
+                    f"the file is cut off or damaged: there is no line '{heading}'; {COPY_AGAIN}",
                 )
         edges = [*starts, len(self.lines) + 1]
         head, table, play, end = (
             _Section(first + 1, self.lines[first : after - 1]) for first, after in pairwise(edges)
         )
         if len(end.text) < len(END_KEYS) + 1:
-            self.refuse(len(self.lines), f"the file is cut off: the last lines are missing; {AGAIN}")
+            self.refuse(len(self.lines), f"the file is cut off: the last lines are missing; {COPY_AGAIN}")
         if len(end.text) > len(END_KEYS) + 1 or end.text[-1]:
             line = end.first + len(END_KEYS)
             self.refuse(line, "there is more text after the checksum; remove it")
@@ -150,13 +151,14 @@ class Reader:
         match = re.fullmatch(r"checksum = ([0-9a-f]{32})", last, re.ASCII)
         if match is None:
             self.refuse(
-                line, f"expected 'checksum = ' and 32 hexadecimal digits, got {_shown(last)}; {AGAIN}"
+                line, f"expected 'checksum = ' and 32 hexadecimal digits, got {_shown(last)}; {COPY_AGAIN}"
             )
         body = "\n".join(self.lines[: line - 1]) + "\n"
         got = checksum(body)
         if match[1] != got:
             self.refuse(
-                line, f"the text was changed or damaged: expected checksum {match[1]}, got {got}; {AGAIN}"
+                line,
+                f"the text was changed or damaged: expected checksum {match[1]}, got {got}; {COPY_AGAIN}",
             )
 
     def _values(self, part: _Section, keys: tuple[str, ...]) -> list[str]:
@@ -165,11 +167,11 @@ class Reader:
         for number, key in enumerate(keys):
             line = part.text[number] if number < len(part.text) else ""
             if not line.startswith(f"{key} = "):
-                self.refuse(part.first + number, f"expected '{key} = …', got {_shown(line)}; {AGAIN}")
+                self.refuse(part.first + number, f"expected '{key} = …', got {_shown(line)}; {COPY_AGAIN}")
             values.append(line.removeprefix(f"{key} = "))
         if part.first == HEADER_LINE and len(part.text) > len(keys):
             extra = part.text[len(keys)]
-            self.refuse(part.first + len(keys), f"expected '{TABLE}', got {_shown(extra)}; {AGAIN}")
+            self.refuse(part.first + len(keys), f"expected '{TABLE}', got {_shown(extra)}; {COPY_AGAIN}")
         return values
 
     def _integer(self, part: _Section, number: int, value: str, least: int, most: int) -> int:
@@ -189,7 +191,7 @@ class Reader:
         return value
 
     def _own_rules(self, part: _Section, number: int, value: str) -> str:
-        if not is_own_name(value):
+        if not is_custom_name(value):
             expected = f"the name of rules, 1 to {NAME_LIMIT} printable characters that are not a mode"
             self.refuse(part.first + number, f"expected {expected}, got {_shown(value)}")
         return value
@@ -203,7 +205,7 @@ class Reader:
             self.refuse(
                 part.first,
                 f"{ticks} ticks need {full} lines{' and a last one' if rest else ''}, one for each second, "
-                f"got {len(lines)}; {AGAIN}",
+                f"got {len(lines)}; {COPY_AGAIN}",
             )
         tail = ""
         for number, line in enumerate(lines):
@@ -216,7 +218,7 @@ class Reader:
             self._check_inputs(part.first + number, inputs, rest if last else rate - 1)
             tail = inputs if last else ""
         if has_tail and not rest and not tail:
-            self.refuse(part.first + full, f"the last line is empty; {AGAIN}")
+            self.refuse(part.first + full, f"the last line is empty; {COPY_AGAIN}")
         return tuple(lines[:full]), tail
 
     def _check_inputs(self, line: int, inputs: str, last: int) -> None:
@@ -243,20 +245,15 @@ class Reader:
             self.refuse(part.first, f"the table is not valid TOML: {str(error)[:200]}")
         if table.random is not None:
             self.refuse(part.first, "the table is a recipe; a replay has the finished board")
-        if has_mesh(table):
+        if table.has_mesh:
             self.refuse(part.first, "the table names a mesh; a replay has its footprint instead")
         got = table_digest(table)
         if got != digest:
             self.refuse(
                 part.first,
-                f"this is not the table that was played: expected digest {digest}, got {got}; {AGAIN}",
+                f"this is not the table that was played: expected digest {digest}, got {got}; {COPY_AGAIN}",
             )
         return table
-
-
-def has_mesh(table: Table) -> bool:
-    """Whether a part of a table takes its shape from a mesh file."""
-    return any(part.mesh for part in table.triangular_prism) or any(part.mesh for part in table.cylinder)
 
 
 def checksum(body: str) -> str:

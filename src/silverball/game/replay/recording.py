@@ -3,10 +3,10 @@
     q3Zx0aKfB1Gg +c4kK2a
 
 A line begins with the digests of the state at the end of the second, two characters for each group of fields
-(see `digest`). The inputs of the second follow, if there are any. A letter is a change of a button: a small
-one of the left button, a capital one of the right button, down and up in turn. The letter also gives the
-ticks since the input before it: a 0, b 1, … z 25, and a number in front adds 26 each. The first input counts
-from the beginning of the second. `+` and `!` before a small letter make it a new ball and a shove.
+(see `digest`). The inputs of the second follow, if there are any. A letter is a change of a button, down and
+up in turn: lower case for the left button, upper case for the right one. The letter also gives the ticks
+since the previous input: a is 0, b is 1, … z is 25; a number in front of it adds 26 each. The first input
+counts from the beginning of the second. `+` before a lower-case letter is a new ball, `!` a shove.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 FIRST = "silverball replay"  # the first line of a replay, with the format
 FORMAT = 1
-FORMAT_WITH_RULES = 2  # has one more line in its header: the name of rules that are not built in
-MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000  # [1/s] of games: a recording counts ticks within a second
+FORMAT_WITH_RULES = 2  # with the name of custom rules in its header
+MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000  # [1/s] limits for games: a recording counts ticks within a second
 PLAY_LIMIT = 4_000_000  # characters of all lines: a day of lively play, or hours of a program
 SECONDS_LIMIT = 86_400  # longest game
 LETTERS = 26
@@ -46,7 +46,7 @@ def format_input(kind: str, ticks: int) -> str:
 
     Args:
         kind: The kind of input.
-        ticks: Ticks since the input before it.
+        ticks: Ticks since the previous input.
     """
     more, letter = divmod(ticks, LETTERS)
     first = "A" if kind == RIGHT else "a"
@@ -61,11 +61,11 @@ def parse_inputs(text: str) -> Iterator[Input]:
     """
     tick = 0
     for prefix, more, letter in _TOKEN.findall(text):
-        is_small = letter >= "a"
-        if more.startswith("0") or (prefix and not is_small):
+        is_lower = letter >= "a"
+        if more.startswith("0") or (prefix and not is_lower):
             raise ValueError(f"{prefix}{more}{letter}")
-        tick += LETTERS * int(more or 0) + ord(letter) - ord("a" if is_small else "A")
-        yield Input(tick, prefix or (LEFT if is_small else RIGHT))
+        tick += LETTERS * int(more or 0) + ord(letter) - ord("a" if is_lower else "A")
+        yield Input(tick, prefix or (LEFT if is_lower else RIGHT))
 
 
 class Recorder:
@@ -80,7 +80,7 @@ class Recorder:
         self.lines: list[str] = []
         self.inputs = ""
         self._tick_rate = tick_rate
-        self._last_tick = 0  # of the last input, or of the beginning of the second
+        self._last_tick = 0  # tick of the last input, or of the beginning of the second
         self._size = 0  # characters of all lines
 
     def add_input(self, tick: int, kind: str) -> None:
@@ -102,7 +102,7 @@ class Recorder:
         return len(self.lines) >= SECONDS_LIMIT or self._size + len(self.inputs) >= PLAY_LIMIT
 
 
-def has_own_rules(text: str) -> bool:
-    """Whether the text of a replay is of a game with rules that are not built in."""
+def has_custom_rules(text: str) -> bool:
+    """Whether the text of a replay is of a game with custom rules."""
     first_line = text.removeprefix("\ufeff").partition("\n")[0].rstrip("\r")
     return first_line == f"{FIRST} {FORMAT_WITH_RULES}"

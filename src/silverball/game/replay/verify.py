@@ -1,7 +1,7 @@
 """Verification of replays: play one and compare it with its record, or play two and find where they differ.
 
 `verify` compares the digests of every second and the end. `compare` plays two replays side by side and, in
-the second in which they first differ, tick by tick, so that it names the first tick, the field and both
+the second in which they first differ, tick by tick, so that it reports the first tick, the field and both
 values.
 """
 
@@ -110,7 +110,7 @@ def verify(
     for field, expected, got in ends:
         if expected != got:
             return _differs(game.score, equal_until, game.tick, field, expected, got)
-    return Verdict(True, game.score, game.tick, game.tick, message=_equal_words(replay))
+    return Verdict(True, game.score, game.tick, game.tick, message=_equal_message(replay))
 
 
 def compare(first: Replay, second: Replay) -> Verdict:
@@ -153,7 +153,7 @@ def compare(first: Replay, second: Replay) -> Verdict:
 
 
 def _advance(plays: tuple[Playback, Playback], ticks: int) -> list[str]:
-    """Play both on; returns for each the refusal of an input, or an empty text."""
+    """Advance both; return for each the refusal of an input, or an empty text."""
     refused = []
     for play in plays:
         try:
@@ -178,13 +178,13 @@ def _first_difference(plays: tuple[Playback, Playback], tick: int, refused: list
             values(other.world.records[0], other.rules_text),
             strict=False,
         )
-        for (field, mine), (path, its) in pairs:
-            if field != path or repr(mine) != repr(its):
+        for (field, expected), (path, got) in pairs:
+            if field != path or repr(expected) != repr(got):
                 name = field if field == path else f"{field} and {path}"
-                return _differs(one.score, tick, one.tick, name, repr(mine), repr(its))
+                return _differs(one.score, tick, one.tick, name, repr(expected), repr(got))
     if refused[0] != refused[1]:
-        mine, its = (text or "accepted" for text in refused)
-        return _differs(one.score, tick, one.tick, "inputs", mine, its)
+        expected, got = (text or "accepted" for text in refused)
+        return _differs(one.score, tick, one.tick, "inputs", expected, got)
     if plays[0].at_end != plays[1].at_end:
         ends = [f"{play.replay.ticks} ticks" for play in plays]
         return _differs(one.score, tick, one.tick, "ticks", *ends)
@@ -217,5 +217,5 @@ def _differs(score: int, tick: int, seen: int, field: str, expected: str, got: s
     return Verdict(False, score, tick, seen, field, expected, got, message)
 
 
-def _equal_words(replay: Replay) -> str:
+def _equal_message(replay: Replay) -> str:
     return f"equal in all {replay.ticks} ticks ({replay.seconds:.1f} s), score {replay.score}"

@@ -1,1 +1,1 @@
-"""High scores, settings and the last game: one SQLite file, and the proof that a score was played."""
+"""High scores, settings and the last game: one SQLite file, and the verification of scores."""

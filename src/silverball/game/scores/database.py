@@ -1,14 +1,14 @@
 """A database that never stops a game: one SQLite file, or memory where the file fails.
 
 A write that has returned survives a killed program and a power failure; several programs may use the file at
-once. Whatever is wrong with the file, the program goes on:
+once. The program continues whatever is wrong with the file:
 
-* A damaged file, or one of another program, is quarantined under another name and a new one begun.
+* A damaged file, or one of another program, is quarantined under another name, and a new one is created.
 * If the file cannot be written, or is newer than the program, a database in memory takes its place, with a
   copy of what can be read.
-* While another program has locked the file, `Locked` is raised after some patience, and nothing was done.
+* While another program has locked the file, `Locked` is raised after a timeout, and nothing is changed.
 
-`warning` says what happened, `is_persistent` whether anything will last.
+`warning` says what happened, `is_persistent` whether data outlives this run.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class Database:
         self.warning = ""
         self.is_persistent = self.has_read = True
         self._schema = schema
-        self._patience = BEGIN_SECONDS if nonblocking else BUSY_SECONDS
+        self._timeout = BEGIN_SECONDS if nonblocking else BUSY_SECONDS
         self._connection: sqlite3.Connection | None = None  # None: the file has been locked so far
         self._open()
         if nonblocking or self._connection is None:
@@ -120,7 +120,7 @@ class Database:
         return self._run(in_transaction)
 
     def _run(self, work: Callable[[sqlite3.Connection], _Result]) -> _Result:
-        """Run something in the file; if that fails, in a new file; if that fails, too, in memory."""
+        """Run something in the file; if that fails, in a new file; if that fails too, in memory."""
         self._check_file()
         was_reopened = False
         while True:
@@ -154,9 +154,9 @@ class Database:
                 raise Locked(self.path) from None
 
     def _stop_waiting(self) -> None:
-        """Do not wait for locks any more: after one wait in vain the caller asks again later."""
-        if self._patience:
-            self._patience = 0.0
+        """Do not wait for locks any more: after one timeout the caller retries later."""
+        if self._timeout:
+            self._timeout = 0.0
             if self._connection is not None:
                 self._connection.execute("PRAGMA busy_timeout = 0").fetchall()
 
@@ -181,15 +181,15 @@ class Database:
             self._connection.close()
             self._connection = None
         with suppress(Locked):
-            self._connection = self._connected()
+            self._connection = self._connect()
         self._identity = self._file_identity()
 
-    def _connected(self) -> sqlite3.Connection:
+    def _connect(self) -> sqlite3.Connection:
         """A connection to the file, to a new one if it is unfit, or else to memory."""
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             try:
-                return open_file(self.path, self._schema, self._patience)
+                return open_file(self.path, self._schema, self._timeout)
             except UnfitFile as unfit:
                 return self._quarantine(str(unfit))
         except NewerFile as newer:
@@ -208,10 +208,10 @@ class Database:
     def _quarantine(self, problem: str) -> sqlite3.Connection:
         """Rename an unfit file and begin a new one."""
         lock_path = self.path.with_suffix(".mending")
-        with closing(sqlite3.connect(lock_path, timeout=self._patience)) as lock:
+        with closing(sqlite3.connect(lock_path, timeout=self._timeout)) as lock:
             lock.execute("BEGIN EXCLUSIVE")  # two programs may find the damage at the same time
             with suppress(UnfitFile):
-                return open_file(self.path, self._schema, self._patience)
+                return open_file(self.path, self._schema, self._timeout)
             stem = f"{self.path.stem}-set-aside-{datetime.now(UTC):%Y-%m-%d-%H%M%S-%f}"
             for ending in ("-wal", "-shm", ""):  # the file itself last: an interruption only repeats this
                 with suppress(FileNotFoundError):
@@ -220,7 +220,7 @@ class Database:
             self._warn(
                 f"{self.path} {problem}; it is now called {stem}{self.path.suffix}, and a new one begins"
             )
-            return open_file(self.path, self._schema, self._patience)
+            return open_file(self.path, self._schema, self._timeout)
 
     def _in_memory(self, reason: str, readable: sqlite3.Connection | None) -> sqlite3.Connection:
         """A database in memory for this run, with a copy of what can be read."""
@@ -234,11 +234,13 @@ class Database:
         if readable is not None:
             for table, columns in self._schema.tables.items():
                 with suppress(sqlite3.DatabaseError):
-                    there = {row[1] for row in readable.execute(f"PRAGMA table_info({table})")}
-                    known = [column for column in columns if column in there]  # an older file has fewer
+                    existing = {row[1] for row in readable.execute(f"PRAGMA table_info({table})")}
+                    known = [column for column in columns if column in existing]  # an older file has fewer
                     rows = readable.execute(f"SELECT {', '.join(known)} FROM {table}")
-                    names, marks = ", ".join(known), ", ".join("?" * len(known))
-                    memory.executemany(f"INSERT OR IGNORE INTO {table} ({names}) VALUES ({marks})", rows)
+                    names, placeholders = ", ".join(known), ", ".join("?" * len(known))
+                    memory.executemany(
+                        f"INSERT OR IGNORE INTO {table} ({names}) VALUES ({placeholders})", rows
+                    )
         return memory
 
     def _warn(self, sentence: str) -> None:

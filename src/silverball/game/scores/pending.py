@@ -1,9 +1,9 @@
-"""Pending data: what cannot be written while another program holds the score file, spooled beside it.
+"""Pending data: what cannot be written while another program holds the score file, spooled to another one.
 
 Each program with pending data has a spool file `silverball-waiting-….json`, written whole and flushed to the
 disk with every change, so that nothing is lost if the program dies. The next program that can write the score
 file imports the spool: the same program or one that starts later. A spool may be imported twice, as after a
-crash between the import and the removal of the spool; each score has a token by which this is noticed.
+crash between the import and the removal of the spool; the token of each score detects this.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _INTEGER = Field(ge=-INTEGER_LIMIT, lt=INTEGER_LIMIT)
 
 
 class NewScore(BaseModel):
-    """A score that is to be kept, with everything that belongs to it.
+    """A score to be saved, with everything that belongs to it.
 
     Attributes:
         token: Identifies the score until it has a number.
@@ -93,7 +93,7 @@ class Spool:
             self.is_written = False
 
     def clear(self, *, keep_file: bool) -> None:
-        """Forget the pending data, which was imported.
+        """Discard the pending data, which was imported.
 
         Args:
             keep_file: Leave the spool file for the next start, because the import was not persistent.
@@ -119,7 +119,7 @@ class Spool:
                 os.rename(path, claimed)
                 content = claimed.read_bytes()
             except OSError:
-                continue  # another program was quicker
+                continue  # another program has claimed it first
             try:
                 yield claimed, Pending.model_validate_json(content)
             except ValidationError:

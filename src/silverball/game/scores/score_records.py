@@ -1,7 +1,7 @@
 """The records of the score file: its schema, the statements that write it, and scores read from its rows.
 
-Other programs can change the file, and SQLite stores a text where a number is expected. So reading trusts no
-type: a value that does not fit is replaced by a harmless one, and `Score.damage` says which it was.
+Other programs can change the file, and SQLite stores a text where a number is expected. So no type is
+trusted: a value that does not fit is replaced by a harmless one, and `Score.damage` says which it was.
 """
 
 from __future__ import annotations
@@ -87,8 +87,8 @@ class Score(NamedTuple):
         table_digest: The digest of that table.
         seed: The seed of the world and, if the table is a recipe, of the board.
         when: The time at which the game ended, UTC.
-        verified: The result of the last verification, see `verify_score`; None if there was none. This is a
-            note in the file, which other programs can write, too: only verifying again proves a score.
+        verified: The result of the last verification, see `verify_score`; None if there was none. It is only
+            a note in the file, which other programs can change; only verifying again proves a score.
         why: The reason why it was not proven.
         has_replay: Whether the file holds its replay.
         damage: What is wrong with its record; empty if nothing is.
@@ -148,7 +148,7 @@ class ScoreList(NamedTuple):
 
 
 def score_of(row: tuple[Any, ...]) -> Score:
-    """The score in a row of `COLUMNS`."""
+    """Make a score from a row of `COLUMNS`."""
     id, initials, score, mode, table_name, table_digest, seed, played, verified, why, has_replay = row
     damage = [
         f"its {name} is {_TYPES[type(value)]}"
@@ -169,8 +169,8 @@ def score_of(row: tuple[Any, ...]) -> Score:
             when = datetime.fromtimestamp(played, UTC)
         except (OverflowError, ValueError, OSError):
             damage.append("its date is beyond the calendar")
-    mark = None if verified is None or verified not in (0, 1) else bool(verified)
-    words = f"its record is damaged: {', '.join(damage)}" if damage else ""
+    was_proven = None if verified is None or verified not in (0, 1) else bool(verified)
+    problem = f"its record is damaged: {', '.join(damage)}" if damage else ""
     return Score(
         id,
         text_of(initials),
@@ -180,10 +180,10 @@ def score_of(row: tuple[Any, ...]) -> Score:
         text_of(table_digest),
         seed if type(seed) is int else 0,
         when,
-        False if words else mark,
-        words or text_of(why),
+        False if problem else was_proven,
+        problem or text_of(why),
         bool(has_replay),
-        words,
+        problem,
     )
 
 
@@ -211,7 +211,7 @@ def add(connection: sqlite3.Connection, one: NewScore) -> int:
 
 
 def import_pending(connection: sqlite3.Connection, pending: Pending) -> dict[str, int]:
-    """Import pending data; a score that was imported before only gets its new initials.
+    """Import pending data; of a score that was imported before, only the initials are updated.
 
     Returns:
         The numbers of the scores by their tokens.

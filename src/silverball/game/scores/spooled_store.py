@@ -1,4 +1,4 @@
-"""A store whose writes are spooled while another program holds its file, and whose reads are cached then."""
+"""A store that spools writes and caches reads while another program holds its file."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from silverball.game.scores.sqlite_file import INTEGER_LIMIT, Schema
 from silverball.game.user_folder import data_folder
 
 FILE = "silverball.sqlite3"
-CACHE_SIZE = 64  # query results that are given again while the file cannot be read
+CACHE_SIZE = 64  # query results that are reused while the file cannot be read
 CLOSE_RETRY_INTERVAL = 0.05  # [s] between two attempts to write at the end
 _PROBE = "SELECT 1 FROM setting LIMIT 1"  # fails if the file cannot be read
 _Result = TypeVar("_Result")
 
 
 class SpooledStore:
-    """The file of a store, with a spool for the time in which another program holds it.
+    """The file of a store, with a spool for the time during which another program holds it.
 
     Args:
         folder: The folder of the file; None: the data folder of the user.
         schema: The records of the file.
-        nonblocking: Never wait for another program, as a window must not: reads give the last result then.
-            Otherwise it is waited for, and reading fails in the end.
+        nonblocking: Never wait for another program, for use in a window: reads then return the last
+            result. Otherwise wait for it, and fail after a timeout.
     """
 
     def __init__(self, folder: Path | None, schema: Schema, *, nonblocking: bool) -> None:
@@ -59,7 +59,7 @@ class SpooledStore:
         """What the player should know, a line for each problem; empty if there is none."""
         locked = ""
         if not self._database.is_open:
-            locked = f"{self.path}: another program holds it; new scores and settings wait beside it"
+            locked = f"{self.path}: another program holds it; new scores and settings wait in another file"
         return "\n".join(filter(None, (self._database.warning, self._spool_warning, locked)))
 
     @property
@@ -95,13 +95,13 @@ class SpooledStore:
 
     @property
     def exit_warning(self) -> str:
-        """What to say about pending data when the program ends; empty if there is none."""
+        """A warning about pending data for the end of the program; empty if there is none."""
         if self._spool.pending.is_empty:
             return ""
         held = f"{self.path}: another program holds it"
         if self._spool.is_written:
             return f"{held}; what was played waits in {self._spool.path.name} for the next start"
-        return f"{held}, and nothing can be written beside it: what was played last is lost"
+        return f"{held}, and no other file can be written: what was played last is lost"
 
     def retry_pending(self) -> bool:
         """Write pending data into the file, if no other program holds it any more.
@@ -170,20 +170,22 @@ class SpooledStore:
                 raise _locked_error(locked) from None
             return spool()
 
-    def _read(self, query: str, values: tuple[Any, ...] = (), *, must: bool = False) -> list[tuple[Any, ...]]:
+    def _read(
+        self, query: str, values: tuple[Any, ...] = (), *, is_required: bool = False
+    ) -> list[tuple[Any, ...]]:
         """All rows of a query; while the file cannot be read, those of the last time.
 
         Args:
             query: SQL.
             values: The values of its placeholders.
-            must: Whether it is an error if the query was never answered; otherwise the answer is empty.
+            is_required: Whether a query that was never answered is an error; otherwise the result is empty.
         """
         key = (query, values)
         try:
             rows = self._database.read(query, values)
         except Locked as locked:
             self._has_missed_read = True
-            if not self._nonblocking or (must and key not in self._cache):
+            if not self._nonblocking or (is_required and key not in self._cache):
                 raise _locked_error(locked) from None
             return self._cache.get(key, [])
         if self._nonblocking:

@@ -1,6 +1,6 @@
 """SQLite files of one schema: opening, checking and migrating them, and reading those that cannot be written.
 
-There is nothing about scores in here; a `Schema` says which records a file holds.
+This module knows nothing of scores; a `Schema` describes the records of a file.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 INTEGER_LIMIT = 2**63  # the integers of SQLite are below it, and at least its negative
-WAL_LIMIT = 1_000_000  # [bytes] the write-ahead log beside the file is cut to this size
+WAL_LIMIT = 1_000_000  # [bytes] the write-ahead log is cut to this size
 RETRY_INTERVAL = 0.01  # [s] between two attempts to open a file that another program has locked
 
 _REASONS = {
@@ -55,21 +55,21 @@ class NewerFile(Exception):
     """A file has a version that this program does not know."""
 
 
-def open_file(path: Path, schema: Schema, patience: float) -> sqlite3.Connection:
+def open_file(path: Path, schema: Schema, timeout: float) -> sqlite3.Connection:
     """Open a file for writing, create it if there is none, and migrate it to the present version.
 
     Args:
         path: The file.
         schema: Its records.
-        patience: How long to wait for another program that has locked it, now and later [s].
+        timeout: How long to wait for another program that has locked it, now and later [s].
 
     Raises:
         UnfitFile, NewerFile: It is damaged, belongs to another program, or is newer than this program.
         sqlite3.DatabaseError: It cannot be opened or written.
     """
-    deadline = time.monotonic() + patience
+    deadline = time.monotonic() + timeout
     while True:
-        connection = sqlite3.connect(path, timeout=patience, isolation_level=None)
+        connection = sqlite3.connect(path, timeout=timeout, isolation_level=None)
         try:
             prepare(connection, schema)
             return connection
@@ -95,7 +95,7 @@ def prepare(connection: sqlite3.Connection, schema: Schema) -> None:
     """
     connection.text_factory = _decoded
     connection.execute("PRAGMA synchronous = FULL")  # a commit survives a power failure
-    connection.execute("PRAGMA fullfsync = ON")  # macOS: flush the cache of the disk, too
+    connection.execute("PRAGMA fullfsync = ON")  # macOS: flush the cache of the disk too
     if not _is_empty(connection):
         _check_owner(connection, schema)
         ((found,),) = connection.execute("PRAGMA quick_check(1)").fetchall()
@@ -120,13 +120,13 @@ def prepare(connection: sqlite3.Connection, schema: Schema) -> None:
         connection.execute(f"PRAGMA user_version = {schema.version}")
 
 
-def open_read_only(path: Path, patience: float = 0.0) -> sqlite3.Connection | None:
+def open_read_only(path: Path, timeout: float = 0.0) -> sqlite3.Connection | None:
     """Open a file that cannot be written, for reading; None if it cannot be read either.
 
     As a last resort the locks of other programs are ignored.
     """
     for mode in ("mode=ro", "mode=ro&immutable=1"):
-        connection = _connect_read_only(path, mode, patience)
+        connection = _connect_read_only(path, mode, timeout)
         if connection is not None:
             return connection
     return None
@@ -141,8 +141,8 @@ def open_locked(path: Path, schema: Schema) -> sqlite3.Connection | None:
     connection = _connect_read_only(path, "mode=ro", 0.0)
     if connection is not None:
         with suppress(sqlite3.DatabaseError):
-            marks = _pragma(connection, "application_id"), _pragma(connection, "user_version")
-            if marks == (schema.application, schema.version):
+            found = _pragma(connection, "application_id"), _pragma(connection, "user_version")
+            if found == (schema.application, schema.version):
                 return connection
         connection.close()
     return None
@@ -150,7 +150,7 @@ def open_locked(path: Path, schema: Schema) -> sqlite3.Connection | None:
 
 @contextmanager
 def transaction(connection: sqlite3.Connection) -> Iterator[None]:
-    """All or nothing. The lock is taken at the beginning, so that no other program writes in between."""
+    """Run a transaction. It takes the lock at its beginning, so that no other program writes in between."""
     connection.execute("BEGIN IMMEDIATE")
     try:
         yield
@@ -173,7 +173,7 @@ def is_lock(error: sqlite3.Error) -> bool:
 
 
 def reason_of(error: Exception) -> str:
-    """An error in words for a user."""
+    """An error as a phrase for the user."""
     if isinstance(error, sqlite3.Error):
         return _REASONS.get(_code(error), str(error))
     if isinstance(error, OSError):
@@ -182,9 +182,9 @@ def reason_of(error: Exception) -> str:
     return f"it {error}"
 
 
-def _connect_read_only(path: Path, mode: str, patience: float) -> sqlite3.Connection | None:
+def _connect_read_only(path: Path, mode: str, timeout: float) -> sqlite3.Connection | None:
     with suppress(sqlite3.DatabaseError):
-        connection = sqlite3.connect(f"{path.absolute().as_uri()}?{mode}", timeout=patience, uri=True)
+        connection = sqlite3.connect(f"{path.absolute().as_uri()}?{mode}", timeout=timeout, uri=True)
         connection.text_factory = _decoded
         try:
             connection.execute("SELECT 1 FROM sqlite_master LIMIT 1").fetchall()
@@ -199,7 +199,7 @@ def _check_owner(connection: sqlite3.Connection, schema: Schema) -> None:
         raise UnfitFile("is a database of another program")
     version = _pragma(connection, "user_version")
     if version < 1:
-        raise UnfitFile(f"is damaged (it says that it is of version {version})")
+        raise UnfitFile(f"is damaged (its version is {version})")
     if version > schema.version:
         raise NewerFile(
             f"it was written by a newer Silverball (version {version} of the file, "

@@ -2,16 +2,16 @@
 
 It is one SQLite file, `silverball.sqlite3` in the data folder. What a method has written when it returns
 survives a killed program and a power failure. Several programs may use the file at once; a `Store` belongs to
-the thread that made it. Playing never depends on the file: if it cannot be written, the store goes on in
+the thread that made it. Playing never depends on the file: if it cannot be written, the store continues in
 memory with a copy of what can be read, and `warning` says so in one sentence. While another program holds the
-file, new data is spooled in a file beside it (see `pending`) and imported later.
+file, new data is spooled to another file (see `pending`) and imported later.
 
 Scores are ranked in *lists*, one for each mode and table as chosen. All boards of a recipe share the list of
-the recipe, because hardly anyone plays the same random board twice; the seed of a score says which board it
-was and brings it back. A changed table is another table with another digest, so it begins a new list; the old
-one stays. The list holds the text of its table, so that a score can be proven after the file of the table is
-gone. A score that failed verification ranks below all others of its list; one that was not verified yet ranks
-by its points.
+the recipe, because hardly anyone plays the same random board twice; the seed of a score identifies
+its board and recreates it. A changed table is another table with another digest, so it begins a new list; the
+old one stays. The list holds the text of its table, so that a score can be proven after the file of the table
+has been deleted. A score that failed verification ranks below all others of its list; one that was not
+verified yet ranks by its points.
 
 A score is never dropped, and neither is its replay, because without a replay it cannot be proven: a minute of
 play takes about 3 kB. A write waits for the disk for a few milliseconds: write when a game is over or a menu
@@ -28,7 +28,7 @@ from pathlib import Path
 from typing import Any
 
 from silverball.errors import SilverballError
-from silverball.game.replay.recording import has_own_rules
+from silverball.game.replay.recording import has_custom_rules
 from silverball.game.scores import score_records
 from silverball.game.scores.pending import NewScore
 from silverball.game.scores.score_records import (
@@ -44,7 +44,7 @@ from silverball.game.scores.spooled_store import FILE, SpooledStore, no_such_sco
 
 __all__ = ["FILE", "PLACES", "SCHEMA", "Score", "ScoreList", "Store"]
 
-PLACES = 10  # of a list that is shown; a score among them is a high score
+PLACES = 10  # length of a list on display; a score in it is a high score
 _SELECT = f"SELECT {COLUMNS} FROM score JOIN list ON list.id = score.list WHERE"
 
 
@@ -53,8 +53,8 @@ class Store(SpooledStore):
 
     Args:
         folder: The folder of the file; None: the data folder of the user.
-        nonblocking: Never wait for another program that holds the file, as a window must not: reads give the
-            last result then. Otherwise it is waited for, and reading fails in the end.
+        nonblocking: Never wait for another program that holds the file, for use in a window: reads then
+            return the last result. Otherwise wait for it, and fail after a timeout.
     """
 
     def __init__(self, folder: Path | None = None, *, nonblocking: bool = False) -> None:
@@ -74,8 +74,8 @@ class Store(SpooledStore):
     ) -> int:
         """Add a score with its replay; returns when it is on the disk.
 
-        Add it under the last initials before asking for new ones, then `rename` it: so it is there whatever
-        happens meanwhile.
+        Add it under the last initials before asking for new ones, then `rename` it, so that it survives
+        whatever happens meanwhile.
 
         Args:
             initials: The initials of the player.
@@ -93,10 +93,10 @@ class Store(SpooledStore):
             Its number; a temporary one beyond 63 bits if the score is pending.
 
         Raises:
-            SilverballError: The game was scored by rules of its own, so its score cannot be compared.
+            SilverballError: The game was scored by custom rules, so its score cannot be compared.
         """
-        if has_own_rules(replay_text):
-            raise SilverballError("a game with rules of its own has no place in the score lists")
+        if has_custom_rules(replay_text):
+            raise SilverballError("a game with custom rules cannot enter the score lists")
         played = int((when or datetime.now(UTC)).timestamp())
         name = table_name.encode("utf-8", "replace").decode("utf-8")  # a path may not be valid UTF-8
         new = NewScore.model_construct(
@@ -122,15 +122,15 @@ class Store(SpooledStore):
             statement = "UPDATE score SET initials = ? WHERE id = ?"
             self._change(id, statement, (initials,), lambda: self._rename_pending(id, initials))
 
-    def mark(self, proofs: dict[int, tuple[bool | None, str]]) -> None:
-        """Note the results of verification, by the numbers of the scores: whether proven, and why not.
+    def save_verdicts(self, verdicts: dict[int, tuple[bool | None, str]]) -> None:
+        """Save the results of verification, by the numbers of the scores: whether proven, and why not.
 
         Scores that were removed meanwhile are ignored.
 
         Raises:
             SilverballError: Another program holds the file.
         """
-        rows = [(verified, why, self._file_id(id)) for id, (verified, why) in proofs.items()]
+        rows = [(verified, why, self._file_id(id)) for id, (verified, why) in verdicts.items()]
         statement = "UPDATE score SET verified = ?, why = ? WHERE id = ?"
         self._write(lambda connection: connection.executemany(statement, rows))
 
@@ -197,7 +197,7 @@ class Store(SpooledStore):
         for one in self._pending_scores():
             if one.id == id:
                 return one
-        rows = self._read(f"{_SELECT} score.id = ?", (self._file_id(id),), must=True)
+        rows = self._read(f"{_SELECT} score.id = ?", (self._file_id(id),), is_required=True)
         if not rows:
             raise no_such_score(id)
         return self._with_pending_initials(score_of(rows[0]))
@@ -220,7 +220,7 @@ class Store(SpooledStore):
         new = self._pending_score(id)
         if new is not None:
             return new.replay
-        rows = self._read("SELECT replay FROM score WHERE id = ?", (self._file_id(id),), must=True)
+        rows = self._read("SELECT replay FROM score WHERE id = ?", (self._file_id(id),), is_required=True)
         if not rows:
             raise no_such_score(id)
         if rows[0][0] is None:

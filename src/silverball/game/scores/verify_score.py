@@ -1,13 +1,13 @@
 """Verification of scores: a score is proven if its replay, played again, reaches it.
 
 *Proven* means: there are inputs that reach this score with this seed on this table, and no other score that
-was proven before is of the same game. Everything else is *not proven*, with the reason in words:
+was proven before is of the same game. Every other score is *not proven*, with a reason:
 
 * the record is damaged, or the replay is missing, cut off, changed, or of another version;
 * the table is not available: its text is not kept with the list, or does not have the digest of the list. The
-  board of a recipe is made again, with the seed of the score;
+  board of a recipe is made again from the seed of the score;
 * the list has the name of a built-in table but is of another table;
-* the mode, seed, board or tick rate is not that of a score in a window, or the game has rules of its own;
+* the mode, seed, board or tick rate is not that of a score in a window, or the game has custom rules;
 * the game was not over, or ended by a fault;
 * the game was counted before, played further or less far, under other initials, or in another list.
 
@@ -38,7 +38,7 @@ NAME_LIMIT = 80  # characters of a name that are shown in a reason
 
 
 class ScoreVerdict(NamedTuple):
-    """The result of verifying a score, as `Store.mark` takes it.
+    """The result of verifying a score, as `Store.save_verdicts` takes it.
 
     Attributes:
         verified: Whether the score is proven.
@@ -128,7 +128,7 @@ def _check_game(score: Score, replay: Replay) -> None:
     from silverball.game.core import TICK_RATE
 
     if replay.rules:
-        raise _NotProven(f"its replay is of a game with rules of its own, {_shown(replay.rules)}")
+        raise _NotProven(f"its replay is of a game with custom rules, {_shown(replay.rules)}")
     pairs = (
         ("mode", score.mode, str(replay.mode)),
         ("seed", score.seed, replay.seed),
@@ -201,8 +201,6 @@ def _parsed_table(text: str) -> Table:
     Raises:
         _NotProven: The text is not a table, or needs another file.
     """
-    from silverball.game.replay.reader import has_mesh
-
     why = "the table that is kept with the list cannot be read"
     if len(text) > SIZE_LIMIT:
         raise _NotProven(why)
@@ -210,7 +208,7 @@ def _parsed_table(text: str) -> Table:
         table = Table.model_validate(tomllib.loads(text))
     except (ValueError, TypeError, RecursionError):
         raise _NotProven(why) from None
-    if has_mesh(table):
+    if table.has_mesh:
         raise _NotProven("the table that is kept with the list needs the file of a mesh")
     return table
 
