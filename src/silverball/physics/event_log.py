@@ -19,6 +19,8 @@ from silverball.physics.records import (
 @internal
 def begin_step(log: LogRecord) -> None:
     """Drop the events of the previous step, but not the balls created since it ended."""
+    if log.count == 0 and log.lost == 0:
+        return
     carried = min(max(log.count - log.done, 0), BALL_COUNT)
     first = log.count - carried
     for number in range(carried):
