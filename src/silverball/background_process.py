@@ -39,7 +39,7 @@ class Compiler:
         """
         try:
             process = self._running()
-        except OSError:
+        except (OSError, RuntimeError):  # RuntimeError: the interpreter is shutting down
             return False
         waited = 0.0
         while process.poll() is None:

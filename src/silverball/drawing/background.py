@@ -70,7 +70,7 @@ class Background:
         from silverball.drawing.bake_threads import BakeCancelled, BakeThreads, lower_priority
 
         lower_priority()
-        if not self._compile():
+        if self._stop.is_set() or not self._compile():
             return
         from silverball.drawing.compose import Composer
         from silverball.drawing.picture_provider import PictureProvider

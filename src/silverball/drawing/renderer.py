@@ -67,7 +67,7 @@ class Renderer:
     Raises:
         ValueError: Both size and height are given, or a size or height below 1, or the theme is unknown.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> world = sb.World("classic", seed=7)
         >>> renderer = sb.Renderer(world.table, height=160)

@@ -51,7 +51,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         ValueError: An option has an invalid value.
         TableError: The table has problems, or there is no such table.
 
-    Example:
+    Examples:
         >>> import gymnasium as gym
         >>> import silverball.envs
         >>> env = gym.make("silverball/PinballClassic-v0")

@@ -69,7 +69,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         ValueError: An option has an invalid value.
         TableError: The table has problems, or there is no such table.
 
-    Example:
+    Examples:
         >>> import gymnasium as gym
         >>> import numpy as np
         >>> import silverball.envs

@@ -18,7 +18,7 @@ class ArcadeRules:
 
     Derive from it to change some of the rules; see `Rules`.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> rules = sb.ArcadeRules()
         >>> config = rules.configure(sb.load_table("classic"), tick_rate=240)
@@ -122,7 +122,7 @@ class ArcadeRules:
 class FreeRules(ArcadeRules):
     """Free play: any number of balls and free shoves; no combos, no ball save, no tilt.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.FreeRules().configure(sb.load_table("classic"), tick_rate=240).balls
         0

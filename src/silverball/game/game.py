@@ -41,7 +41,7 @@ class Game(GameCore):
         TableError: The table cannot be used.
         ValueError: A mode, seed or tick rate that does not exist, or rules with a name that they cannot have.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> game = sb.Game("classic", seed=7, mode="arcade")
         >>> game.create_ball()

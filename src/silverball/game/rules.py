@@ -44,7 +44,7 @@ class RuleConfig(NamedTuple):
         stall_ticks: The machine shoves if nothing has scored for this time [ticks].
         auto_shove: Whether the machine shoves at all.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.RuleConfig.of(sb.load_table("classic"), tick_rate=240).balls
         3
@@ -103,7 +103,7 @@ class InPlay(NamedTuple):
         safe_until: If it is lost before this tick, it is returned.
         saves: How often it may still be returned.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.InPlay(id=4, number=1, safe_until=960, saves=1).number
         1
@@ -133,7 +133,7 @@ class RuleState(NamedTuple):
         over: Whether the game has ended.
         memory: State of custom rules, a JSON value; never change it in place.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.RuleState(score=10)._replace(score=20).score
         20
@@ -172,7 +172,7 @@ class Rules(Protocol):
     Attributes:
         name: Written to replays and saved games; up to 60 printable characters, not the name of a mode.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> class Cylinders(sb.ArcadeRules):
         ...     name = "only cylinders"

@@ -12,7 +12,7 @@ from typing import NamedTuple
 class Mode(StrEnum):
     """The two built-in games; where a mode is expected, its string will do.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.Mode("free") is sb.Mode.FREE
         True
@@ -25,7 +25,7 @@ class Mode(StrEnum):
 class Phase(StrEnum):
     """The phase of a game.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.Game("classic", seed=7).phase is sb.Phase.READY
         True
@@ -39,7 +39,7 @@ class Phase(StrEnum):
 class GameEventKind(StrEnum):
     """The kinds of game events.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.GameEventKind.TILT.value
         'tilt'
@@ -67,7 +67,7 @@ class GameEvent(NamedTuple):
         value: A number that belongs to it; see `GameEventKind`.
         part: The path of the part that was hit, such as "cylinder[0]"; empty for other events.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> game = sb.Game("classic", seed=7)
         >>> game.events[0].kind
@@ -97,7 +97,7 @@ class GameView(NamedTuple):
         tilted: Whether the paddles are dead.
         max_balls: The most balls that the table allows at once.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> view = sb.Game("classic", seed=7).view
         >>> view.ball, view.balls, view.score

@@ -3,7 +3,7 @@
 `make_player(name)` makes one for a single `World`, `players.rollout.play` lets one play many worlds, and
 `metrics.ball_time.time_balls` measures how long it keeps a ball. `register` adds a player of your own.
 
-Example:
+Examples:
     >>> import silverball as sb
     >>> class Lifter:
     ...     def press(self, world):

@@ -80,7 +80,7 @@ def register(name: str, factory: Factory) -> None:
     Raises:
         PlayerError: The name is taken or malformed, or the factory cannot be called.
 
-    Example:
+    Examples:
         >>> from silverball import World, players
         >>> class Lefty:
         ...     def press(self, world):

@@ -35,7 +35,7 @@ SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a t
 def table_names() -> tuple[str, ...]:
     """Return the names of the built-in tables, in alphabetical order.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.table_names()
         ('classic', 'original', 'random', 'rolling')
@@ -57,7 +57,7 @@ def load_table(name_or_path: str | os.PathLike[str]) -> Table:
         UnknownTable: No built-in table has this name.
         TableError: The file cannot be read or has problems; all of them are in `problems`.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.load_table("classic").board.gravity
         10.0
@@ -99,7 +99,7 @@ def save_table(table: Table, path: str | os.PathLike[str]) -> None:
     Raises:
         OutputError: The file cannot be written; the message says why.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> heavy = sb.load_table("classic").replace(name="Heavy", board={"gravity": 12})
         >>> sb.save_table(heavy, "heavy.toml")

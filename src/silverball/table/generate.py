@@ -29,7 +29,7 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
         TableError: The seed is invalid, the table is not a recipe or has problems, or no layout meets its
             rules; the problem's path then names the rule, for example ``random.gap``.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> board = sb.generate_table(7)
         >>> board.name, len(board.triangular_prism), len(board.cylinder)

@@ -89,7 +89,7 @@ class Model(BaseModel):
         Raises:
             ValidationError: A name is unknown, or a value has the wrong type or is out of range.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> sb.parts.Cylinder(center=(5.0, 1.5), radius=0.6).replace(points=250).points
             250

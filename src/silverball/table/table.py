@@ -53,7 +53,7 @@ class Table(Model):
 
     With a `random` section it is a recipe, from which every seed makes a finished table (`generate_table`).
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> classic = sb.load_table("classic")
         >>> heavy = classic.replace(name="Heavy", board={"gravity": 12})
@@ -120,7 +120,7 @@ class Table(Model):
             TableError: A name is unknown, a value is invalid, or the table cannot be played. `problems`
                 lists every mistake, in the words of the table file.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> table = sb.load_table("classic").replace(board={"gravty": 12})
             Traceback (most recent call last):
@@ -138,7 +138,7 @@ def check_table(table: Table) -> list[Problem]:
         The problems, each with its path in the file and a sentence; an empty list for a table that can be
         played. Tables of `load_table`, `generate_table` and `Table.replace` have none.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> sb.check_table(sb.load_table("classic"))
         []

@@ -47,7 +47,7 @@ class WorldBatch:
         boards: The compiled tables, for kernels (see `silverball.world.compile`).
         logs: LOG records, shape [world], for kernels; `events` reads them.
 
-    Example:
+    Examples:
         >>> import numpy as np, silverball as sb
         >>> batch = sb.WorldBatch("classic", count=1000)
         >>> created = batch.create_balls()
@@ -208,7 +208,7 @@ class WorldBatch:
         Raises:
             ValueError: The mask has another shape.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> sb.WorldBatch("classic", count=3).create_balls([True, False, True]).tolist()
             [True, False, True]
@@ -240,7 +240,7 @@ class WorldBatch:
         Raises:
             ValueError: There is no such world.
 
-        Example:
+        Examples:
             >>> import numpy as np, silverball as sb
             >>> batch = sb.WorldBatch("classic", count=3)
             >>> created = batch.create_balls()
@@ -280,7 +280,7 @@ class WorldBatch:
             StateError: The snapshot has another tick rate, or a table that this batch does not have.
             ValueError: The index is invalid, out of range, names a world twice, or has another length.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> batch = sb.WorldBatch("classic", count=3)
             >>> batch.restore(batch.save(0))

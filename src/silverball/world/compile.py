@@ -147,7 +147,7 @@ def part_names(table: Table) -> tuple[str, ...]:
 def part_numbers(table: Table) -> dict[str, int]:
     """Return the number of each part by its name: its row among the colliders and its column of tallies.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> from silverball.world.compile import part_numbers
         >>> part_numbers(sb.load_table("classic"))["paddle.left"]

@@ -24,7 +24,7 @@ class BallState(NamedTuple):
         velocity: (vx, 0, vz) [u/s].
         spin: Angular velocity about x, y and z [rad/s]; zero on a table without friction.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> ball = sb.World("classic").create_ball(position=(2.0, 1.5))
         >>> ball.id, ball.position
@@ -44,7 +44,7 @@ class PaddleState(NamedTuple):
         angle: From the horizontal towards up [rad].
         angular_velocity: Positive while lifting [rad/s].
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> world = sb.World("classic")
         >>> world.step(left=True, ticks=240)
@@ -75,7 +75,7 @@ class Event(NamedTuple):
         speed: Speed of approach along the normal, relative to the surface [u/s]; for jitter the speed that
             the shove adds.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> world = sb.World("classic")
         >>> ball = world.create_ball(position=(9.0, 0.0), velocity=(5.0, 0.0))

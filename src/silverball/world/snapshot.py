@@ -40,7 +40,7 @@ class Snapshot:
         table_of: The number in `tables` of each record's table, int64 [record], read-only.
         tick_rate: Ticks per second.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> batch = sb.WorldBatch("classic", count=8, tick_rate=60)
         >>> snapshot = batch.save([0, 3])

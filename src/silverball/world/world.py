@@ -54,7 +54,7 @@ class World:
         TableError: The table cannot be loaded, or a part has no extent.
         ValueError: The seed or the tick rate is invalid.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> world = sb.World("classic", seed=7)
         >>> ball = world.create_ball()
@@ -92,7 +92,7 @@ class World:
     def copy(self) -> World:
         """Make an independent world in the same state.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> world = sb.World("classic")
             >>> other = world.copy()
@@ -146,7 +146,7 @@ class World:
             NoRoom: No place is free, or the given one overlaps something; nothing has changed.
             ValueError: A position or velocity is not two finite numbers, or is faster than the speed cap.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> world = sb.World("classic")
             >>> world.create_ball(position=(9.0, 0.0), velocity=(0.0, -3.0)).velocity
@@ -186,7 +186,7 @@ class World:
         since. So a loop that reads after each step sees every event once. A step holds at most 64 events,
         see `events_lost`.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> world = sb.World("classic", seed=7)
             >>> ball = world.create_ball(position=(0.0, 1.0))
@@ -240,7 +240,7 @@ class World:
     def hits(self) -> dict[str, int]:
         """Hits of every part since this World was made, by the part's name; `restore` does not change them.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> world = sb.World("classic")
             >>> ball = world.create_ball(position=(9.0, 0.0), velocity=(5.0, 0.0))
@@ -277,7 +277,7 @@ class World:
         Raises:
             ValueError: The height is below 2, or the theme is unknown.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> world = sb.World("classic")
             >>> world.render(height=160).shape
@@ -290,7 +290,7 @@ class World:
     def save(self) -> bytes:
         """Return the whole state, random generator included, as bytes for `restore`.
 
-        Example:
+        Examples:
             >>> import silverball as sb
             >>> world = sb.World("classic")
             >>> state = world.save()

@@ -67,7 +67,7 @@ class Replay:
         digest: The digest of the whole state at the end.
         rules: The name of the rules that scored it; empty for the built-in rules of the mode.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> game = sb.Game("classic", seed=7)
         >>> game.create_ball()

@@ -34,7 +34,7 @@ class Verdict(NamedTuple):
         got: Its value in the game that was played, or in the second replay.
         message: The result in one sentence.
 
-    Example:
+    Examples:
         >>> import silverball as sb
         >>> game = sb.Game("classic", seed=7)
         >>> game.create_ball()
