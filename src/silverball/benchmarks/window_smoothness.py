@@ -122,13 +122,13 @@ class KeyDriver:
         self._player, self._window = player, window
         self._down = [False, False]
         self.balls: list[int] = []
-        player.press(window.program.stage.game.world)  # loads its kernel now, not within a frame
+        player.press(window.program.session.game.world)  # loads its kernel now, not within a frame
 
     def act(self) -> None:
         """Post the key events of all buttons that changed."""
         import pygame
 
-        world = self._window.program.stage.game.world
+        world = self._window.program.session.game.world
         self.balls.append(len(world.balls))
         if len(world.balls) < 2:
             pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
@@ -149,12 +149,12 @@ class AttractDriver:
     """
 
     def __init__(self, name: str, window: Any) -> None:
-        window.rehearsal.wait()
+        window.player_warmup.wait()
         window.program.menus.open_attract()
-        window.program.show_off(name, nobody_there=True)
+        window.program.start_demo(name, is_attract=True)
         self._window = window
-        self._player = window.program.stage.player
-        window.program.stage.player = self
+        self._player = window.program.session.player
+        window.program.session.player = self
         self.balls: list[int] = []
         self.decisions: list[float] = []
         self.processor: list[float] = []
@@ -171,4 +171,4 @@ class AttractDriver:
 
     def act(self) -> None:
         """Count the balls; no key is pressed."""
-        self.balls.append(len(self._window.program.stage.game.world.balls))
+        self.balls.append(len(self._window.program.session.game.world.balls))
