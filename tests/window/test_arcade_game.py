@@ -270,8 +270,8 @@ def test_the_last_ball_leaves_the_picture_when_the_game_is_over(open_window):
     play_all_balls(player, lambda: player.tap(pygame.K_SPACE))
     effects = player.window._picture.renderer.effects
     asked = []
-    real = effects.dives
-    effects.dives = lambda time: asked.append(list(real(time))) or iter(asked[-1])
+    real = effects.sinking_balls
+    effects.sinking_balls = lambda time: asked.append(list(real(time))) or iter(asked[-1])
     player.seconds(0.1)
     assert asked[0]  # it is on its way
     player.seconds(0.5)
@@ -286,10 +286,10 @@ def test_going_back_in_a_replay_leaves_no_ball_behind_that_is_not_lost_yet(open_
     again = open_window(replay=replay, table=None, mode=None)
     again.until(lambda: again.program.session.has_ended)
     effects = again.window._picture.renderer.effects
-    assert effects._dives
+    assert effects._sinking
     again.program.jump(-0.5 * replay.ticks / replay.tick_rate)
     again.frames(2)
-    assert not effects._dives
+    assert not effects._sinking
 
 
 @pytest.mark.parametrize("press", [

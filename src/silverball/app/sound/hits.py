@@ -1,7 +1,7 @@
 """Recipes for the sounds of the board: one function each, from a layer to a wave.
 
-A layer is how hard the blow was (0 soft, 1 hard), or for a cylinder the step of the scale. The random
-generator makes no two blows alike.
+A layer is the strength of the blow (0 soft, 1 hard), or for a cylinder the step of the scale. The random
+generator makes every blow different.
 """
 
 from __future__ import annotations

@@ -34,9 +34,9 @@ class DotPanel:
 
     Args:
         area: Its area in the picture [pixel], bezel included.
-        color: Of the brightest dots.
-        background: Of the glass between the dots.
-        frame: Of the bezel around it; None for no bezel.
+        color: Colour of the brightest dots.
+        background: Colour of the glass between the dots.
+        frame: Colour of the bezel around it; None for no bezel.
     """
 
     def __init__(
