@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from silverball.envs import IDS, OPTIONS, Options, PinballEnv
-from silverball.envs.board_pool import pool_of
+from silverball.envs.board_pool import make_pool
 from silverball.envs.observations import Field, picture_shape
 from silverball.envs.options import BUTTONS
 from silverball.envs.rewards import POINT, TERMS
@@ -93,7 +93,7 @@ def _observations(options: Options, sample: PinballEnv) -> str:
             "board fills the picture; parts that were hit in the step are bright. `size`, `stack` and `rgb` set "
             "the shape."
         )
-    pool = pool_of(options.table, 1, options.board_seed)
+    pool = make_pool(options.table, 1, options.board_seed)
     return (
         f"`Box(-1, 1, {space.shape}, float32)`, narrower where a slot has a smaller range; with "
         f'`observation="dict"` the same by group, [item, slot] each:\n\n{slot_table(pool.fields)}'
