@@ -45,7 +45,7 @@ def clock(monkeypatch) -> Clock:
     return clock
 
 
-def absent() -> environments.Made:
+def absent() -> environments.Workload:
     raise ModuleNotFoundError("No module named 'elsewhere'")
 
 
