@@ -19,7 +19,7 @@ def test_a_registered_player_plays_in_simulate_ball_time_and_demo(silverball, tm
     report = json.loads(played.stdout)
     assert (report["player"], report["faults"]) == ("swatter", 0)
     assert report["score"] > 0
-    timed = silverball(*"simulate --ball-time --player swatter --worlds 2 --seconds 5 --tick-rate 60".split())
+    timed = silverball(*"ball-time --player swatter --worlds 2 --seconds 5 --tick-rate 60".split())
     assert timed.stdout.startswith("swatter on classic: 2 balls"), timed.stderr
     made = silverball(*"demo --player swatter --seconds 0.5 --size 200 --out a.png".split(), cwd=tmp_path)
     assert made.returncode == 0, made.stderr
@@ -37,7 +37,7 @@ def test_the_player_of_an_installed_package_plays_in_a_process_of_its_own(silver
     assert "trained, lefty; did you mean 'lefty'?" in wrong.stderr
 
 
-@pytest.mark.parametrize("arguments", ["simulate", "simulate --ball-time", "demo --out a.png"])
+@pytest.mark.parametrize("arguments", ["simulate", "ball-time", "demo --out a.png"])
 def test_a_player_that_cannot_be_imported_is_one_sentence(silverball, site, tmp_path, arguments) -> None:
     install(site, "left-hand", "lefty = left_hand:Lefty", "import nowhere_at_all")
     refused = silverball(*arguments.split(), "--player", "lefty", cwd=tmp_path)

@@ -6,13 +6,13 @@ from typing import Annotated
 
 import typer
 
-from silverball.cli.console import say
+from silverball.cli.console import print_lines
 
 
 def check(
     table: Annotated[str, typer.Argument(metavar="FILE", help="Table file, or name of a built-in table.")],
 ) -> None:
-    """Check a table and report all of its problems at once.
+    """Check a table and report all of its problems.
 
     Finds unknown keys, values out of range, parts that overlap, paddles that touch something while they turn,
     boards on which a ball cannot reach the gutter, and places where a ball could lie forever.
@@ -24,4 +24,4 @@ def check(
     from silverball.table import load_table
 
     loaded = load_table(table)
-    say(f"{table}: no problems in {loaded.name!r}")
+    print_lines(f"{table}: no problems in {loaded.name!r}")
