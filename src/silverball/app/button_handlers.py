@@ -19,7 +19,7 @@ def press(program: Program, action: Action, *, again: bool = False) -> None:
 
     Args:
         program: The program.
-        action: What the button asks for; full screen, help, debug view and mute belong to the window.
+        action: The action of the button; the window handles full screen, help, debug view and mute.
         again: Whether Shift is held, which asks for the same board instead of a new one.
     """
     session = program.session

@@ -108,7 +108,7 @@ class Catalog:
                 self._reported = loaded.fingerprints
 
     def chosen_file_change(self) -> LoadedFile | None:
-        """Return what the chosen file contains, once after every change; None if it has not changed.
+        """Return the chosen file as read, once after every change; None if it has not changed.
 
         A file with a problem is reported only if it is still the same at the next check: it may have been
         half-written.

@@ -1,6 +1,6 @@
 """Handles the events of the window: keys, gamepad buttons, and changes of focus, layout and devices.
 
-Help, debug view, full screen and mute are handled here. Paddle buttons are held here until the next input
+Help, debug view, full screen and mute are handled here. Paddle buttons are stored until the next input
 poll; all other actions are passed on to the program. A key that comes up ends the action that it began, even
 if the layout or the bindings have changed since.
 """

@@ -349,7 +349,7 @@ class Program:
         self.session = None
 
     def _finish_game(self, session: GameSession) -> None:
-        """Save a game that is over at once; open the next page when its end has been shown."""
+        """Save a finished game in the first frame; open the next page after `GAME_OVER_SECONDS`."""
         if self._ended_at is None:
             recipe, initials = self._game_recipe or self.board.recipe, self.settings.current.initials
             self.result = self.archive.save_finished_game(

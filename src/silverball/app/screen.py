@@ -1,6 +1,6 @@
 """The window of the operating system, its size, and the mouse pointer over it.
 
-A pixel here is a physical pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
+Pixels are physical pixels of the screen: nothing is scaled, so pictures are sharp on high-density screens.
 """
 
 from __future__ import annotations

@@ -101,7 +101,7 @@ def warm_up(table: Table) -> None:
 
 MIN_SHARE = 0.05  # below which the total time cannot be estimated
 LINE_Y = 8  # [dot] of the bar below the title of a menu
-TITLE_WIDTH = WIDTH - 62  # [dot] beside the marks of a menu
+TITLE_WIDTH = WIDTH - 62  # [dot] of the title, left of the page dots
 SWEEP_TIME = 1.2  # [s] of one sweep of the bar while progress is unknown
 
 

@@ -27,7 +27,7 @@ class TickClock:
 
     @property
     def max_ticks(self) -> int:
-        """The greatest number of ticks at once."""
+        """The greatest number of ticks per call."""
         return max(1, round(MAX_CATCH_UP * self.tick_rate * max(self.speed, 1.0)))
 
     @property
@@ -81,7 +81,7 @@ class LatencyMeter:
     """Latency of the last presses of a paddle button.
 
     Measurement begins when the program receives the event: the path from the key to the program, and from the
-    program to the light of the screen, cannot be measured here.
+    program to the light of the screen, cannot be measured.
 
     Attributes:
         to_tick: Time from the event to the end of the tick that moved the paddle [s].

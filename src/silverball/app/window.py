@@ -1,6 +1,6 @@
 """The game in a window: buttons in; ticks, picture and sounds out.
 
-An *input poll* handles the events and runs the ticks that real time asks for. A *frame* polls, draws the
+An *input poll* handles the events and runs the ticks that are due in real time. A *frame* polls, draws the
 table and the text on top, and shows the result. Between two frames the window polls a thousand times a
 second, so that a button reaches the simulation within a tick and not only with the next frame.
 """
@@ -61,7 +61,7 @@ class Window:
         table: A table, a built-in name, or a path to a file; None: the one chosen last. A table with random
             parts makes a new board for every seed.
         seed: Seed of the first board; None draws one.
-        mode: Begin this game at once; None: begin in the menu.
+        mode: Begin a game of this mode; None: begin in the menu.
         replay: Begin with this replay.
         height: Height of the window [pixel]; None: as high as fits the screen.
         without_display: Whether SDL drivers without output are accepted, as in tests.

@@ -27,7 +27,7 @@ from silverball.world.compile import Boards, blank_worlds, compile_tables
 
 
 class Pool(NamedTuple):
-    """Compiled boards, and what environments need to know about them.
+    """Compiled boards, with the data that environments need about them.
 
     Attributes:
         tables: The finished tables.

@@ -230,18 +230,18 @@ class Engine:
     def write_to(
         self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
     ) -> bool:
-        """Write to these arrays from now on, if possible; see `PinballVectorEnv.write_to`."""
+        """Make all further steps write to these arrays, if possible; see `PinballVectorEnv.write_to`."""
         last, name = self.outputs.last, "frames" if self.shows_pictures else "observations"
-        own = last.arrays[name]
-        pairs = ((observations, own), (terminated, last.terminated), (truncated, last.truncated))
+        current = last.arrays[name]
+        pairs = ((observations, current), (terminated, last.terminated), (truncated, last.truncated))
         fits = all(
-            given.dtype == mine.dtype and given.size == mine.size
-            and given.flags.c_contiguous and given.flags.writeable
-            for given, mine in pairs
+            new.dtype == old.dtype and new.size == old.size
+            and new.flags.c_contiguous and new.flags.writeable
+            for new, old in pairs
         )  # fmt: skip
         if not (fits and self.has_fixed_output and self.stack <= 1):
             return False
-        shown = {name: observations.reshape(own.shape)}
+        shown = {name: observations.reshape(current.shape)}
         self.outputs.replace(terminated=terminated, truncated=truncated, **shown)
         self._output_addresses[:] = self.outputs.last.addresses
         self.rules["can_repair"], self.rules["must_redraw"] = 0, self.shows_pictures

@@ -1,6 +1,6 @@
 """The options of an environment: their defaults, descriptions and checks.
 
-Also here: the checks of other arguments that environments share (seeds, render modes, options of a reset).
+The checks of seeds, render modes and reset options, which all environments share, are here too.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def _seconds_or_none(value: Any) -> float | None:
 
 
 def _reward(reward: Any) -> Any:
-    """A reward as it was given, with weights copied."""
+    """The reward option: checked, unchanged, with a copy of its weights."""
     resolved = resolve_reward(reward)
     return resolved if isinstance(reward, Mapping) else reward
 

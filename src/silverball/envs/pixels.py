@@ -30,7 +30,7 @@ ANGLES = 32  # of a paddle; each has a sprite
 
 @internal
 def draw_step(ptr: Pointers, index: int) -> None:
-    """Record what the next picture shows, and draw it."""
+    """Record the contents of the next picture, and draw it."""
     raster = views.raster(ptr)[0]
     last = raster.stack - 1
     for number in range(last):
@@ -122,7 +122,7 @@ def copy_picture_state(ptr: Pointers, index: int, number: int, to: int) -> None:
 
 @internal
 def record_state(ptr: Pointers, index: int, number: int) -> None:
-    """Record what a world shows now as picture state `number`."""
+    """Record the current contents of a world's picture as picture state `number`."""
     state = views.picture_states(ptr)[index, number]
     world, log, rules = views.worlds(ptr)[index], views.logs(ptr)[index], views.rules(ptr)[0]
     state.board = views.board_of(ptr)[index]

@@ -1,4 +1,4 @@
-"""Rewards: a name, weights for what happened in a step, or a callable.
+"""Rewards: a name, weights of the terms of a step, or a callable.
 
 A step is described by its *terms*, the numbers in `TERMS`. Weights are applied inside the compiled step; a
 callable receives the terms and returns the reward.

@@ -176,7 +176,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """The table as the game draws it, RGB [row, column, 3]; None without a render mode.
 
         In the mode "human" a window shows it instead, after every reset and step, at the speed of play.
-        Closing the window ends the rendering; the environment goes on.
+        Closing the window ends the rendering, not the episode.
 
         Raises:
             NoDisplay: The mode is "human", and there is no display.

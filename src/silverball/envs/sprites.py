@@ -24,7 +24,7 @@ LUMINANCE = (0.299, 0.587, 0.114)  # Source: ITU-R BT.601
 Color: TypeAlias = tuple[int, int, int]
 """Red, green and blue, 0 to 255 each."""
 
-# Few colours that are easy to tell apart, for agents. Parts of one kind cycle through the colours of a tuple.
+# Few colours, far apart, for agents. Parts of one kind cycle through the colours of a tuple.
 FLOOR: Color = (52, 26, 84)
 RAIL: Color = (84, 72, 132)
 SLANT_WALL: Color = (112, 92, 178)

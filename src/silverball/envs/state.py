@@ -1,4 +1,4 @@
-"""Records of the compiled step: the state of an episode, the rules, and what pictures show.
+"""Records of the compiled step: the state of an episode, the rules, and the contents of pictures.
 
 All fields are eight bytes wide. An environment's state is its WORLD record (see `physics.records`), its
 EPISODE record and the PICTURE_STATE records of its last pictures. RULES and RASTER hold the options as
@@ -18,7 +18,7 @@ from silverball.physics.records import BALL_COUNT
 class ResetMode(IntEnum):
     """When an environment whose episode has ended begins a new one (Gymnasium's `AutoresetMode`)."""
 
-    DISABLED = 0  # when `reset` asks for it
+    DISABLED = 0  # only by `reset`
     NEXT_STEP = 1  # in the next step, which ignores its action
     SAME_STEP = 2  # in the step that ends it; the last observation is stored separately
 
@@ -89,7 +89,7 @@ RULES = np.dtype(
         ("x_scale", "f8"), ("z_scale", "f8"), ("speed_scale", "f8"), ("idle_scale", "f8"),
         ("ball_scale", "f8"), ("angle_scale", "f8", (2,)), ("turn_scale", "f8", (2,)),
         ("rest_angle", "f8", (2,)), ("raised_angle", "f8", (2,)),  # of the paddles [rad]
-        # Flags of what is written.
+        # Flags: 1 if a step writes these.
         ("writes_state", "i8"), ("draws_pictures", "i8"),
         ("copies_stack", "i8"),  # 1: the window of pictures is copied
         ("can_repair", "i8"),  # 1: only the kernels write to the pictures, so that dirty rectangles suffice

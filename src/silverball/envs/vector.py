@@ -61,7 +61,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows; None
             or −1: only `time_limit` counts.
         own_boards: Whether environment i always plays board i instead of one drawn for every episode. A
-            recipe must then have as many `boards`; the tables of a list are taken in turn.
+            recipe must then have as many `boards`; the tables of a list are assigned in turn.
         options: See `silverball.envs.options.OPTIONS`.
 
     Raises:

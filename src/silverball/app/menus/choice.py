@@ -1,6 +1,6 @@
 """Pages on which one item is chosen: the paddles turn through the items, and Space chooses.
 
-An item either performs an action (`Item.choose`) or holds a setting (`Item.value`). Space on a setting lets
+An item either performs an action (`Item.choose`) or holds a setting (`Item.value`). Space on a setting makes
 the paddles change it, Space again confirms the new value, and "back" restores the old one.
 """
 

@@ -122,7 +122,7 @@ class CapturePage(Page):
         self._problem = ""
 
     def press(self, button: Button, context: MenuContext) -> Command | None:
-        """Go back: a button that arrives here is not one that can be captured."""
+        """Go back: buttons that can be captured do not reach this method."""
         context.back()
         return None
 
@@ -170,7 +170,7 @@ class CapturePage(Page):
         return dots
 
     def signature(self) -> Hashable:
-        """Return what the page waits for."""
+        """Return the kind, the action and the change that the page waits for."""
         return self.kind, self._binding.action, self._change
 
     def _bind(self, context: MenuContext, name: str, kind: DeviceKind) -> None:

@@ -27,7 +27,7 @@ from silverball.app.sound.synth import (
 
 
 def wall(layer: int, random: np.random.Generator) -> Wave:
-    """Wood, behind a strip of rubber: a low bar that is damped at once."""
+    """Wood, behind a strip of rubber: a low, strongly damped bar."""
     body = struck(
         208.0 + 14.0 * layer, BAR, 0.16, brightness=0.5 + 0.2 * layer, damping=0.8, detune=0.03, random=random
     )

@@ -1,7 +1,8 @@
 """Loudness of a wave as the ear weighs it, strength of a hit by its speed, and panning by its place.
 
-K-weighting is that of broadcast loudness: two filters, a shelf that lifts what lies above 2 kHz by 4 dB and a
-high-pass at 38 Hz. Source: Recommendation ITU-R BS.1770-5 (2023), annex 1; here as a factor for every pitch.
+K-weighting, as for broadcast loudness, has two filters: a shelf that raises pitches above 2 kHz by 4 dB, and
+a high-pass at 38 Hz. Source: Recommendation ITU-R BS.1770-5 (2023), annex 1; here as a factor for every
+pitch.
 """
 
 from __future__ import annotations

@@ -120,9 +120,9 @@ class Sounds:
         gains = self._rolling.update(balls, dt, width)
         self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, self._volume))
 
-    def play_menu(self, what: str) -> None:
+    def play_menu(self, name: str) -> None:
         """Play a menu sound: "move", "choose", "back", "refuse", "high_score" or "attract"."""
-        self._play(self._voices.menu(what))
+        self._play(self._voices.menu(name))
 
     def pause(self) -> None:
         """Pause: rolling fades, hits ring out, menus stay audible."""

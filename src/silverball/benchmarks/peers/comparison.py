@@ -1,7 +1,7 @@
 """The comparison: every engine plays the same tables in one run.
 
 Speed is measured in rounds. In each round, all engines play the same board for a moment, one after the other,
-so that the noise of the machine affects all alike; ratios are taken within a round. A recipe gives another
+so noise of the machine affects all alike; ratios are computed within a round. A recipe gives another
 board in each round. Escapes, penetration, errors and drift do not depend on the clock and are measured
 afterwards.
 """

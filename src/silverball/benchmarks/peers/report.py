@@ -40,7 +40,7 @@ def cells(row: Row, radius: float) -> list[str]:
 
 
 def speed(frames: float) -> str:
-    """Frames per second with three digits, such as 258 k or 8.21 M."""
+    """Frames per second with three digits, like 258 k or 8.21 M."""
     return f"{frames / 1e6:.3g} M" if frames >= 1e6 else f"{frames / 1e3:.3g} k"
 
 

@@ -84,7 +84,7 @@ def rasterize(character: str, height: int) -> Glyph | None:
     Returns:
         The dots, at least one column; None if no font has the letter.
     """
-    import pygame  # slow to load, and seldom needed here
+    import pygame  # slow to load, and rarely needed
 
     from silverball.drawing.text import font_of
 
