@@ -14,14 +14,14 @@ from pathlib import Path
 from typing import Any
 
 from silverball.envs import IDS, OPTIONS, Options, PinballEnv
-from silverball.envs.board_pool import pool_of
+from silverball.envs.board_pool import make_pool
 from silverball.envs.observations import Field, picture_shape
 from silverball.envs.options import BUTTONS
 from silverball.envs.rewards import POINT, TERMS
 from silverball.envs.state import INFO
 
 PAGE = Path(__file__).parent / "agents.md"
-MARK = "<!-- The cards: written by docs/make_agents.py, which takes them from the code. -->\n"
+MARKER = "<!-- The cards: written by docs/make_agents.py, which takes them from the code. -->\n"
 
 HEADINGS = (
     "Description", "Action Space", "Observation Space", "Rewards", "Starting State", "Episode End",
@@ -30,15 +30,15 @@ HEADINGS = (
 GOAL = "Keep the ball off the gutter and hit what scores."
 DESCRIPTIONS = {
     "silverball/Pinball-v0": "A random board for every episode: prisms slow the ball down, cylinders speed it up.",
-    "silverball/PinballClassic-v0": "The drawn table, always the same.",
+    "silverball/PinballClassic-v0": "The built-in table `classic`, the same in every episode.",
     "silverball/PinballPixels-v0": "A random board for every episode, observed as pictures.",
 }
 
 
 def page() -> str:
     """The page with the cards as they should be."""
-    before, _, _ = PAGE.read_text(encoding="utf-8").partition(MARK)
-    return before + MARK + "\n" + "\n".join(card(id_) for id_ in IDS)
+    before, _, _ = PAGE.read_text(encoding="utf-8").partition(MARKER)
+    return before + MARKER + "\n" + "\n".join(card(id_) for id_ in IDS)
 
 
 def card(id_: str) -> str:
@@ -93,7 +93,7 @@ def _observations(options: Options, sample: PinballEnv) -> str:
             "board fills the picture; parts that were hit in the step are bright. `size`, `stack` and `rgb` set "
             "the shape."
         )
-    pool = pool_of(options.table, 1, options.board_seed)
+    pool = make_pool(options.table, 1, options.board_seed)
     return (
         f"`Box(-1, 1, {space.shape}, float32)`, narrower where a slot has a smaller range; with "
         f'`observation="dict"` the same by group, [item, slot] each:\n\n{slot_table(pool.fields)}'
@@ -115,7 +115,7 @@ def _code(names: tuple[str, ...]) -> str:
 
 
 def _start(options: Options) -> str:
-    board = "The drawn board" if options.table == "classic" else "A board drawn from the pool"
+    board = "The table `classic`" if options.table == "classic" else "A board drawn from the pool"
     return (
         f"{board}, paddles at rest, a ball at rest at a random free place above them. Everything random follows "
         "from the seed and the number of the episode: the same seed gives the same episodes."

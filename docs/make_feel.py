@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from silverball.cli.feel import print_report, report_of
+from silverball.cli.feel import build_report, print_report
 from silverball.metrics.feel import Feel, measure
 from silverball.metrics.game_traces import CELLS, TICK_RATE
 from silverball.metrics.shots import Aim, Shots
@@ -97,7 +97,7 @@ def draw(feel: Feel, path: Path) -> None:
 if __name__ == "__main__":
     for name in sys.argv[1:] or ("classic", "random", "rolling"):
         measured = measure(load_table(name), GAMES, SEED)
-        print_report({"table": name, "seed": SEED, "games": GAMES, **report_of(measured)})
+        print_report({"table": name, "seed": SEED, "games": GAMES, **build_report(measured)})
         file = FOLDER / f"feel_{Path(name).stem}.png"
         draw(measured, file)
         print(f"wrote {file}\n")

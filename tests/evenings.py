@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from silverball.app.button_handlers import press, release
 from silverball.app.catalog import Catalog
-from silverball.app.controls import Action, Held
+from silverball.app.controls import Action, PaddleInput
 from silverball.app.program import Program
 from silverball.app.settings import Settings
 from silverball.game.scores.store import Store
 from silverball.game.view import Phase
 from silverball.table import Board, Cylinder, Table
 
-NOTHING = Held((False, False), (False, False))
+NOTHING = PaddleInput((False, False), (False, False))
 LEAKY = Table(
     name="Leaky",
     board=Board(gravity=40.0),

@@ -18,7 +18,7 @@ def small(monkeypatch):
     monkeypatch.setattr(environments, "SINGLE_STEPS", 20)
     monkeypatch.setattr(environments, "STATES", [(3, {"threads": 1}), (3, {"zero_copy": True})])
     monkeypatch.setattr(environments, "PICTURES", [(1, 2, {}), (4, 2, {"frame_skip": 4})])
-    monkeypatch.setattr(measure, "ROUND", 1e-4)
+    monkeypatch.setattr(measure, "MIN_ROUND_TIME", 1e-4)
     monkeypatch.setattr(measure, "WARM_UP", 2)
 
 
@@ -45,7 +45,7 @@ def clock(monkeypatch) -> Clock:
     return clock
 
 
-def absent() -> environments.Made:
+def absent() -> environments.Workload:
     raise ModuleNotFoundError("No module named 'elsewhere'")
 
 
@@ -147,4 +147,4 @@ def test_the_command_writes_the_table(tmp_path, monkeypatch, capsys):
 def test_another_ending_is_refused_before_anything_is_measured(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(measure, "run", None)
     assert run(["bench", "envs", "--out", str(tmp_path / "envs.png")]) == 2
-    assert "is written as .md" in capsys.readouterr().err
+    assert "the name must end in .md" in capsys.readouterr().err

@@ -44,8 +44,8 @@ def test_ratios_are_medians_of_the_rounds(result):
     assert result.rows[2].world_ratio == 4.0
 
 
-def test_orders_ahead_compare_with_the_best_peer(result):
-    assert comparison.orders_ahead(result) == pytest.approx([11, 12, 13, 13])
+def test_digits_ahead_compare_with_the_best_peer(result):
+    assert comparison.digits_ahead(result) == pytest.approx([11, 12, 13, 13])
 
 
 def test_the_markdown_table_has_a_row_for_every_engine_and_names_machine_and_versions(result):
@@ -151,5 +151,5 @@ def test_a_quick_comparison_writes_its_table_and_shows_silverball_ahead(tmp_path
     page = tmp_path / "peers.md"
     assert run(["bench", "peers", "--quick", "--json", "--out", str(page)]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert min(told["orders_ahead"]) >= 9
+    assert min(told["digits_ahead"]) >= 9
     assert page.read_text(encoding="utf-8").count("\n| ") > len(told["rows"])

@@ -17,8 +17,8 @@ import pytest
 from holed import Holed, options_of
 from hostile_text import obeyed_in
 from silverball.cli.app import run
+from silverball.cli.shared_options import check_output
 from silverball.errors import OutputError
-from silverball.export.film import check_output
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import soak
 from silverball.soak.finding import Finding, reproduce

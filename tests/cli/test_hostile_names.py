@@ -293,4 +293,4 @@ def test_a_message_never_floods_the_terminal(told):
         for command in (["check", long], ["replay", long], ["simulate", "--seconds", long], [f"--{long}"]):
             code, text = told(*command)
             assert code == 2
-            assert len(text) < 3 * cli.LONGEST
+            assert len(text) < 3 * cli.MAX_LINE_LENGTH

@@ -63,15 +63,15 @@ def test_info_creates_and_compiles_nothing_and_prints_nothing_but_its_report(new
 
 @pytest.mark.parametrize("name", ["play", "planner", "drawing", "environments"])
 def test_info_says_what_is_compiled(silverball, folders, name):
-    from silverball.envs.engine import move
+    from silverball.envs.episode import run_task
     from silverball.physics.code_cache import code_digest, code_path
 
-    assert move.__name__ == info.LAST_KERNEL_OF_ENVIRONMENTS
+    assert run_task.__name__ == info.LAST_KERNEL_OF_ENVIRONMENTS
     function, packages = {
         "play": ("run_worlds", kernel.PLAY),
         "planner": ("plan_worlds", kernel.PLAY),
         "drawing": ("draw_ball", kernel.DRAWING),
-        "environments": ("move", kernel.AGENTS),
+        "environments": ("run_task", kernel.AGENTS),
     }[name]
     index = kernel.code_folder(packages) / "physics" / f"module.{function}-1.py311.{'0' * 16}.nbi"
     index.parent.mkdir(parents=True)

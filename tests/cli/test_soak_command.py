@@ -58,7 +58,7 @@ def test_a_finding_ends_in_exit_code_1_and_can_be_done_again(tmp_path, monkeypat
     assert "happens again" in capsys.readouterr().out
     monkeypatch.undo()
     assert run(["soak", "--again", name]) == 0
-    assert "does not happen any more" in capsys.readouterr().out
+    assert "no longer happens" in capsys.readouterr().out
     assert run(["soak", "--again", name, "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == {
         "kind": kind, "found": "nothing", "happens_again": False,

@@ -410,7 +410,7 @@ def test_options_of_vectors_are_refused_for_single_environments():
 def test_tables_that_do_not_fit_together_are_refused():
     classic, rolling = load_table("classic"), load_table("rolling")
     for tables, words in (
-        ([classic, rolling], "table 1 of the list .* has another"),
+        ([classic, rolling], "table 1 of the list .* has a different"),
         ([classic, "random"], "table 1 of the list .* is a recipe"),
         ([], "empty"),
     ):

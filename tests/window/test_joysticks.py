@@ -241,7 +241,7 @@ def test_the_game_waits_when_the_gamepad_that_is_played_with_goes(open_window, k
     assert player.world.tick == tick
     again = VirtualJoystick(kind, 6, 15)
     player.frames(2)
-    tap(player, again, SOUTH)  # "go on"
+    tap(player, again, SOUTH)  # "resume"
     assert not player.program.is_paused
     push(player, again, left)
     assert held(player) == (True, False)

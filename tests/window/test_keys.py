@@ -93,7 +93,7 @@ def test_losing_focus_pauses_the_game_and_releases_the_keys(player):
     tick = player.world.tick
     player.seconds(0.5)
     assert player.world.tick == tick
-    player.tap(pygame.K_SPACE)  # "go on"
+    player.tap(pygame.K_SPACE)  # "resume"
     assert not player.program.is_paused
     player.seconds(0.3)
     assert angles(player) == pytest.approx(

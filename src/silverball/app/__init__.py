@@ -8,7 +8,7 @@ program.py          the state of the program: board, session, menus
     catalog.py          tables and scores to choose from; table_files.py reads the user's tables
     game_archive.py     saves games, scores and replay files
     demo_players.py     players of a demo; player_warmup.py compiles them in the background
-settings.py         the player's settings and their one owner
+settings.py         the player's settings and their owner
 input_handler.py    events of the window: keyboard.py, gamepad.py, bindings.py, controls.py
 menus/              the pages on the score display; score_display.py is the display during a game
 sound/              synthesised sounds

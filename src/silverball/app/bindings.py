@@ -1,8 +1,8 @@
 """Key and button bindings: all actions, their default keys and buttons, and the player's changes.
 
 Keys have the names of `keyboard.py`, gamepad buttons those of SDL, joystick buttons those of `gamepad.py`.
-The settings hold only what differs from the defaults here; an empty tuple there means that the player removed
-the last key.
+The settings hold only what differs from the defaults here; an empty tuple means that the player removed the
+last key.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class ActionBinding(NamedTuple):
     """An action and its default bindings.
 
     Attributes:
-        action: Its name in the settings.
+        action: Name of the action in the settings.
         label: Its displayed name.
         keys: Its default keys.
         pad: Its default gamepad buttons.
@@ -116,7 +116,7 @@ def display_name(name: str, labels: Mapping[str, str] = MappingProxyType({})) ->
 
 
 def upper_label(label: str) -> str:
-    """Return a key label in capitals; a letter whose capital has two characters, as ß, stays as it is."""
+    """Return a key label in capitals; a letter whose capital has two characters, like ß, is unchanged."""
     return label if len(label.upper()) > len(label) else label.upper()
 
 
@@ -131,7 +131,7 @@ def with_bindings(settings: Settings, kind: DeviceKind, names: Mapping[str, tupl
     """Return settings with these bindings for a kind of device; empty ones restore the defaults."""
     if kind in ("keys", "pad"):
         return settings.changed(**{kind: dict(names)})
-    others = {guid: its for guid, its in settings.joysticks.items() if guid != kind}
+    others = {guid: bound for guid, bound in settings.joysticks.items() if guid != kind}
     return settings.changed(joysticks=others | ({kind: dict(names)} if names else {}))
 
 
@@ -191,7 +191,7 @@ def with_assignment(
         actions: All actions.
         kind: The kind of device that the names belong to.
         action: The name of the action.
-        names: Its keys or buttons from now on.
+        names: Its new keys or buttons.
     """
     changes: dict[str, tuple[str, ...]] = {}
     for binding in actions:

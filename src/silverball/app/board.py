@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
     from silverball.table import Table
 
-SEED_LIMIT = 1_000_000  # seeds of new boards are below it: short enough to pass on
+SEED_LIMIT = 1_000_000  # seeds of new boards are smaller, so that people can pass them on
 
 
 class CurrentBoard:
@@ -26,9 +26,9 @@ class CurrentBoard:
     Args:
         catalog: Reads tables and makes boards of them.
         settings: The player's settings, with the chosen table.
-        context: Learns the seed of every random board.
+        context: Menu context; `last_seed` is set for every random board.
         show_message: Shows the player a sentence.
-        seed: Of the first board; None draws one.
+        seed: Seed of the first board; None draws one.
 
     Attributes:
         table: The board: a table whose random parts are placed.
@@ -75,7 +75,7 @@ class CurrentBoard:
             self._context.last_seed = seed
 
     def show_table(self, name: str, seed: int | None) -> bool:
-        """Show the board of a table; if it cannot be used, say why, keep the old one and return False."""
+        """Show the board of a table. If it cannot be used, show why, leave the board and return False."""
         try:
             self.show(self._catalog.recipe(name), seed)
         except SilverballError as error:
@@ -92,7 +92,7 @@ class CurrentBoard:
         """Show another board of the chosen table, or the same board again; a changed file is read again.
 
         Args:
-            seed: Of the board; None: a new one.
+            seed: Seed of the board; None: a new one.
             key: The key that makes a new board, as the display writes it.
 
         Returns:
@@ -110,18 +110,14 @@ class CurrentBoard:
             return f"{table_error_text(name, error)}. This is the previous version of the table"
         reread = f"{quoted_file_name(name)} was read again" if self.recipe != before else ""
         if self.recipe.random is None:
-            fixed = f"{plain(self.table.name)} is always the same table; only the balls start elsewhere"
+            fixed = f"{plain(self.table.name)} has no random parts; only the balls start elsewhere"
             return reread or fixed
         is_new = seed is None
-        text = (
-            f"board {self.seed}. Shift+{key} plays it again"
-            if is_new
-            else f"board {self.seed} from the start"
-        )
+        text = f"board {self.seed}. Shift+{key} plays it again" if is_new else f"board {self.seed} again"
         return f"{reread}: {text}" if reread else text
 
     def check_file(self, key: str, *, has_session: bool) -> None:
-        """Show the table again if its file has changed; during a game, only tell the player.
+        """Show the table again if its file has changed; during a session, only show a message.
 
         Args:
             key: The key that makes a new board, as the display writes it.

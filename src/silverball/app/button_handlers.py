@@ -19,8 +19,8 @@ def press(program: Program, action: Action, *, again: bool = False) -> None:
 
     Args:
         program: The program.
-        action: What the button asks for; full screen, help, debug view and mute belong to the window.
-        again: Whether Shift is held: the same board instead of a new one.
+        action: The action of the button; the window handles full screen, help, debug view and mute.
+        again: Whether Shift is held, which asks for the same board instead of a new one.
     """
     session = program.session
     if action is Action.SLOWER or action is Action.FASTER:
@@ -53,7 +53,7 @@ def _press_in_menu(program: Program, action: Action, again: bool) -> None:
 
 
 def _press_while_loading(program: Program, action: Action) -> None:
-    """The chosen game begins as soon as the physics is loaded, unless the player goes back."""
+    """Cancel the pending game, or show that the physics is still loading."""
     if action is Action.BACK:
         program.cancel_pending()
     else:
@@ -76,7 +76,7 @@ def _press_in_game(program: Program, session: GameSession, action: Action, again
 
 
 def _try(program: Program, request: Callable[[], object]) -> None:
-    """Run a request of the player; one that is impossible now becomes a message."""
+    """Run a request of the player; show a message if it is impossible now."""
     try:
         request()
     except BoardFull:

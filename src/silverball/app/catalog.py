@@ -1,7 +1,7 @@
 """The catalog of tables and scores: built-in tables, those in the user's folder, and their high scores.
 
-The menus ask while they draw, so everything is answered from memory. The store is read again only after a new
-score, and table files only when they have changed (`table_files.py`).
+The menus query the catalog while they draw, so it answers from memory. The store is read again only after a
+new score, and table files only when they have changed (`table_files.py`).
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ MAX_SCORES = 10
 
 
 class ScoreKey(NamedTuple):
-    """Identifies the score list of a table: a title for people, and the digest that decides."""
+    """Key of a table's score list: a title for display, and the digest that identifies it."""
 
     title: str
     digest: str
@@ -61,10 +61,10 @@ class Catalog:
         self._reported: Fingerprints = ()  # of the chosen file when it was last read or reported
         self._suspected: Fingerprints = ()  # of the chosen file when a problem was first found
         self._rows: dict[tuple[str, Mode], list[ScoreRow]] = {}
-        self._lists: set[tuple[str, str]] | None = None  # digest and mode of every list that has scores
+        self._lists: set[tuple[str, str]] | None = None  # (digest, mode) of every list that has scores
 
     def watch_file(self, name: str) -> None:
-        """Watch the file of the chosen table, if it has one, in whatever folder."""
+        """Watch the file of the chosen table, if it has one, in any folder."""
         self._chosen = name
         self._files.watch(name)
 
@@ -107,7 +107,7 @@ class Catalog:
                 self._reported = loaded.fingerprints
 
     def chosen_file_change(self) -> LoadedFile | None:
-        """Return what the chosen file contains, once after every change; None if it has not changed.
+        """Return the chosen file as read, once after every change; None if it has not changed.
 
         A file with a problem is reported only if it is still the same at the next check: it may have been
         half-written.
@@ -151,7 +151,7 @@ class Catalog:
 
     def _best(self, digest: str, mode: Mode) -> list[ScoreRow]:
         if self._lists is None:
-            self._lists = {(one.table_digest, one.mode) for one in self._store.lists()}
+            self._lists = {(scores.table_digest, scores.mode) for scores in self._store.lists()}
         if (
             digest,
             str(mode),
@@ -170,7 +170,7 @@ class Catalog:
         return self._rows[digest, mode]
 
     def clear_score_cache(self) -> None:
-        """Read the scores again: one was added or changed."""
+        """Drop the cached scores, after one was added or changed."""
         self._rows.clear()
         self._lists = None
 
@@ -197,11 +197,11 @@ def table_problem_text(name: str, problem: str) -> str:
     if not is_path(name):
         return text
     command = f"silverball check {plain(shlex.quote(name))}"
-    return f"{quoted_file_name(name)} cannot be played: {text} (all of it: {command})"
+    return f"{quoted_file_name(name)} cannot be played: {text} (all problems: {command})"
 
 
 def table_error_text(name: str, error: SilverballError) -> str:
-    """Return the same sentence for the error that reading the table raised."""
+    """Return `table_problem_text` for the error that reading the table raised."""
     return table_problem_text(name, first_problem(error))
 
 
@@ -234,7 +234,7 @@ def _digest(table: Table) -> str:
 
 def _description(table: Table) -> str:
     if table.random is not None:
-        return "another board every game"
+        return "a new board every game"
     if table.board.rolling:
-        return "a steel ball that rolls"
+        return "a rolling steel ball"
     return f"{len(table.triangular_prism)} prisms, {len(table.cylinder)} cylinders"

@@ -28,7 +28,7 @@ def _(command: commands.Play, program: Program) -> None:
 
 @execute.register(commands.WatchLast)
 def _(command: commands.WatchLast, program: Program) -> None:
-    watch_text(program, program.store.last_game() or "", "the last game")
+    watch_replay_text(program, program.store.last_game() or "", "the last game")
 
 
 @execute.register(commands.WatchScore)
@@ -39,7 +39,7 @@ def _(command: commands.WatchScore, program: Program) -> None:
     except SilverballError as error:
         _reject_replay(program, error)
     else:
-        watch_text(program, text, f"score {number}")
+        watch_replay_text(program, text, f"score {number}")
 
 
 @execute.register(commands.WatchDemo)
@@ -70,7 +70,7 @@ def _(command: commands.Quit, program: Program) -> None:
 
 @execute.register(commands.Resume)
 def _(command: commands.Resume, program: Program) -> None:
-    """Nothing to do: the menu has closed itself, so the game continues."""
+    """Do nothing: the menu has closed itself, so the game continues."""
 
 
 @execute.register(commands.Restart)
@@ -103,7 +103,7 @@ def _(command: commands.ReplaySpeed, program: Program) -> None:
 
 @execute.register(commands.ReplayPause)
 def _(command: commands.ReplayPause, program: Program) -> None:
-    program.is_held = not program.is_held
+    program.is_replay_paused = not program.is_replay_paused
 
 
 @execute.register(commands.ReplayJump)
@@ -116,8 +116,8 @@ def _(command: commands.EndReplay, program: Program) -> None:
     program.end_watching()
 
 
-def watch_text(program: Program, text: str, source: str) -> None:
-    """Show a replay given as text, or tell why it cannot be played."""
+def watch_replay_text(program: Program, text: str, source: str) -> None:
+    """Show a replay given as text, or show why it cannot be played."""
     from silverball.game.replay.format import Replay
 
     try:

@@ -95,16 +95,16 @@ def is_shortcut(modifiers: int) -> bool:
 
 
 def is_printable(key: int) -> bool:
-    """Return whether a key types a character, as letters and digits do and Caps Lock does not."""
+    """Return whether a key types a character, like a letter or a digit, unlike Caps Lock."""
     return pygame.K_SPACE < key <= sys.maxunicode and key != pygame.K_DELETE
 
 
-class Held(NamedTuple):
+class PaddleInput(NamedTuple):
     """The paddle buttons (left, right) over the ticks of one input poll.
 
     Attributes:
-        first: In the first tick, which includes taps since the last poll.
-        rest: In all later ticks.
+        first: Buttons held in the first tick, including taps since the last poll.
+        rest: Buttons held in all later ticks.
     """
 
     first: tuple[bool, bool]
@@ -112,7 +112,7 @@ class Held(NamedTuple):
 
 
 class PaddleButtons:
-    """The paddle buttons that are down, and those that were tapped since the last tick, however briefly.
+    """The paddle buttons that are down, and those tapped since the last tick, however briefly.
 
     A button is identified by its source, for example "key a" or "pad 0 leftshoulder": two keys may hold one
     paddle.
@@ -132,12 +132,12 @@ class PaddleButtons:
         self._down.pop(source, None)
 
     def release_all(self) -> None:
-        """Release all buttons: the window has lost the focus."""
+        """Release all buttons, because the window has lost the focus."""
         self._down.clear()
         self._tapped.clear()
 
     def forget_taps(self) -> None:
-        """Drop taps while no game is running."""
+        """Drop the taps, because no game is running."""
         self._tapped.clear()
 
     @property
@@ -146,12 +146,12 @@ class PaddleButtons:
         down = self._down.values()
         return Action.LEFT in down, Action.RIGHT in down
 
-    def poll(self) -> Held:
+    def poll(self) -> PaddleInput:
         """Return what is held now, and consume the taps."""
         left, right = self.held
         first = (left or Action.LEFT in self._tapped, right or Action.RIGHT in self._tapped)
         self._tapped.clear()
-        return Held(first, (left, right))
+        return PaddleInput(first, (left, right))
 
 
 _BINDINGS: dict[str, ActionBinding] = {binding.action: binding for binding in ACTIONS}

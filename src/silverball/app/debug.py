@@ -1,7 +1,7 @@
 """The debug view: velocities, contact points and normals on the table, and figures beside it.
 
-Drawn over a picture through the same camera, at the height of the board: an arrow is where the solver has it,
-even where a wall hides the ball.
+It is drawn over a picture through the same camera, at the height of the board: arrows show the solver's
+positions, even of a ball behind a wall.
 """
 
 from __future__ import annotations
@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 VELOCITY_SECONDS = 0.12  # [s] of motion that an arrow shows
 NORMAL_LENGTH = 0.9  # [u]
-CONTACT_SECONDS = 1.0  # for which a contact is shown
+CONTACT_SECONDS = 1.0  # how long a contact is shown
 LOG_LINES = 10
+DOT_RADIUS = 3  # [pixel] of the dot at the end of a line
 VELOCITY = (120, 255, 160)
 NORMAL = (255, 210, 80)
 TOUCH = (150, 160, 190)
@@ -38,14 +39,14 @@ class _TimedEvent(NamedTuple):
 
 
 class DebugView:
-    """Remembers recent events and draws them on request."""
+    """Stores recent events and draws them on request."""
 
     def __init__(self) -> None:
         self._contacts: deque[_TimedEvent] = deque(maxlen=64)
         self._log: deque[str] = deque(maxlen=LOG_LINES)
 
     def reset(self) -> None:
-        """Drop all events: another session begins."""
+        """Drop all events, because another session begins."""
         self._contacts.clear()
         self._log.clear()
 
@@ -66,7 +67,8 @@ class DebugView:
                 if part.side == paddle:
                     corners = part.corners(math.degrees(moving.angle))
                     pygame.draw.aalines(target, OUTLINE, True, [camera.to_pixel(*c) for c in corners])
-        for _, event in (seen for seen in self._contacts if 0.0 <= world.time - seen.time < CONTACT_SECONDS):
+        recent = (one for one in self._contacts if 0.0 <= world.time - one.time < CONTACT_SECONDS)
+        for _, event in recent:
             if event.kind in ("created", "gutter", "jitter", "jam"):
                 continue
             x, _, z = event.position
@@ -75,14 +77,14 @@ class DebugView:
             tip = camera.to_pixel(x + nx * (NORMAL_LENGTH - radius), z + nz * (NORMAL_LENGTH - radius))
             color = TOUCH if event.kind in _TOUCH_KINDS else NORMAL
             pygame.draw.aaline(target, color, foot, tip)
-            pygame.draw.aacircle(target, color, foot, 3)
+            pygame.draw.aacircle(target, color, foot, DOT_RADIUS)
         for ball in world.balls:
             x, _, z = ball.position
             vx, _, vz = ball.velocity
             start = camera.to_pixel(x, z)
             end = camera.to_pixel(x + VELOCITY_SECONDS * vx, z + VELOCITY_SECONDS * vz)
             pygame.draw.line(target, VELOCITY, start, end, 2)
-            pygame.draw.aacircle(target, VELOCITY, end, 3)
+            pygame.draw.aacircle(target, VELOCITY, end, DOT_RADIUS)
             rim = [camera.to_pixel(x + radius * c, z + radius * s) for c, s in _CIRCLE]
             pygame.draw.aalines(target, VELOCITY, True, rim)
 
@@ -102,10 +104,10 @@ class DebugView:
             target: The picture.
             world: The world on screen.
             frames: Statistics of the frames.
-            latency: Of the buttons.
+            latency: Latency of the buttons.
             speed: Seconds of play per second of real time.
-            area: Where to draw [pixel].
-            size: Of the text [pixel].
+            area: Area to draw in [pixel].
+            size: Size of the text [pixel].
         """
         lines = [
             f"{frames.per_second:.0f} frames/s, slowest {1e3 * frames.slowest:.1f} ms, "

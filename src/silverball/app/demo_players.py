@@ -1,4 +1,4 @@
-"""The players of a demo, and the one that stands in until the requested one is compiled.
+"""The players of a demo, and the fallback that plays until the requested one is compiled.
 
 `DEMO_PLAYERS` are the built-in ones: `player_warmup.py` compiles them, and the first one plays in the attract
 mode. `demo_players` lists these and the registered players; the menu offers them.
@@ -18,7 +18,7 @@ class DemoPlayer(NamedTuple):
     """A player for demos.
 
     Attributes:
-        name: For `make_player`.
+        name: Name for `make_player`.
         label: Its name on the score display.
         hint: A short description on the score display.
         kernel: The kernel that must be compiled for it in addition to the physics; empty if none.
@@ -34,23 +34,23 @@ class DemoPlayer(NamedTuple):
 
 DEMO_PLAYERS = (
     DemoPlayer("planner", "PLANNER", "LOOKS AHEAD", "plan_worlds", 2.0),
-    DemoPlayer("trained", "TRAINED", "LEARNT BY TRIAL"),
-    DemoPlayer("reflex", "REFLEX", "HITS WHAT COMES"),
+    DemoPlayer("trained", "TRAINED", "TRAINED BY PPO"),
+    DemoPlayer("reflex", "REFLEX", "HITS EVERY BALL"),
 )
-HINT = "YOUR OWN"  # the description of a registered player on the score display
+REGISTERED_HINT = "YOUR OWN"  # hint of a registered player
 BEST_PLAYER = DEMO_PLAYERS[0]
-STAND_IN = next(one for one in DEMO_PLAYERS if one.name == "reflex")  # needs no kernel of its own
+FALLBACK_PLAYER = next(one for one in DEMO_PLAYERS if one.name == "reflex")  # needs no kernel of its own
 
 
 def demo_players() -> tuple[DemoPlayer, ...]:
     """All players for demos: `DEMO_PLAYERS`, then the players registered so far."""
     from silverball.players import registered_names
 
-    return *DEMO_PLAYERS, *(DemoPlayer(name, name.upper(), HINT) for name in registered_names())
+    return *DEMO_PLAYERS, *(DemoPlayer(name, name.upper(), REGISTERED_HINT) for name in registered_names())
 
 
 class DemoPlayerSelector:
-    """Selects who plays: the requested player, or the stand-in until that one is ready.
+    """Selects the player of a demo: the requested one, or the fallback until that one is ready.
 
     Args:
         is_ready: Returns whether a player, by name, can play without a delay.
@@ -60,17 +60,17 @@ class DemoPlayerSelector:
         playing: The current player.
     """
 
-    def __init__(self, is_ready: Callable[[str], bool] = lambda name: name == STAND_IN.name) -> None:
+    def __init__(self, is_ready: Callable[[str], bool] = lambda name: name == FALLBACK_PLAYER.name) -> None:
         self.is_ready = is_ready
-        self.requested = self.playing = STAND_IN
+        self.requested = self.playing = FALLBACK_PLAYER
 
     def select(self, name: str) -> Player:
-        """Request a player; return it, or the stand-in if it is not ready."""
+        """Request a player; return it, or the fallback if it is not ready."""
         self.requested = next(one for one in demo_players() if one.name == name)
         return self._make()
 
     def switch_when_ready(self, session: DemoSession) -> bool:
-        """Let the requested player take over once it is ready; return whether it has just done so."""
+        """Switch to the requested player once it is ready; return whether this call switched."""
         if self.playing is self.requested or not self.is_ready(self.requested.name):
             return False
         session.player = self._make()
@@ -79,5 +79,5 @@ class DemoPlayerSelector:
     def _make(self) -> Player:
         from silverball.players import make_player
 
-        self.playing = self.requested if self.is_ready(self.requested.name) else STAND_IN
+        self.playing = self.requested if self.is_ready(self.requested.name) else FALLBACK_PLAYER
         return make_player(self.playing.name)

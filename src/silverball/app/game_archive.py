@@ -1,9 +1,9 @@
 """Saves games in the store: the last game, the score, and the replay as a file.
 
-A score is saved under the last initials as soon as a game is over, before any page shows it or asks for
-initials: whatever happens to the program meanwhile, a score that was shown is saved. While another program
-locks the file of the scores, the score waits in a file beside it, and the player is told. A score that is
-only in memory is called "not yet saved".
+A score is saved with the last initials as soon as a game is over, before a page shows it or asks for
+initials, so that a crash cannot lose a score that was shown. While another program locks the score file, the
+score is spooled to a file beside it, and a message says so. A score that is only in memory is called "not yet
+saved".
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 
 class GameResult(NamedTuple):
-    """What became of a game that is over.
+    """The outcome of saving a finished game.
 
     Attributes:
         rank: The rank of its score, from 1; None if it has none.
         score_id: The id of its score in the store; None if it was not saved.
-        message: For the player; empty if there is none.
+        message: Message for the player; empty if there is none.
     """
 
     rank: int | None = None
@@ -37,32 +37,32 @@ class GameResult(NamedTuple):
     message: str = ""
 
 
-RETRY_SECONDS = 1.0  # between two attempts to write what is pending
+RETRY_SECONDS = 1.0  # between two attempts to write pending data
 REMIND_SECONDS = 10.0  # between two messages about a score that is not yet saved
 LOST = "this score cannot be saved: the data folder cannot be written"
 PENDING = "another program has locked the scores: this one is saved in a separate file for now"
 NOT_YET_SAVED = "this score is not yet saved: another program has locked the scores. Retrying every second"
-SAVED = "the score is now in the list of scores"
+SAVED = "the score has been added to the high scores"
 
 
 class GameArchive:
     """Saves games in the store.
 
     Args:
-        store: Where games are saved.
-        catalog: Reads the scores again after a new one.
+        store: Store that games are saved in.
+        catalog: Catalog whose cached scores are dropped after a new one.
     """
 
     def __init__(self, store: Store, catalog: Catalog) -> None:
         self._store, self._catalog = store, catalog
-        self._is_score_pending = False  # and the player has been told
+        self._is_score_pending = False  # and a message has said so
         self._next_retry = self._next_reminder = 0.0
 
     def retry_pending(self, seconds: float) -> str:
-        """Try to write what waits for another program.
+        """Try to write data that another program has delayed by its lock.
 
         Args:
-            seconds: Of a monotonic clock [s].
+            seconds: Time of a monotonic clock [s].
 
         Returns:
             A message for the player; empty if there is none.
@@ -95,8 +95,8 @@ class GameArchive:
 
         Args:
             game: The game.
-            recipe: The table that its board was made from, which has the score list.
-            initials: Of the player, until new ones are entered.
+            recipe: The table that its board was made from; its score list gets the score.
+            initials: Initials of the player, until new ones are entered.
             is_ranked: Whether its score may enter the high scores.
         """
         self.save_last_game(game)

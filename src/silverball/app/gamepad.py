@@ -2,8 +2,8 @@
 
 SDL knows the layout of hundreds of gamepads and gives their buttons common names. A trigger is an axis; it
 counts as a button that is down while it is pulled more than a third. Devices without a mapping in SDL (arcade
-encoders, boards of pinball cabinets, old pads) are joysticks: their buttons have numbers from 1, as "button
-5", and each direction of a hat or an axis is a button too, as "hat 1 left" and "axis 2 +". Both kinds may be
+encoders, boards of pinball cabinets, old pads) are joysticks: their buttons are numbered from 1 ("button
+5"), and each direction of a hat or an axis is a button too ("hat 1 left", "axis 2 +"). Both kinds may be
 connected and removed at any time.
 """
 
@@ -21,7 +21,7 @@ from silverball.plain import plain
 
 TRIGGER_DOWN = 11_000  # of 32,767
 TRIGGER_UP = 8_000  # hysteresis against chatter
-AXIS_DOWN = 0.6  # of the way from its rest position to its end
+AXIS_DOWN = 0.6  # share of the way from its rest position to its end
 AXIS_UP = 0.4
 
 BUTTON_NAMES = {
@@ -53,7 +53,7 @@ class PadButton(NamedTuple):
 
     Attributes:
         pad: Instance id of the device.
-        name: Of the button, for example "leftshoulder" or "button 5".
+        name: Name of the button, for example "leftshoulder" or "button 5".
         down: Whether it went down.
         kind: The kind of device: "pad", or the GUID of a joystick, as in the settings.
     """
@@ -81,7 +81,7 @@ class _Joystick:
 
     def directions(self, axis: int, value: float) -> Iterator[tuple[str, bool | None]]:
         """Yield the buttons of an axis, and whether they are down; None: unchanged."""
-        if axis not in self._rests:  # the first event gives the rest position, also that of a pedal
+        if axis not in self._rests:  # the first event gives the rest position, which a pedal has at one end
             self._rests[axis] = round(value)
         for sign, direction in (("-", -1), ("+", 1)):
             if self._rests[axis] == direction:
@@ -112,11 +112,11 @@ class Gamepads:
     def read(self, event: pygame.Event) -> Iterator[PadButton]:
         """Yield the buttons that an event of SDL changes; most events change none."""
         for button in self._read(event):
-            place = (button.pad, button.name)
+            key = (button.pad, button.name)
             if button.down:
-                self._down[place] = button
+                self._down[key] = button
             else:
-                self._down.pop(place, None)
+                self._down.pop(key, None)
             yield button
         if event.type in REMOVED:
             self._pads.pop(event.instance_id, None)
@@ -140,7 +140,7 @@ class Gamepads:
             yield from self._read_joystick(event, self._joysticks[event.instance_id])
 
     def rumble(self, strength: float, seconds: float) -> None:
-        """Let all gamepads rumble that can, with a strength of 0 to 1."""
+        """Rumble all gamepads that support it, with a strength from 0 to 1."""
         for pad in self._pads.values():
             with contextlib.suppress(pygame.error, AttributeError):
                 pad.rumble(strength, strength, round(1000 * seconds))

@@ -1,6 +1,6 @@
 """Handles the events of the window: keys, gamepad buttons, and changes of focus, layout and devices.
 
-Help, debug view, full screen and mute are handled here. Paddle buttons are held here until the next input
+Help, debug view, full screen and mute are handled here. Paddle buttons are stored until the next input
 poll; all other actions are passed on to the program. A key that comes up ends the action that it began, even
 if the layout or the bindings have changed since.
 """
@@ -55,7 +55,7 @@ class InputHandler:
         gamepads: The gamepads and joysticks.
         keyboard: The keyboard.
         controls: The current key bindings.
-        shows_help: Whether the help is shown; the game waits meanwhile.
+        shows_help: Whether the help is shown, which pauses the game.
         help_page: The visible page of the help: the keys, or how to score.
         shows_debug: Whether the debug view is shown.
     """
@@ -148,7 +148,7 @@ class InputHandler:
                 self._program.menus.release(pressed.menu)
 
     def _help_key(self, default: str) -> str:
-        """The key that shows the help, or something else to use if there is none."""
+        """The label of the key that shows the help; `default` if there is none."""
         labels = self.controls.key_labels(Action.HELP)
         return upper_label(labels[0]) if labels else default
 
@@ -157,7 +157,7 @@ class InputHandler:
         if self.shows_help or is_shortcut(event.mod):
             return False
         is_button = action in (*PADDLES, Action.CREATE)
-        # Text input of SDL is off, because an input method would swallow letters.
+        # SDL's text input is off, because an input method would swallow letters.
         letter = self.keyboard.letter(event) or event.unicode
         return self._program.menus.type(letter, self.keyboard.new_name(event), is_button=is_button)
 
@@ -174,7 +174,7 @@ class InputHandler:
             self._messages.show(f"{button.name} does nothing here; the gamepad settings can change that")
 
     def _devices_changed(self, event: pygame.Event) -> None:
-        """A gamepad or joystick was connected or removed."""
+        """Handle a gamepad or joystick that was connected or removed."""
         self._program.menus.context.joysticks = self.gamepads.joysticks
         if event.type in REMOVED and event.instance_id in self._gamepads_in_use:
             self._gamepads_in_use.discard(event.instance_id)
@@ -202,14 +202,14 @@ class InputHandler:
             self._press_in_program(action)
         elif action is Action.NEW_BOARD and again:
             for scancode, pressed in self._keys.items():
-                if pressed.name in _SHIFT_KEYS:  # Shift was part of this shortcut, not a paddle button
+                if pressed.name in _SHIFT_KEYS:  # part of this shortcut, not a paddle button
                     self.buttons.release(f"key {scancode}")
             self._press_in_program(action, again=True)
         else:
             self._press_in_program(action)
 
     def _press_in_program(self, action: Action, *, again: bool = False) -> None:
-        """Pass a button on to the game or the menus, which wait while the help is shown."""
+        """Pass a button on to the game or the menus, unless the help is shown."""
         program = self._program
         if self.shows_help:
             self._press_in_help(action)

@@ -1,10 +1,9 @@
 """Resolves key presses to the key names of the settings, on any keyboard layout.
 
-Settings name keys by the labels of a US keyboard ("a", ",", "left shift"; other characters by themselves, as
-"é"). A name means the key with that label on the current layout, without Shift. If no key has the label, as
-"." on a French keyboard or "a" on a Russian one, it means the key in the same scancode on a US keyboard.
-Shift is a paddle button, so it changes nothing; only a character that the layout has nowhere else may be
-typed with it.
+Settings name keys by the labels of a US keyboard ("a", ",", "left shift"); other characters, like "é", name
+themselves. A name means the key with that label on the current layout, without Shift. If no key has the label
+("." on a French keyboard, "a" on a Russian one), it means the key with the scancode that a US keyboard has
+for it. Shift is a paddle button, so it is ignored, except for characters that the layout has only with Shift.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ US_SCANCODES: dict[str, int] = {
 US_LABELS = {scancode: character for character, scancode in US_SCANCODES.items()}
 
 WITH_SHIFT = {";": ".", ".": ","}
-"""Characters with Shift, where the layout has them nowhere else: "." on AZERTY, "," on Cyrillic ones.
+"""Characters typed with Shift on layouts that have no key for them: "." on AZERTY, "," on Cyrillic ones.
 
 Source: the layouts of xkeyboard-config 2.35.
 """
@@ -73,11 +72,11 @@ class Keyboard:
         if not self._labels or not event.scancode or self._labels.get(event.scancode) == name:
             return False
         self.read_layout()
-        self._labels[event.scancode] = name  # SDL may be out of date, an event is not
+        self._labels[event.scancode] = name  # SDL may be out of date; an event never is
         return True
 
     def resolve(self, event: KeyEvent, names: Iterable[str]) -> str:
-        """Return which one of some names a key press means; empty if none."""
+        """Return the name, among `names`, of a pressed key; empty if it is none of them."""
         names = set(names)
         name = key_label(event.key, event.scancode)
         if event.mod & pygame.KMOD_SHIFT:
@@ -86,7 +85,7 @@ class Keyboard:
                 return typed
         if event.scancode in self._labels:
             return self._names_by_scancode(names).get(event.scancode, "")
-        # A program generated the press, as an on-screen keyboard does, or SDL is not available.
+        # A program such as an on-screen keyboard generated the press, or SDL is not available.
         if name not in names and not name.isascii():
             name = US_LABELS.get(event.scancode, "")
         return name if name in names else ""
@@ -120,11 +119,11 @@ class Keyboard:
         return labels
 
     def _names_by_scancode(self, names: set[str]) -> dict[int, str]:
-        """Return which key each name means: names by scancode."""
+        """Return the names by the scancodes of the keys that they mean."""
         found = {scancode: name for scancode, name in self._labels.items() if name in names}
         for name in sorted(names - set(found.values())):
             scancode = US_SCANCODES.get(name, 0)
-            # A key that is taken by its own label cannot have the name: try the US place of that label.
+            # A key that has a name by its own label is taken: try the US scancode of that label.
             for _ in US_SCANCODES:
                 if scancode not in found:
                     break
@@ -141,7 +140,7 @@ def key_label(key: int, scancode: int) -> str:
 
     Args:
         key: Its key code.
-        scancode: Its place, for dead keys, which have no character of their own.
+        scancode: Its scancode, for dead keys, which have no character.
     """
     name = pygame.key.name(key)
     if not name and 32 < key <= sys.maxunicode and chr(key).isprintable():

@@ -20,9 +20,9 @@ from silverball.plain import plain
 
 TEXT_SIZE = 0.5  # [u] of ordinary text
 MIN_TEXT_SIZE = 11  # [pixel]
-MIN_MESSAGE_SIZE = 8  # [pixel] below which a message grows beyond its place instead of shrinking
-MIN_HELP_SIZE = 7  # [pixel] below which the help is scaled down as an image
-HELP_SHARE = 0.94  # of the table's area that the help may cover
+MIN_MESSAGE_SIZE = 8  # [pixel]; a longer message outgrows its area instead of shrinking further
+MIN_HELP_SIZE = 7  # [pixel]; a larger help is scaled down as an image
+HELP_SHARE = 0.94  # share of the table's area that the help may cover
 HELP_PAGES = 2
 DIM = (0, 0, 0, 120)  # over the table behind the help
 
@@ -33,7 +33,7 @@ def text_size(scale: float) -> int:
 
 
 def draw_message(target: pygame.Surface, apron: pygame.Rect, scale: float, text: str, opacity: float) -> None:
-    """Draw a short message on the apron, where it hides no play; a long one grows upwards from there."""
+    """Draw a short message on the apron, where it hides nothing; a long one extends upwards."""
     image = _message(text, text_size(scale), target.get_width(), target.get_height() - apron.top)
     image.set_alpha(round(255 * min(max(opacity, 0.0), 1.0)))
     target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, target.get_height())))
@@ -51,11 +51,11 @@ def draw_help(
         _place(target, _rules(size, available, tuple(rules), _foot(turn_key, "keys", leave_key)), 0.5)
         return
     keys = []
-    for one in ACTIONS:
-        names = controls.key_labels(Action(one.action))
-        names = ("escape", *names) if one.action == "back" else names
+    for binding in ACTIONS:
+        names = controls.key_labels(Action(binding.action))
+        names = ("escape", *names) if binding.action == "back" else names
         if names:
-            keys.append((one.label.lower(), tuple(map(_cap_label, names))))
+            keys.append((binding.label.lower(), tuple(map(_cap_label, names))))
     _place(target, _help(size, available, seed, tuple(keys), _foot(turn_key, "how to score", leave_key)), 0.5)
 
 
@@ -66,7 +66,7 @@ def _first_key(controls: Controls, action: Action) -> str:
 
 def _foot(turn_key: str, other_page: str, leave_key: str) -> str:
     """Return how to turn to the other page, and how to leave."""
-    return f"paddle or {turn_key}: {other_page} · {leave_key}: go on"
+    return f"paddle or {turn_key}: {other_page} · {leave_key}: close"
 
 
 def small_text_size(scale: float) -> int:
@@ -168,12 +168,12 @@ def _place(target: pygame.Surface, image: pygame.Surface, height: float, opacity
 
 MIN_SECONDS = 2.2
 MAX_SECONDS_IN_PLAY = 2.5  # [s] while a ball needs the player's attention
-SECONDS_PER_LETTER = 0.045  # [s] for a slow reader
+SECONDS_PER_LETTER = 0.045  # for a slow reader
 FADE_SECONDS = 0.4
 
 
 class Messages:
-    """The message on screen: a new one replaces it, and the same one again has no effect."""
+    """The message on screen; a new one replaces it, and showing the same one again has no effect."""
 
     def __init__(self) -> None:
         self.text = ""
@@ -195,7 +195,7 @@ class Messages:
         self._left = 0.0
 
     def update(self, seconds: float, *, in_play: bool = False) -> None:
-        """Let real time pass [s]; while a ball is in play messages are short."""
+        """Advance by real time [s]; messages end sooner while a ball is in play."""
         most = MAX_SECONDS_IN_PLAY if in_play else self._left
         self._left = max(0.0, min(self._left, most) - seconds)
 

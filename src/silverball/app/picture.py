@@ -1,7 +1,7 @@
-"""The table in a window of any size: always whole, in the middle, and never frozen.
+"""The table in a window of any size: whole, centred, and drawn in every frame.
 
-The renderer shows a sketch at once and sharpens it in the background. While the window is being resized the
-last picture is stretched; a new renderer is made once the size has settled.
+The renderer shows a sketch immediately and refines it in the background. While the window is being resized
+the last picture is stretched; a new renderer is made once the size has settled.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Picture:
 
     @property
     def apron(self) -> pygame.Rect:
-        """The plate below the gutter [pixel of the table's area]: text on it hides no play."""
+        """The plate below the gutter [pixel of the table's area], where text hides nothing of the play."""
         return self._fitted(self.renderer.apron)
 
     @property
@@ -79,7 +79,7 @@ class Picture:
         return self.renderer.is_sharp and self.renderer.camera.size == self._drawn_size
 
     def show(self, table: Table, board_seed: int | None, settings: Settings) -> None:
-        """Draw this table from now on."""
+        """Select the table, its seed and the settings that `draw` uses."""
         shown = _Shown(table, board_seed, settings.theme, settings.effects)
         if shown != self._shown:
             self._shown = shown
@@ -92,7 +92,7 @@ class Picture:
             self._renderer.add_events(events, tick_rate)
 
     def reset(self) -> None:
-        """Reset the effects: another session begins."""
+        """Reset the effects, because another session begins."""
         if self._renderer is not None:
             self._renderer.effects.clear()
 
@@ -150,22 +150,22 @@ class Picture:
 
     def _fitted(self, box: pygame.Rect) -> pygame.Rect:
         """Scale a rectangle of the renderer's picture to the table's area."""
-        wide, high = self.renderer.camera.size
-        across, down = self.area.width / wide, self.area.height / high
+        width, height = self.renderer.camera.size
+        scale_x, scale_y = self.area.width / width, self.area.height / height
         return pygame.Rect(
-            round(box.left * across),
-            round(box.top * down),
-            round(box.width * across),
-            round(box.height * down),
+            round(box.left * scale_x),
+            round(box.top * scale_y),
+            round(box.width * scale_x),
+            round(box.height * scale_y),
         )
 
 
 def fitted(board: Board, window_size: tuple[int, int]) -> pygame.Rect:
     """Return the largest area in the middle of a window into which the whole table fits."""
-    width, height = window_size
-    wide, high = best_size(board, min(max(height, 2), MAX_HEIGHT))
-    if wide > width:
-        high = max(2, high * width // wide)
-        wide = best_size(board, high)[0]
-    wide, high = min(wide, width), min(high, height)  # for windows of almost no size
-    return pygame.Rect((width - wide) // 2, (height - high) // 2, wide, high)
+    window_width, window_height = window_size
+    width, height = best_size(board, min(max(window_height, 2), MAX_HEIGHT))
+    if width > window_width:
+        height = max(2, height * window_width // width)
+        width = best_size(board, height)[0]
+    width, height = min(width, window_width), min(height, window_height)  # in windows of a few pixels
+    return pygame.Rect((window_width - width) // 2, (window_height - height) // 2, width, height)

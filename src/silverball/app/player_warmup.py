@@ -3,8 +3,8 @@
     compiled code on disk? (otherwise `python -m silverball.app.player_warmup`, a process of low priority,
     makes it) →  loaded in a thread by one decision  →  ready
 
-Compiling holds Python's lock, so it never happens in the process of the game. If it fails, the player does
-not become ready and its stand-in plays on (`demo_players.py`).
+Compiling holds the GIL, so it never happens in the process of the game. If it fails, the player never becomes
+ready, and the fallback player continues (`demo_players.py`).
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import threading
 import warnings
 from typing import TYPE_CHECKING
 
-from silverball.app.demo_players import DEMO_PLAYERS, STAND_IN, DemoPlayer, demo_players
+from silverball.app.demo_players import DEMO_PLAYERS, FALLBACK_PLAYER, DemoPlayer, demo_players
 from silverball.background_process import Compiler
 
 if TYPE_CHECKING:
     from silverball.table import Table
 
-HEAD_START = 2.0  # [s] for the first frames of a game, which loading would delay by about 0.15 s
+START_DELAY = 2.0  # [s], since loading would delay the first frames of a game by about 0.15 s
 NICENESS = 10  # lower priority than the game and the drawing
 COMPILE_TIMEOUT = 1800.0  # [s]; compiling takes 17 s on an idle processor
 
@@ -30,12 +30,12 @@ class PlayerWarmup:
     """Warms up the players one after the other, once the physics is loaded.
 
     Args:
-        table: A board to try them on.
+        table: A board for their first decisions.
     """
 
     def __init__(self, table: Table) -> None:
         self._table = table
-        self._ready = {STAND_IN.name}
+        self._ready = {FALLBACK_PLAYER.name}
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._work, name="silverball player warm-up", daemon=True)
         self._thread.start()
@@ -49,11 +49,11 @@ class PlayerWarmup:
         self._thread.join(seconds)
 
     def close(self) -> None:
-        """Stop; a running compilation ends with the program."""
+        """Stop after the current player; a running compilation ends with the program."""
         self._stop.set()
 
     def _work(self) -> None:
-        if self._stop.wait(HEAD_START):
+        if self._stop.wait(START_DELAY):
             return
         from silverball.players import PlayerError, player_names
 
@@ -64,8 +64,8 @@ class PlayerWarmup:
                     warm_up_player(demo_player, self._table)
                     self._ready.add(demo_player.name)
             except PlayerError as error:
-                warnings.warn(f"{error}; the player {STAND_IN.name!r} stands in", stacklevel=1)
-            except Exception:  # the stand-in plays on
+                warnings.warn(f"{error}; the player {FALLBACK_PLAYER.name!r} plays instead", stacklevel=1)
+            except Exception:  # the fallback player continues
                 pass
             if self._stop.is_set():
                 return
@@ -85,7 +85,7 @@ def is_compiled_on_disk(demo_player: DemoPlayer) -> bool:
 
 
 def warm_up_player(demo_player: DemoPlayer, table: Table) -> None:
-    """Let a player decide once, so that no later decision has to load or compile."""
+    """Make a player's first decision, which loads and compiles everything that it needs."""
     from silverball.game.game import Game
     from silverball.players import make_player
 

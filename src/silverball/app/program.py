@@ -1,8 +1,8 @@
 """The state of the program: the board, the session on it, the menus, and how sessions begin and end.
 
-At any time there is a board, possibly a session on it (a game, a replay or a demo), and possibly a menu page
-on the score display. The window passes in buttons and time and draws what is here; this module knows no
-window.
+There is always a board. It may have a session (a game, a replay or a demo), and a menu page may be open on
+the score display. The window passes in buttons and time and draws this state; this module does not depend on
+it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from silverball.app.board import CurrentBoard
 from silverball.app.command_handlers import execute
-from silverball.app.controls import Action, Held
+from silverball.app.controls import Action, PaddleInput
 from silverball.app.demo_players import BEST_PLAYER, DemoPlayerSelector
 from silverball.app.game_archive import GameArchive, GameResult
 from silverball.app.menus import Button, Menus, ReplayStatus
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from silverball.table import Table
 
 LOADING_MESSAGE = "one moment, please: the physics is being loaded"
-GAME_OVER_SECONDS = 2.5  # for which the end of a game is shown before a menu page opens
+GAME_OVER_SECONDS = 2.5  # [s] how long the end of a game is shown before a menu page opens
 FILE_CHECK_INTERVAL = 0.5  # [s] between two checks whether a table file has changed
-REPLAY_LOOKAHEAD = 480  # [tick] that a replay is prepared ahead, so that a jump is fast
+REPLAY_LOOKAHEAD = 480  # [tick] prepared per frame, so that jumps are fast
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
 
@@ -47,7 +47,7 @@ class Program:
         store: Scores, settings and the last game.
         settings: The settings at the start.
         catalog: The tables and scores to choose from.
-        seed: Of the first board; None draws one.
+        seed: Seed of the first board; None draws one.
         show_message: Shows the player a sentence.
         themes: Names of the colour themes.
 
@@ -59,11 +59,11 @@ class Program:
         is_ready: Whether the physics is loaded.
         progress: Progress of the compilation; None while nothing is compiled.
         is_over: Whether the program should end.
-        is_held: Whether the replay is held.
+        is_replay_paused: Whether the replay is paused.
         store: Scores, settings and the last game.
         archive: Saves games in the store.
         demo_players: The player of the demo.
-        result: What became of the last game that ended.
+        result: Rank, score id and message of the last finished game.
         show_message: Shows the player a sentence.
     """
 
@@ -81,7 +81,7 @@ class Program:
         self.session: Session | None = None
         self.is_ready = self.is_over = False
         self.progress: Progress | None = None
-        self.is_held = False
+        self.is_replay_paused = False
         catalog.watch_file(settings.table)
         self.menus = Menus(self.settings, catalog.entries(), catalog.scores, themes=themes)
         self.display = ScoreDisplay()
@@ -92,10 +92,12 @@ class Program:
         self._catalog = catalog
         self._now = 0.0
         self._speed = NORMAL_SPEED
-        self._pending: Callable[[], None] | None = None  # what the player asked for while the physics loads
+        self._pending: Callable[[], None] | None = (
+            None  # the player's request, run once the physics is loaded
+        )
         self._ended_at: float | None = None  # when the current game ended
         self._is_ranked = True  # whether the score of the current game may enter the high scores
-        self._is_attract_demo = False  # whether the demo began by itself
+        self._is_attract_demo = False  # whether the attract mode started the demo
         self._files_checked_at = 0.0
         self._game_recipe: Table | None = None  # the table that the board of the current game was made from
         self._score_key: ScoreKey | None = None  # the score list of the current game
@@ -121,7 +123,7 @@ class Program:
             return False
         if isinstance(self.session, GameSession):
             return not self.menus.is_open
-        return not self.is_held
+        return not self.is_replay_paused
 
     @property
     def is_paused(self) -> bool:
@@ -162,7 +164,7 @@ class Program:
     # --- time ---------------------------------------------------------------------------------------
 
     def update(self, seconds: float) -> None:
-        """Do what is due at a time [s] of a monotonic clock; the board itself is not advanced."""
+        """Run everything that is due at a time [s] of a monotonic clock, except the session on the board."""
         self._now = seconds
         self._retry_saving(seconds)
         execute(self.menus.tick(seconds), self)
@@ -178,7 +180,7 @@ class Program:
                 self.menus.update_replay(self._replay_status(session))
 
     def _retry_saving(self, seconds: float) -> None:
-        """Save what waits for another program that has locked the store."""
+        """Retry pending writes to a store that another program has locked."""
         message = self.archive.retry_pending(seconds)
         if self.settings.read_when_unlocked():
             self._update_last_game()
@@ -194,8 +196,8 @@ class Program:
             self.show_message(str(error))
             self.stop_watching()
 
-    def single_tick(self, held: Held) -> None:
-        """Advance by one tick while the game is paused or the replay is held."""
+    def single_tick(self, held: PaddleInput) -> None:
+        """Advance by one tick while the game or the replay is paused."""
         session = self.session
         if session is None or self.is_moving or session.has_ended:
             self.show_message(why_no_single_tick(session))
@@ -270,7 +272,7 @@ class Program:
         session = self.session
         if self._is_ranked and isinstance(session, GameSession) and session.game.mode is Mode.ARCADE:
             self._is_ranked = False
-            self.show_message("slowed down, this game no longer counts for the high scores")
+            self.show_message("slowed down: this game no longer counts for the high scores")
 
     def _key_label(self, action: Action) -> str:
         """The first key of an action, as the display writes it."""
@@ -279,18 +281,18 @@ class Program:
     # --- sessions -----------------------------------------------------------------------------------
 
     def finish_loading(self) -> None:
-        """The physics is loaded: do what the player asked for meanwhile."""
+        """Mark the physics as loaded and run the pending request."""
         self.is_ready = True
         pending, self._pending = self._pending, None
         if pending is not None:
             pending()
 
     def show_loading_message(self) -> None:
-        """Tell the player that the physics is still being loaded."""
+        """Show that the physics is still loading."""
         self.show_message(LOADING_MESSAGE)
 
     def cancel_pending(self) -> None:
-        """Drop what the player asked for while the physics loads, and go back to the menu."""
+        """Drop the pending request and return to the main menu."""
         self._pending = None
         self.menus.open_main()
 
@@ -305,7 +307,7 @@ class Program:
         self.session = session
         is_calm = self.settings.current.effects == "less"
         self.display = ScoreDisplay(self._key_label(Action.CREATE), is_calm=is_calm)
-        self._speed, self.is_held, self._is_attract_demo = NORMAL_SPEED, False, False
+        self._speed, self.is_replay_paused, self._is_attract_demo = NORMAL_SPEED, False, False
         self._ended_at, self._is_ranked, self.result = None, True, GameResult()
 
     def play(self, mode: Mode, table: str, seed: int | None = None) -> None:
@@ -347,7 +349,7 @@ class Program:
         self.session = None
 
     def _finish_game(self, session: GameSession) -> None:
-        """Save a game that is over at once; open the next page when its end has been shown."""
+        """Save a finished game in the first frame; open the next page after `GAME_OVER_SECONDS`."""
         if self._ended_at is None:
             recipe, initials = self._game_recipe or self.board.recipe, self.settings.current.initials
             self.result = self.archive.save_finished_game(
@@ -396,10 +398,12 @@ class Program:
 
     def _replay_status(self, session: ReplaySession) -> ReplayStatus:
         player, rate = session.player, session.player.replay.tick_rate
-        return ReplayStatus(player.tick / rate, player.ticks / rate, self.speed, self.is_held, "REPLAY")
+        return ReplayStatus(
+            player.tick / rate, player.ticks / rate, self.speed, self.is_replay_paused, "REPLAY"
+        )
 
     def start_demo(self, player: str = BEST_PLAYER.name, *, is_attract: bool = False) -> None:
-        """Let a player play as soon as the physics is ready; another one stands in until it is compiled."""
+        """Start a demo once the physics is ready; a fallback player plays until this one is compiled."""
         self._when_ready(lambda: self._start_demo(player, is_attract))
 
     def _start_demo(self, player: str, is_attract: bool) -> None:
@@ -438,7 +442,7 @@ class Program:
             self.board.show_table(self.settings.current.table, seed)
 
     def _check_table_files(self) -> None:
-        """Update the list of tables, and tell the player if the file of the current table has changed."""
+        """Update the list of tables, and show a message if the file of the current table has changed."""
         if self._now - self._files_checked_at < FILE_CHECK_INTERVAL:
             return
         self._files_checked_at = self._now
@@ -446,7 +450,7 @@ class Program:
         if self._catalog.refresh(whole=is_choosing) and is_choosing:
             self.menus.context.tables = self._catalog.entries()
         if isinstance(self.session, ReplaySession | DemoSession):
-            return  # the file is read in any case when the session ends
+            return  # the end of the session reads the file anyway
         key = self._key_label(Action.NEW_BOARD).replace("?", "a new game")
         self.board.check_file(key, has_session=self.session is not None)
 

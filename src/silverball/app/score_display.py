@@ -22,11 +22,11 @@ POINTS_TIME = 0.7  # [s] for which the points of a hit are shown
 MESSAGE_TIME = 2.5  # [s]
 SCROLL_SPEED = 45.0  # [dot/s] of long messages
 MAX_MESSAGES = 4  # in the queue; late messages are useless
-MAX_DELAY = 3.5  # [s] after which an announcement that could not begin is dropped
+MAX_DELAY = 3.5  # [s] an announcement may wait before it is dropped
 MIN_COMBO_SHOWN = 3  # hits in a row that are announced
 COMBO_FULL = 8  # hits in a row that fill the meters
 
-STATUS_Y = 24
+STATUS_Y = 24  # [dot] top of the status line
 HALF = 130  # brightness of secondary text
 
 Scene = Callable[[Dots, float], None]
@@ -36,7 +36,7 @@ class Announcement(NamedTuple):
     """An event to announce.
 
     Attributes:
-        name: Identifies it; a new one replaces one with the same name.
+        name: Identifier; a new announcement replaces a queued one with the same name.
         rank: Higher ranks go first.
         text: Written above the score.
         length: Total duration [s].
@@ -51,7 +51,7 @@ class Announcement(NamedTuple):
     length: float
     full: Scene | None = None
     full_time: float = 0.0
-    draw_text: Callable[[Dots, float, str, int], None] = animations.grown
+    draw_text: Callable[[Dots, float, str, int], None] = animations.growing_text
 
 
 class ScoreDisplay:
@@ -78,7 +78,7 @@ class ScoreDisplay:
         self._seen_since = -MIN_VISIBLE_TIME
         self._tilted_since: float | None = None
         self._phase_since = (Phase.READY, 0.0)
-        self._is_beaten = False
+        self._beats_high_score = False
         self._best = 0
 
     def add_events(self, events: Iterable[GameEvent]) -> None:
@@ -87,7 +87,7 @@ class ScoreDisplay:
             if event.kind is GameEventKind.SCORED and event.value:
                 self._points, self._points_began = event.value, None
             elif event.kind is GameEventKind.UNSTUCK:
-                self.show_message("A SHOVE FOR A STILL BALL")
+                self.show_message("STUCK BALL SHOVED")
             else:
                 announcement = _announcement_of(event)
                 if announcement is not None:
@@ -109,7 +109,7 @@ class ScoreDisplay:
 
         Args:
             view: The state of the game.
-            seconds: Of a monotonic clock [s].
+            seconds: Time of a monotonic clock [s].
             high_score: The best score so far; 0 if there is none.
 
         Returns:
@@ -119,8 +119,8 @@ class ScoreDisplay:
         self._best = high_score
         if view.phase is not self._phase_since[0]:
             self._phase_since = (view.phase, seconds)
-        if 0 < high_score < view.score and not self._is_beaten and view.phase is not Phase.OVER:
-            self._is_beaten = True
+        if 0 < high_score < view.score and not self._beats_high_score and view.phase is not Phase.OVER:
+            self._beats_high_score = True
             self._enqueue(_HIGH_SCORE)
         if not view.tilted:
             self._tilted_since = None
@@ -240,18 +240,18 @@ class ScoreDisplay:
         if self._best and not view.score and (seconds - self._phase_since[1]) % 4.0 >= 2.0:
             text = f"BEST {self._best:,}"
         dots.text(text, 1, STATUS_Y, NORMAL, "left", HALF)
-        room = WIDTH - NORMAL.width(text) - 8
-        dots.number(self._score(seconds), WIDTH - 1, 20, room, (BOLD, NORMAL, TINY), "right")
+        available = WIDTH - NORMAL.width(text) - 8
+        dots.number(self._score(seconds), WIDTH - 1, 20, available, (BOLD, NORMAL, TINY), "right")
 
     def _count(self, score: int, seconds: float) -> None:
-        """Let the score count up, or jump if it has decreased, which means another game."""
+        """Start counting up to a new score; a lower score belongs to another game and is shown directly."""
         if score == self._score_to:
             return
         now = self._score(seconds)
         self._score_from = now if 0 <= now < score and self._score_to >= 0 else score
         self._score_to, self._score_changed = score, seconds
         if score == 0:
-            self._is_beaten = False
+            self._beats_high_score = False
 
     def _score(self, seconds: float) -> int:
         """Return the displayed score, which counts up."""
@@ -287,14 +287,14 @@ class ScoreDisplay:
 
 
 class _Messages:
-    """A queue of short messages."""
+    """A queue of short messages, shown one after the other."""
 
     def __init__(self) -> None:
         self._texts: list[str] = []
         self._began: float | None = None
 
     def add(self, text: str) -> None:
-        """Add a message unless it repeats the last one; of too many only the newest are kept."""
+        """Add a message unless it repeats the last one; a full queue drops its oldest waiting message."""
         if not self._texts or self._texts[-1] != text:
             del self._texts[1 : max(len(self._texts) - MAX_MESSAGES + 2, 1)]
             self._texts.append(text)
@@ -327,7 +327,7 @@ def _combo_scene(value: int) -> Scene:
 def _high_scene(dots: Dots, at: float) -> None:
     animations.fireworks(dots, at + 0.3)
     dots.box(14, 9, 132, 14, 0)
-    animations.grown(dots, at, "HIGH SCORE!", 11)
+    animations.growing_text(dots, at, "HIGH SCORE!", 11)
 
 
 _HIGH_SCORE = Announcement("high", 6, "HIGH SCORE!", 3.2, _high_scene, 0.8)
@@ -347,7 +347,7 @@ def _announcement_of(event: GameEvent) -> Announcement | None:
         return _DOUBLE
     if event.kind is GameEventKind.WARNING:
         return Announcement(
-            "warning", 4, "WARNING" + "!" * min(event.value, 3), 1.2, draw_text=animations.shaken
+            "warning", 4, "WARNING" + "!" * min(event.value, 3), 1.2, draw_text=animations.shaking_text
         )
     if event.kind is GameEventKind.BALL_LOST and event.value:
         return Announcement("lost", 1, f"BALL {event.value} LOST", 1.4, animations.falling_ball, 0.45)

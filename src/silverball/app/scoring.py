@@ -11,7 +11,7 @@ from silverball.table import Arcade, Table
 
 KINDS = ("cylinder", "triangular prism", "slant wall", "paddle")
 TIMES = {1: "once", 2: "twice"}
-MAX_SHOVES = 1002  # above the greatest limit of a table
+MAX_SHOVES = 1002  # more than any table allows
 
 
 class Rule(NamedTuple):
@@ -27,11 +27,11 @@ class Rule(NamedTuple):
 
 
 def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
-    """Return what a player should know about points, most useful first.
+    """Return the scoring rules of a table, the most useful first.
 
     Args:
         table: A board.
-        mode: Of the game.
+        mode: Mode of the game.
         shove_key: Label of the key that shoves the table; empty if there is none.
     """
     hits = Rule("Hits", _hits(table))
@@ -50,7 +50,7 @@ def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
         *rules,
         Rule("Ball save", _ball_save(arcade)),
         Rule("Tilt", _tilt(arcade, shove_key)),
-        Rule("Game", f"{balls}. The ten best scores of a table are kept, with their replays"),
+        Rule("Game", f"{balls}. The ten best scores of a table are saved with their replays"),
     ]
 
 
@@ -69,7 +69,7 @@ def _hits(table: Table) -> str:
     if not worth:
         return "Nothing on this table gives points"
     words = _joined(worth)
-    return f"{words[0].upper()}{words[1:]} points. A gentle touch is no hit"
+    return f"{words[0].upper()}{words[1:]} points. A gentle touch is not a hit"
 
 
 def _range(values: Collection[int]) -> str:
@@ -79,10 +79,10 @@ def _range(values: Collection[int]) -> str:
 
 def _combo(arcade: Arcade) -> str:
     if not arcade.combo_window:
-        return "Hits in a row count no more than single ones here"
+        return "This table has no combos"
     within = f"Hits at most {arcade.combo_window:g} s apart make a combo"
     if arcade.combo_limit == 1:
-        return f"{within}, which is counted but pays nothing here"
+        return f"{within}, which is counted but earns no extra points"
     second = f"from the {_ordinal(arcade.combo_step + 1)} hit on they count ×2"
     if arcade.combo_limit == 2:
         return f"{within}: {second}"
@@ -93,7 +93,7 @@ def _combo(arcade: Arcade) -> str:
 
 def _ball_save(arcade: Arcade) -> str:
     if not arcade.ball_save or not arcade.ball_saves:
-        return "None: a ball that is lost is lost"
+        return "This table has none"
     times = TIMES.get(arcade.ball_saves, f"{arcade.ball_saves} times")
     return f"A ball lost within {arcade.ball_save:g} s of its start comes back, {times}"
 
@@ -107,7 +107,7 @@ def _tilt(arcade: Arcade, shove_key: str) -> str:
         words = f"the {_ordinal(warns)} of quick ones warns, the {_ordinal(tilts)} tilts"
         if arcade.warnings:
             warnings = "1 warning" if arcade.warnings == 1 else f"{arcade.warnings} warnings"
-            words += f", and so does one too many after {warnings}"
+            words += f", and so does one after {warnings}"
     return f"{shove}; {words}. Then the paddles are dead and nothing scores until the board is empty"
 
 

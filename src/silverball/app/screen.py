@@ -1,6 +1,6 @@
 """The window of the operating system, its size, and the mouse pointer over it.
 
-A pixel here is a physical pixel of the screen: nothing is scaled, so it is sharp on high-density screens too.
+Pixels are physical pixels of the screen: nothing is scaled, so pictures are sharp on high-density screens.
 """
 
 from __future__ import annotations
@@ -11,22 +11,22 @@ from silverball.app import sdl
 from silverball.drawing.sketch import ball_icon
 from silverball.video_driver import open_video
 
-DECORATION = 88  # [pixel] of the screen's height for title bar and task bar
-TITLE_BAR = 48  # [pixel] of it for the title bar alone
+DECORATION = 88  # [pixel] height of title bar and task bar together
+TITLE_BAR = 48  # [pixel] height of the title bar alone
 FRAME = 8  # [pixel] that the window frame may add on each side
 MAX_HEIGHT = 1200  # [pixel] of the window when it opens
 ICON_SIDE = 64  # [pixel]
 MIN_SIZE = (170, 340)  # [pixel] below which text is unreadable
-REMEDY = "`silverball demo` makes a film of a game without one, for example: silverball demo --out demo.gif"
+REMEDY = "`silverball demo` films a game without one, for example: silverball demo --out demo.gif"
 FRAME_RATES = (60, 240)  # [1/s] the smallest and the greatest target
-_TYPING_ENDS = (pygame.WINDOWSHOWN, pygame.WINDOWSIZECHANGED, pygame.WINDOWFOCUSGAINED)
+_TEXT_INPUT_STARTS = (pygame.WINDOWSHOWN, pygame.WINDOWSIZECHANGED, pygame.WINDOWFOCUSGAINED)
 
 
 class Screen:
     """The window of the operating system.
 
     Args:
-        title: Of the window.
+        title: Title of the window.
         without_display: Whether SDL drivers without output are accepted, as in tests.
 
     Raises:
@@ -95,11 +95,11 @@ class Screen:
     def handle(self, event: pygame.Event) -> None:
         """Handle an event of the pointer or of the desktop."""
         self._pointer.handle(event)
-        if event.type in _TYPING_ENDS:
+        if event.type in _TEXT_INPUT_STARTS:
             _disable_text_input()
 
     def update(self, elapsed: float, *, is_paused: bool) -> None:
-        """Let real time pass [s], while a game is paused or not."""
+        """Advance by real time [s]; the pointer is visible while a game is paused."""
         self._pointer.update(elapsed, is_paused=is_paused)
 
     def close(self) -> None:
@@ -137,7 +137,7 @@ def _disable_text_input() -> None:
 
 
 HIDE_AFTER = 2.0  # [s] without motion
-_TOUCHED = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
+_POINTER_EVENTS = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
 
 
 class Pointer:
@@ -150,7 +150,7 @@ class Pointer:
 
     def handle(self, event: pygame.Event) -> None:
         """Handle motion, and changes of the focus."""
-        if event.type in _TOUCHED:
+        if event.type in _POINTER_EVENTS:
             if getattr(event, "rel", None) != (0, 0):  # no motion: a window has opened under the pointer
                 self._show()
         elif event.type in (pygame.WINDOWFOCUSLOST, pygame.WINDOWFOCUSGAINED):
@@ -158,7 +158,7 @@ class Pointer:
             self._show()
 
     def update(self, elapsed: float, *, is_paused: bool) -> None:
-        """Let real time pass [s], while a game is paused or not."""
+        """Advance by real time [s]; the pointer is visible while a game is paused."""
         if is_paused and not self._was_paused:
             self._show()
         self._was_paused = is_paused

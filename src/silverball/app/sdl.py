@@ -1,7 +1,7 @@
 """Functions of SDL that pygame does not expose: the keyboard layout, and the arrangement of the screens.
 
-They are called in the library that pygame has loaded. Where it cannot be reached they return None, and
-callers fall back on pygame.
+They call the library that pygame has loaded. If it cannot be found they return None, and callers fall back to
+pygame.
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """Sessions on the board: a game of the player, a replay, or a demo that the program plays by itself.
 
-All three have the same interface: ticks in; a game to draw and to take events from out. They know no window.
+All three have one interface: `advance` takes ticks, `game` gives the picture and the events. None depends on
+the window.
 """
 
 from __future__ import annotations
@@ -8,7 +9,7 @@ from __future__ import annotations
 import contextlib
 from typing import TYPE_CHECKING, Protocol
 
-from silverball.app.controls import Held
+from silverball.app.controls import PaddleInput
 from silverball.errors import BoardFull, NoRoom
 from silverball.game.view import GameView, Mode, Phase
 
@@ -19,14 +20,14 @@ if TYPE_CHECKING:
     from silverball.players import Player
     from silverball.table import Table
 
-DEMO_SECOND_BALL_DELAY = 4.0  # [s] for which a demo has one ball before it creates another
+DEMO_SECOND_BALL_DELAY = 4.0  # [s] between the first and the second ball of a demo
 DEMO_BALL_DELAY = 1.0  # [s] between two balls of a demo
-NEW_BALL_LOCK = 1.0  # [s] after a new ball in arcade in which another one cannot be requested
-CONFIRM_WITHIN = 3.0  # [s] in which a second press confirms the request for an extra ball
+NEW_BALL_LOCK = 1.0  # [s] after a new ball in arcade, in which no other can be requested
+CONFIRM_WITHIN = 3.0  # [s] for the second press that confirms an extra ball
 
 
 class Session(Protocol):
-    """What runs on the board."""
+    """A game, replay or demo that runs on the board."""
 
     @property
     def game(self) -> GameCore:
@@ -38,9 +39,9 @@ class Session(Protocol):
 
     @property
     def has_ended(self) -> bool:
-        """Whether nothing will happen any more."""
+        """Whether the session has ended: `advance` changes nothing any more."""
 
-    def advance(self, held: Held, ticks: int) -> None:
+    def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance by a number of ticks."""
 
 
@@ -63,8 +64,8 @@ class GameSession:
         """Create a ball; in arcade an extra ball beside one in play must be requested twice.
 
         An extra ball is one of the few balls of the game, and an accidental press must not spend it: the
-        first press is answered by a question, and just after a new ball presses are ignored. The game itself
-        knows only the balls that were created.
+        first press only asks for confirmation, and presses just after a new ball are ignored. The game
+        records only the balls that were created.
 
         Args:
             key: The key that creates a ball, as the display writes it.
@@ -86,7 +87,7 @@ class GameSession:
         self._created_at, self._requested_at = tick, None
         return ""
 
-    def advance(self, held: Held, ticks: int) -> None:
+    def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance with the paddle buttons held; a tap holds a paddle for one tick."""
         if ticks <= 0:
             return
@@ -114,7 +115,7 @@ class DemoSession:
         self.player = player
         self._delay = 0.0  # [s] until the next ball may be created
 
-    def advance(self, held: Held, ticks: int) -> None:
+    def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance by a number of ticks; `held` is ignored."""
         for _ in range(ticks):
             self._create_balls()
@@ -149,7 +150,7 @@ class ReplaySession:
         """Whether the replay is at its end."""
         return self.player.at_end
 
-    def advance(self, held: Held, ticks: int) -> None:
+    def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance by a number of ticks; `held` is ignored."""
         self.player.advance(ticks)
 
@@ -164,5 +165,5 @@ def why_no_single_tick(session: Session | None) -> str:
     if session is not None and session.has_ended:
         return "the game is over" if isinstance(session, GameSession) else "the replay has ended"
     if isinstance(session, ReplaySession):
-        return "one tick at a time is for a replay that is held"
-    return "one tick at a time is for a game that is paused"
+        return "single ticks are only possible while the replay is paused"
+    return "single ticks are only possible while the game is paused"

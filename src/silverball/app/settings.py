@@ -1,7 +1,7 @@
 """The player's settings: the model with its defaults, and the one object that owns the current ones.
 
-`Settings` is a frozen model. Stored values may be older, newer or damaged: `Settings.of` takes every value
-that is still valid and the default for the rest, so that a bad value never stops a game.
+`Settings` is a frozen model. Stored values may be older, newer or damaged: `Settings.of` uses every valid
+value and the default for the rest, so a bad value never stops a game.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Settings(BaseModel):
     mode: Annotated[Literal["arcade", "free"], BeforeValidator(_text)] = "arcade"
     """The mode chosen last."""
     initials: Annotated[str, Field(pattern=r"^[A-Z0-9 .\-]{3}$")] = "AAA"
-    """Entered last; the next score is offered the same."""
+    """The initials entered last, suggested for the next score."""
     keys: dict[str, tuple[str, ...]] = {}
     """Keys by action where they differ from the defaults, by the names of `app/keyboard.py`."""
     pad: dict[str, tuple[str, ...]] = {}
@@ -76,14 +76,14 @@ class Settings(BaseModel):
     def of(cls, values: dict[str, Any]) -> Self:
         """Return the settings in `values`, with the default for every value that is missing or invalid."""
         values = _with_table_of_mode(values)
-        good = {}
+        valid = {}
         for name in cls.model_fields:
             if name in values:
                 try:
-                    good[name] = getattr(cls.model_validate({name: values[name]}), name)
+                    valid[name] = getattr(cls.model_validate({name: values[name]}), name)
                 except ValidationError:
                     continue
-        return cls(**good)
+        return cls(**valid)
 
     def changed(self, **values: Any) -> Self:
         """Return validated settings with some values changed; `table` is the one of the chosen mode."""
@@ -94,12 +94,12 @@ SettingsCallback: TypeAlias = Callable[[Settings, Settings], None]
 
 
 class PlayerSettings:
-    """The one owner of the settings: everything else reads `current` and subscribes to changes.
+    """The owner of the settings: all other code reads `current` and subscribes to changes.
 
     Args:
         current: The settings at the start.
-        store: Where changes are saved; None: nowhere. While another program locks it, the stored settings are
-            unknown, and only changed values are saved.
+        store: Store that changes are saved in; None: they are not saved. While another program locks it,
+            the stored settings are unknown, and only changed values are saved.
     """
 
     def __init__(self, current: Settings, store: Store | None = None) -> None:
@@ -117,7 +117,7 @@ class PlayerSettings:
         self.replace(self.current.changed(**values))
 
     def replace(self, settings: Settings) -> None:
-        """Use other settings and save them."""
+        """Replace all settings and save them."""
         before, self.current = self.current, settings
         if self._store is not None:
             values, old = settings.model_dump(mode="json"), before.model_dump(mode="json")

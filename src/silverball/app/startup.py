@@ -1,4 +1,4 @@
-"""Load the physics in a thread while the table is already on screen, and show the progress.
+"""Loading of the physics in a thread while the table is already on screen, and its progress bar.
 
 The first start on a machine compiles for some seconds; later ones load in a fraction of one.
 """
@@ -22,7 +22,7 @@ class Startup:
     """Loads, and if necessary compiles, everything that a game needs.
 
     Args:
-        table: A board to try the physics on.
+        table: A board for the first calls of the physics.
         on_compile: Called from the thread if the physics must be compiled first.
     """
 
@@ -101,7 +101,7 @@ def warm_up(table: Table) -> None:
 
 MIN_SHARE = 0.05  # below which the total time cannot be estimated
 LINE_Y = 8  # [dot] of the bar below the title of a menu
-TITLE_WIDTH = WIDTH - 62  # [dot] beside the marks of a menu
+TITLE_WIDTH = WIDTH - 62  # [dot] of the title, left of the page dots
 SWEEP_TIME = 1.2  # [s] of one sweep of the bar while progress is unknown
 
 
@@ -129,8 +129,8 @@ def draw_page(seconds: float, progress: Progress | None) -> Dots:
     """Draw the whole display while a requested game waits for the physics.
 
     Args:
-        seconds: Of a monotonic clock [s].
-        progress: Of the compilation; None while nothing is compiled, only loaded.
+        seconds: Time of a monotonic clock [s].
+        progress: Progress of the compilation; None while nothing is compiled, only loaded.
     """
     dots = Dots()
     if progress is None:

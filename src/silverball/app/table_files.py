@@ -21,9 +21,9 @@ from silverball.table import Table, load_table, table_digest
 from silverball.table.file import SIZE_LIMIT
 
 ENDING = ".toml"
-REFRESH_WAIT = 0.01  # [s] that a check waits for the reading thread: enough for a hundred parts
-READ_PAUSE = 0.02  # [s] between two of many files, which leaves Python to the game
-FIRST_REFRESH_WAIT = 0.5  # [s] the same before the first frame: enough for some fifty tables
+REFRESH_WAIT = 0.01  # [s] a check waits for the reading thread: enough for a table of a hundred parts
+READ_PAUSE = 0.02  # [s] between two of many files, in which the game gets Python's lock
+FIRST_REFRESH_WAIT = 0.5  # [s] the same before the first frame: enough for about fifty tables
 
 Fingerprint: TypeAlias = tuple[str, int, int, int, int, int]
 Fingerprints: TypeAlias = tuple[Fingerprint, ...]
@@ -33,9 +33,9 @@ class LoadedFile(NamedTuple):
     """A table file as last read.
 
     Attributes:
-        fingerprints: Of the file and of its meshes, taken just before.
+        fingerprints: Fingerprints of the file and of its meshes, taken just before.
         table: The table; None if it cannot be used.
-        digest: Of the table; empty without a table.
+        digest: Digest of the table; empty without a table.
         problem: The first problem with its place; empty if the table can be used.
     """
 
@@ -46,7 +46,7 @@ class LoadedFile(NamedTuple):
 
 
 class TableFiles:
-    """The table files of a folder, and the chosen one in whatever folder.
+    """The table files of a folder, and the chosen file, which may be in another folder.
 
     Args:
         folder: The folder; it may not exist.
@@ -80,7 +80,7 @@ class TableFiles:
         """Find new and changed files, and read them in the thread.
 
         Args:
-            wait: How long to wait for the thread at most [s]; later results appear in a later call.
+            wait: Longest wait for the thread [s]; the next calls report what takes longer.
             whole: Whether to check the whole folder, or only the chosen file.
         """
         if self._chosen and self._differs(self._chosen) and [self._chosen] != list(self._stale)[:1]:
@@ -129,7 +129,7 @@ class TableFiles:
                 names.insert(0, self._chosen)
         if tuple(names) != self._names:
             self._names = tuple(names)
-            self._loaded = {name: one for name, one in self._loaded.items() if name in names}
+            self._loaded = {name: loaded for name, loaded in self._loaded.items() if name in names}
             self.version = next(self._versions)
 
     def _differs(self, name: str) -> bool:
@@ -172,7 +172,7 @@ def _read(name: str) -> tuple[LoadedFile, SilverballError | None]:
         return LoadedFile(fingerprints, table, table_digest(table)), None
     except SilverballError as problem:
         error = problem
-    except Exception as problem:  # no file, whatever its content, may stop the game
+    except Exception as problem:  # no content of a file may stop the game
         error = TableError(name, [Problem("", f"cannot be read ({type(problem).__name__}: {problem})")])
     return LoadedFile(fingerprints, problem=first_problem(error)), error
 
@@ -203,7 +203,7 @@ def _fingerprints(name: str, before: Fingerprints) -> Fingerprints:
 
 
 def _fingerprint(path: str) -> Fingerprint:
-    """Return what changes when a file is changed, replaced, removed or becomes inaccessible."""
+    """Return a value that differs after a file was changed, replaced, removed or made inaccessible."""
     try:
         status = os.stat(path)
     except (OSError, ValueError) as error:

@@ -6,12 +6,12 @@ import time
 from collections import deque
 
 MAX_CATCH_UP = 0.05
-"""Real time [s] that one frame may catch up. Below 20 frames a second the game slows down; a larger limit
-would make it jump after a stall, and a machine too slow for its ticks would hang."""
+"""Greatest real time [s] that one frame advances: below 20 frames a second the game slows down. A larger
+limit would make it jump after a stall, and would hang a machine that is too slow for its ticks."""
 
 
 class TickClock:
-    """Converts real time into whole ticks; the remainder is carried over, a stall is not caught up.
+    """Converts real time into whole ticks; the remainder is carried over, and a stall is not caught up with.
 
     Args:
         tick_rate: Ticks per second of play.
@@ -27,7 +27,7 @@ class TickClock:
 
     @property
     def max_ticks(self) -> int:
-        """The greatest number of ticks at once."""
+        """The greatest number of ticks per call."""
         return max(1, round(MAX_CATCH_UP * self.tick_rate * max(self.speed, 1.0)))
 
     @property
@@ -81,11 +81,11 @@ class LatencyMeter:
     """Latency of the last presses of a paddle button.
 
     Measurement begins when the program receives the event: the path from the key to the program, and from the
-    program to the light of the screen, cannot be measured here.
+    program to the light of the screen, cannot be measured.
 
     Attributes:
-        to_tick: From the event to the end of the tick that moved the paddle [s].
-        to_picture: From the event to the moment its frame was passed to the screen [s].
+        to_tick: Time from the event to the end of the tick that moved the paddle [s].
+        to_picture: Time from the event to the moment when its frame was passed to the screen [s].
     """
 
     def __init__(self) -> None:
@@ -96,11 +96,11 @@ class LatencyMeter:
         self._drawn: list[float] = []
 
     def record_press(self) -> None:
-        """A paddle button went down."""
+        """Record that a paddle button went down."""
         self._pressed.append(time.perf_counter())
 
     def record_tick(self) -> None:
-        """The world has advanced, with all buttons pressed so far."""
+        """Record that the world has advanced with all buttons pressed so far."""
         if self._pressed:
             now = time.perf_counter()
             self.to_tick.extend(now - pressed for pressed in self._pressed)
@@ -108,19 +108,19 @@ class LatencyMeter:
             self._pressed.clear()
 
     def record_draw(self) -> None:
-        """A frame of the current world was drawn."""
+        """Record that a frame of the current world was drawn."""
         self._drawn += self._moved
         self._moved.clear()
 
     def record_flip(self) -> None:
-        """That frame was passed to the screen."""
+        """Record that this frame was passed to the screen."""
         if self._drawn:
             now = time.perf_counter()
             self.to_picture.extend(now - pressed for pressed in self._drawn)
             self._drawn.clear()
 
     def reset(self) -> None:
-        """Drop open measurements: no game is running, so buttons move no paddle."""
+        """Drop open measurements, because no game is running."""
         for presses in (self._pressed, self._moved, self._drawn):
             presses.clear()
 

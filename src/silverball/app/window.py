@@ -1,6 +1,6 @@
 """The game in a window: buttons in; ticks, picture and sounds out.
 
-An *input poll* handles the events and runs the ticks that real time asks for. A *frame* polls, draws the
+An *input poll* handles the events and runs the ticks that are due in real time. A *frame* polls, draws the
 table and the text on top, and shows the result. Between two frames the window polls a thousand times a
 second, so that a button reaches the simulation within a tick and not only with the next frame.
 """
@@ -60,12 +60,12 @@ class Window:
     Args:
         table: A table, a built-in name, or a path to a file; None: the one chosen last. A table with random
             parts makes a new board for every seed.
-        seed: Of the first board; None draws one.
-        mode: Begin this game at once; None: begin in the menu.
+        seed: Seed of the first board; None draws one.
+        mode: Begin a game of this mode; None: begin in the menu.
         replay: Begin with this replay.
-        height: Of the window [pixel]; None: as high as fits the screen.
+        height: Height of the window [pixel]; None: as high as fits the screen.
         without_display: Whether SDL drivers without output are accepted, as in tests.
-        folder: For scores, settings and replays; None: the user's data folder.
+        folder: Folder of scores, settings and replays; None: the user's data folder.
         on_compile: Called (from a thread) if the physics must be compiled first.
         on_ready: Called when a game can begin.
 
@@ -118,10 +118,10 @@ class Window:
         )
         self.program.settings.subscribe(self._apply_settings)
         self._session: Session | None = None
-        self._before: Moment | None = None  # one tick before the present one
+        self._before: Moment | None = None  # the moment one tick earlier, for interpolation
         self._part_kinds: dict[str, str] = {}  # of the session's table, by name in events
-        self._seconds = self._drawn_at = 0.0  # real time so far, and at the last frame
-        self._moved_at = 0.0  # real time at the last frame in which the session had not ended
+        self._seconds = self._drawn_at = 0.0  # [s] real time at the last poll, and at the last frame
+        self._moved_at = 0.0  # [s] real time at the last frame before the session ended
         for warning in filter(None, (self.store.warning, self.sounds.warning)):
             self.messages.show(warning)
         if replay is not None:
@@ -132,7 +132,7 @@ class Window:
     def _new_program(self, table: Table | str | None, seed: int | None, mode: Mode | None) -> Program:
         """Create the program on a table, or on the default one if the stored table no longer exists."""
         settings = Settings.of(self.store.settings())
-        given = {}
+        given = {}  # tables made in Python, by name
         if table is not None:
             name = table if isinstance(table, str) else table.name
             given = {} if isinstance(table, str) else {name: table}
@@ -154,7 +154,7 @@ class Window:
     # --- the loop ---------------------------------------------------------------------------------
 
     def run(self, seconds: float | None = None) -> None:
-        """Run until the player quits, or for some seconds."""
+        """Run until the player quits, or for `seconds` of real time [s]."""
         before = start = time.perf_counter()
         try:
             while not self.is_over and (seconds is None or before - start < seconds):
@@ -175,7 +175,7 @@ class Window:
         self._advance_session(elapsed)
 
     def frame(self, elapsed: float) -> None:
-        """Poll, draw and show, some seconds after the last poll."""
+        """Poll, draw and show; `elapsed` is the real time [s] since the last poll."""
         self.poll_input(elapsed)
         self.draw()
         self.show()
@@ -227,7 +227,7 @@ class Window:
         self.input_handler.close()
         self._screen.close()
         if not self.store.is_spooled:
-            print(f"waiting for another program that holds {self.store.path} …", file=sys.stderr)
+            print(f"waiting for another program that has locked {self.store.path} …", file=sys.stderr)
         self.store.close()
         if self.store.exit_warning:
             print(plain(self.store.exit_warning), file=sys.stderr)
@@ -306,7 +306,7 @@ class Window:
         if session is None or not program.is_moving or self.input_handler.shows_help:
             self.input_handler.buttons.forget_taps()
             self.latency.reset()
-            self._collect_events()  # of single ticks
+            self._collect_events()  # a single tick may have produced some
             return
         self._clock.speed = program.speed
         ticks = self._clock.advance(elapsed)
@@ -380,7 +380,7 @@ class Window:
         if session is not None:
             moment = Moment.of(session.game.world)
             if session.has_ended:
-                # The board stands still, but let the last animations end: a lost ball, sparks, lights.
+                # The board no longer moves, but the last animations still play: a lost ball, sparks, lights.
                 moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
             else:
                 self._moved_at = self._seconds
@@ -411,7 +411,7 @@ class Window:
         if self.messages.opacity > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.opacity)
 
-    # --- after a crash ----------------------------------------------------------------------------
+    # --- crash report ----------------------------------------------------------------------------
 
     def _save_crash_replay(self) -> None:
         session = self._session

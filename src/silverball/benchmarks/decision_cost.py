@@ -23,11 +23,11 @@ def measure_planner(
     branches: int | None = None,
     advance: Callable[[str], None] = lambda _: None,
 ) -> list[Figure]:
-    """Let the planner play a game at 240 ticks per second and time its decisions.
+    """Time the decisions of the planner in a game at 240 ticks per second.
 
     Args:
-        table: A table, or a recipe, of which the game gets one board.
-        seed: Of the game.
+        table: A table, or a recipe for the board of the game.
+        seed: Seed of the game.
         seconds: Simulated length of the game [s].
         branches: Branches per decision; None for the planner's own number.
         advance: Called with the name of what is measured next.

@@ -1,7 +1,7 @@
 """Speed of the drawing: time to the first and to the best picture of a board, and frames per second.
 
-Pictures are cached in a folder that is removed afterwards, so nothing is cached at the start. The code is
-compiled before: that happens only at the first start on a machine.
+Pictures are cached in a temporary folder, so the cache is empty at the start. The code is compiled before the
+measurement, since that happens only at the first start on a machine.
 """
 
 from __future__ import annotations
@@ -54,9 +54,9 @@ def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None
         figures.append(
             Figure("best picture of another board", _seconds(lambda: _bake(second, size, cache)), "s")
         )
-        advance("a board that was seen before")
+        advance("a board from the cache")
         known = statistics.median(_seconds(lambda: _bake(second, size, cache)) for _ in range(rounds))
-        figures.append(Figure("picture of a board seen before", known, "s"))
+        figures.append(Figure("picture of a cached board", known, "s"))
         advance("drawing frames")
         figures += _frames(_bake(first, size, cache), rounds)
     return figures
@@ -104,7 +104,7 @@ def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
     return [
         Figure("frames drawn, two balls", 1.0 / statistics.median(times), "frames/s"),
         Figure("a frame", 1000.0 * statistics.median(times), "ms"),
-        Figure("from there onto a window of 32 bits", 1000.0 * blit, "ms"),
+        Figure("copying it to a 32-bit window", 1000.0 * blit, "ms"),
     ]
 
 

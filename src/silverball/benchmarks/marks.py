@@ -1,7 +1,7 @@
-"""Speed of the step in every situation that could be slow, of single calls, and of the start, in one run.
+"""Speed of the step in each situation that could be slow, of single calls, and of the start, in one run.
 
-Every batch is measured once per round, one after the other, so that a busy moment of the machine affects all
-of them; figures are medians of the rounds, ratios medians of the ratios within a round.
+Every batch is measured once per round, one after the other, so a busy moment of the machine affects all of
+them. Figures are medians of the rounds, ratios are medians of the ratios within a round.
 """
 
 from __future__ import annotations
@@ -17,7 +17,14 @@ from typing import Any
 
 import numpy as np
 
-from silverball.benchmarks.speed import FILL, FRAME_RATE, Figure, boards_of, random_actions
+from silverball.benchmarks.speed import (
+    FILL,
+    FRAME_RATE,
+    WARM_UP_ROUNDS,
+    Figure,
+    benchmark_boards,
+    random_actions,
+)
 from silverball.table import Cylinder, SlantWall, Table, load_table
 from silverball.world import World, WorldBatch
 
@@ -43,12 +50,12 @@ def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) 
     """Measure everything; `advance` is called with the name of what is measured next."""
     cases = _cases()
     times: dict[str, list[float]] = {name: [] for name in cases}
-    for number in range(rounds + 2):  # the first two compile and warm up
+    for number in range(rounds + WARM_UP_ROUNDS):
         for name, case in cases.items():
             advance(name)
-            took = case()
-            if number >= 2:
-                times[name].append(took)
+            seconds = case()
+            if number >= WARM_UP_ROUNDS:
+                times[name].append(seconds)
     figures = [
         Figure(name, 1e-6 / statistics.median(took), "million frames/s") for name, took in times.items()
     ]
@@ -67,8 +74,8 @@ def measure_marks(rounds: int, advance: Callable[[str], None] = lambda _: None) 
 
 
 def _cases() -> dict[str, Callable[[], float]]:
-    """The cases that are measured in rounds, by name: functions that return the seconds per frame."""
-    boards = boards_of(load_table("random"))
+    """The measured cases, by name: functions that play one round and return the seconds per frame."""
+    boards = benchmark_boards(load_table("random"))
     rolling = [_changed(board, friction=0.2, rolling=True) for board in boards]
     return {
         "two balls": _play(boards, threads=1),
@@ -108,31 +115,31 @@ def _play(
 def _rolling_cost(rounds: int) -> Figure:
     """Cost of rolling in the same situations: the same positions, velocities and buttons, for a second.
 
-    (In their own play, rolling balls are slower and stay longer near the paddles, where a step costs more.)
+    In random play, rolling balls are slower and stay longer near the paddles, where a step costs more.
     """
-    boards = boards_of(load_table("random"))
-    slides, rolls = (
-        WorldBatch([some[i % len(some)] for i in range(WORLDS)], WORLDS, 0, FRAME_RATE, 1)
-        for some in (boards, [_changed(board, friction=0.2, rolling=True) for board in boards])
+    boards = benchmark_boards(load_table("random"))
+    sliding, rolling = (
+        WorldBatch([tables[i % len(tables)] for i in range(WORLDS)], WORLDS, 0, FRAME_RATE, 1)
+        for tables in (boards, [_changed(board, friction=0.2, rolling=True) for board in boards])
     )
     radius = boards[0].board.ball_radius
     random = np.random.default_rng(0)
     shares = []
-    for _ in range(rounds + 2):
+    for _ in range(rounds + WARM_UP_ROUNDS):
         for _ in range(FILL):
-            slides.create_balls()
-        slides.step_unchecked(random_actions(random, FRAMES, WORLDS), FRAMES)
-        rolls.state[:] = slides.state
-        ball = rolls.state["ball"]
+            sliding.create_balls()
+        sliding.step_unchecked(random_actions(random, FRAMES, WORLDS), FRAMES)
+        rolling.state[:] = sliding.state
+        ball = rolling.state["ball"]
         ball["spin_x"], ball["spin_z"] = ball["vz"] / radius, -ball["vx"] / radius
         actions = random_actions(random, FRAMES, WORLDS)
         times = []
-        for batch in (slides, rolls):
+        for batch in (sliding, rolling):
             started = time.perf_counter()
             batch.step_unchecked(actions, FRAMES)
             times.append(time.perf_counter() - started)
         shares.append(times[1] / times[0])
-    return Figure("rolling costs from the same places", statistics.median(shares[2:]), "×")
+    return Figure("rolling costs from the same places", statistics.median(shares[WARM_UP_ROUNDS:]), "×")
 
 
 def _rest() -> Callable[[], float]:
@@ -142,13 +149,13 @@ def _rest() -> Callable[[], float]:
     raised = np.zeros((1, count, 3), np.bool_)
     raised[..., :2] = True
     batch.step_unchecked(raised, FRAMES)
-    one = World("classic", tick_rate=FRAME_RATE)
-    one.step(left=True, right=True, ticks=FRAMES)
+    world = World("classic", tick_rate=FRAME_RATE)
+    world.step(left=True, right=True, ticks=FRAMES)
     for z in (-2.9, 2.9):
-        one.create_ball(position=(-4.5, z))
-    one.step(left=True, right=True, ticks=10 * FRAMES)
-    assert len(one.balls) == FILL, "the balls do not lie on the paddles"
-    batch.state[:] = one.records[0]
+        world.create_ball(position=(-4.5, z))
+    world.step(left=True, right=True, ticks=10 * FRAMES)
+    assert len(world.balls) == FILL, "the balls do not lie on the paddles"
+    batch.state[:] = world.records[0]
 
     def one_round() -> float:
         started = time.perf_counter()
@@ -161,17 +168,17 @@ def _rest() -> Callable[[], float]:
 def crowded_table() -> Table:
     """A table of 40 × 20 u with 195 cylinders: 202 parts with the paddles, the guides and the borders."""
     classic = load_table("classic")
-    low = -20.0 + 2.8  # x of the pivots [u]
+    pivot_x = -20.0 + 2.8  # [u]
     rows = enumerate(np.arange(-9.5, 18.0, 1.5))
     centers = [(float(x), float(z + 0.8 * (row % 2))) for row, x in rows for z in np.arange(-8.6, 7.9, 1.6)]
     guides = tuple(
-        SlantWall(start=(-11.2, side * 10.0), end=(low + 0.33, side * 2.74)) for side in (-1.0, 1.0)
+        SlantWall(start=(-11.2, side * 10.0), end=(pivot_x + 0.33, side * 2.74)) for side in (-1.0, 1.0)
     )
     return classic.model_copy(
         update={
             "name": "Crowded",
             "board": classic.board.model_copy(update={"length": 40.0, "width": 20.0, "gutter": -19.0}),
-            "paddle": tuple(p.model_copy(update={"pivot": (low, p.pivot[1])}) for p in classic.paddle),
+            "paddle": tuple(p.model_copy(update={"pivot": (pivot_x, p.pivot[1])}) for p in classic.paddle),
             "slant_wall": guides,
             "triangular_prism": (),
             "cylinder": tuple(Cylinder(center=center, radius=0.3) for center in centers[:195]),

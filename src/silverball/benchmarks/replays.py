@@ -1,7 +1,7 @@
 """Size of replays, speed of verifying them, and time of a seek in a long one.
 
 Three games: the reflex player in arcade, the same in free play with two balls, and a frantic player that
-changes a button six times per second. Times are processor times, so that a busy machine changes little.
+changes a button six times per second. Times are processor times, so other load on the machine matters little.
 """
 
 from __future__ import annotations
@@ -33,10 +33,10 @@ def measure_replays(minutes: float, advance: Callable[[str], None] = lambda _: N
     """Measure replays.
 
     Args:
-        minutes: Length of the replay in which is sought [min].
+        minutes: Length of the replay that is searched by seeking [min].
         advance: Called with the name of what is measured next.
     """
-    make_player("reflex").press(Game("classic").world)  # compiles
+    make_player("reflex").press(Game("classic").world)  # compile before the measurement
     games: dict[str, Callable[[], Game]] = {
         "reflex, arcade": lambda: reflex_game(Mode.ARCADE, 2, GAME_SECONDS),
         "reflex, two balls": lambda: reflex_game(Mode.FREE, 2, GAME_SECONDS),

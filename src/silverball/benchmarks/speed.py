@@ -19,6 +19,7 @@ FRAME_RATE = 60
 HOLD = 6  # frames between two changes of a random button
 BOARDS = 16  # distinct boards of a benchmark on a recipe
 FILL = 2  # balls per world
+WARM_UP_ROUNDS = 2  # before the timed ones: they compile and warm up the caches
 
 
 class Figure(NamedTuple):
@@ -36,7 +37,7 @@ class Speed(NamedTuple):
         frames_per_second: Frames of 1/60 s in all worlds per second, median of the rounds.
         slowest: Frames per second in the slowest round.
         fastest: Frames per second in the fastest round.
-        balls: Mean number of balls per board at the start of a round.
+        balls: Mean number of balls per world at the start of a round.
     """
 
     frames_per_second: float
@@ -56,18 +57,18 @@ class Speed(NamedTuple):
 
 def measure(table: Table, worlds: int, frames: int, rounds: int, threads: int) -> Speed:
     """Time calls of `frames` frames each, with random paddles and two balls per world at each start."""
-    boards = boards_of(table)
+    boards = benchmark_boards(table)
     batch = WorldBatch([boards[i % len(boards)] for i in range(worlds)], worlds, 0, FRAME_RATE, threads)
     random = np.random.default_rng(0)
     speeds, balls = [], []
-    for index in range(rounds + 2):  # the first two compile and warm up
+    for index in range(rounds + WARM_UP_ROUNDS):
         for _ in range(FILL):
             batch.create_balls()
         actions = random_actions(random, frames, worlds)
         balls.append(float((batch.state["ball"]["id"] != 0).sum() / worlds))
         started = time.perf_counter()
         batch.step_unchecked(actions, frames)
-        if index >= 2:
+        if index >= WARM_UP_ROUNDS:
             speeds.append(worlds * frames / (time.perf_counter() - started))
     return Speed(
         statistics.median(speeds),
@@ -91,7 +92,7 @@ def machine() -> str:
     return f"{platform.machine()}, {os.cpu_count()} cores, {platform.system()}"
 
 
-def boards_of(table: Table) -> list[Table]:
+def benchmark_boards(table: Table) -> list[Table]:
     """The boards of a benchmark: the table, or `BOARDS` boards of a recipe."""
     if table.random is None:
         return [table]

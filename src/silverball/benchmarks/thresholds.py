@@ -1,7 +1,7 @@
 """Returns above which the environments for agents count as solved: those of the trained player.
 
-It decides fifteen times per second and sees the worlds themselves. `PinballPixels-v0` is played on the boards
-of `Pinball-v0`, so its threshold is the same.
+This player decides fifteen times per second and reads the worlds instead of observations. `PinballPixels-v0`
+is played on the boards of `Pinball-v0`, so its threshold is the same.
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ def mean_return(id_: str, episodes: int) -> tuple[float, float]:
     envs.reset(seed=0)
     player = batch_policy("trained", envs.unwrapped.batch)
     assert player is not None
-    returns, plays, step = np.zeros(episodes), np.ones(episodes, bool), 0
-    while plays.any():
+    returns, active, step = np.zeros(episodes), np.ones(episodes, bool), 0
+    while active.any():
         if step % player.every == 0:
             player.decide()
         _, rewards, terminated, truncated, _ = envs.step(player.buttons @ np.array([1, 2]))
-        returns[plays] += rewards[plays]
-        plays &= ~(terminated | truncated)
+        returns[active] += rewards[active]
+        active &= ~(terminated | truncated)
         step += 1
     return float(returns.mean()), float(1.96 * returns.std() / episodes**0.5)

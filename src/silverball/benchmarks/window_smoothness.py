@@ -1,8 +1,7 @@
 """Smoothness, input latency and start-up time of the window.
 
-The real window is opened and played with key events and two balls, as the reflex player says; or a player is
-watched in attract mode, and its decisions are timed instead of the latency. Scores go to a folder that is
-removed afterwards.
+The real window is opened, and the reflex player plays two balls with key events; or a player plays in attract
+mode, and its decisions are timed instead of the latency. Scores go to a temporary folder.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from silverball.benchmarks.speed import Figure
 
 FRAME = 1 / 60  # [s]
 PERCENTILES = (50, 90, 99, 99.9)
-LEAST_DECISION = 1e-4  # [s] a shorter call of a player only looked up its plan
+MIN_DECISION_TIME = 1e-4  # [s]; a shorter call only looks up the plan of the player
 IMPORTED = time.time()
 
 
@@ -111,7 +110,7 @@ def percentiles(name: str, seconds: Iterable[float]) -> list[Figure]:
 
 
 class KeyDriver:
-    """Presses keys as a player says, and keeps two balls on the board.
+    """Posts key events for the buttons that a player presses, and keeps two balls on the board.
 
     Args:
         player: A player for a single world.
@@ -122,7 +121,7 @@ class KeyDriver:
         self._player, self._window = player, window
         self._down = [False, False]
         self.balls: list[int] = []
-        player.press(window.program.session.game.world)  # loads its kernel now, not within a frame
+        player.press(window.program.session.game.world)  # load its kernel before the first frame
 
     def act(self) -> None:
         """Post the key events of all buttons that changed."""
@@ -145,7 +144,7 @@ class AttractDriver:
 
     Attributes:
         decisions: Wall time of each decision [s].
-        processor: The part of it in which this thread had the processor [s].
+        processor: Processor time of each decision [s].
     """
 
     def __init__(self, name: str, window: Any) -> None:
@@ -164,7 +163,7 @@ class AttractDriver:
         wall_start, processor_start = time.perf_counter(), time.thread_time()
         held: tuple[bool, bool] = self._player.press(world)
         wall = time.perf_counter() - wall_start
-        if wall > LEAST_DECISION:
+        if wall > MIN_DECISION_TIME:
             self.decisions.append(wall)
             self.processor.append(time.thread_time() - processor_start)
         return held

@@ -1,8 +1,8 @@
 """The command line, `silverball <command>`: a thin layer with one file for each command.
 
-A command turns its arguments into calls of the library and prints the result. `app` collects the commands and
-ends errors, `options` and `console` hold what commands share, `signals` and `streams` make Ctrl-C and closed
-standard streams safe.
+A command turns its arguments into calls of the library and prints the result. `app` registers the commands
+and reports errors, `shared_options` and `console` have options and output that several commands use,
+`signals` and `streams` handle Ctrl-C and closed standard streams.
 """
 
 from __future__ import annotations

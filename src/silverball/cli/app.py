@@ -1,4 +1,4 @@
-"""The commands of `silverball`, and how an error ends: one message, exit code 2, no traceback.
+"""The commands of `silverball`; an error prints one message and exits with code 2, without a traceback.
 
 The modules of the commands import what they need when they run, so that `silverball --help` is quick.
 """
@@ -27,13 +27,13 @@ from silverball.cli.show import show
 from silverball.cli.signals import STOPPED, stopped
 from silverball.cli.simulate import simulate
 from silverball.cli.soak import soak
-from silverball.cli.streams import give_up, is_broken_pipe
+from silverball.cli.streams import discard_output, is_broken_pipe
 from silverball.cli.tables import tables
 from silverball.errors import SilverballError
 from silverball.plain import plain
 
-LONGEST = 1000  # characters per line of a message; an argument that it quotes may be longer
-RENAMED = {  # options of version 0.1 that are commands now
+MAX_LINE_LENGTH = 1000  # of a message, which may quote a longer argument
+RENAMED = {  # options of version 0.1 that are now commands
     "simulate": {"--soak": "soak", "--feel": "feel", "--ball-time": "ball-time"},
     "bench": {f"--{name}": f"bench {name}" for name in ("marks", "drawing", "envs", "peers")},
 }
@@ -72,22 +72,22 @@ def silverball(
 
 @functools.cache
 def main_command() -> Any:
-    """The command of all commands; Typer would build it again for every call."""
+    """The click command behind `app`, built once; Typer would build it again for every call."""
     return typer.main.get_command(app)
 
 
 def run(arguments: list[str]) -> int:
     """Run the command line and return the exit code.
 
-    0: done, or the reader of the output has gone. 1: a negative result, such as a finding of a soak. 2: wrong
-    arguments, a file or stream that cannot be read or written, or too little memory; one message says which.
+    0: success, or the reader of the output closed it. 1: a negative result, for example a finding of a soak.
+    2: wrong arguments, a file or stream that cannot be read or written, or not enough memory, with a message.
     130: stopped by Ctrl-C.
     """
     try:
         code = main_command().main(arguments, prog_name="silverball", standalone_mode=False)
         sys.stdout.flush()
     except SilverballError as error:
-        return complain(str(error))
+        return print_error(str(error))
     except KeyboardInterrupt:
         code = STOPPED
     except typer.Abort as end:
@@ -97,48 +97,48 @@ def run(arguments: list[str]) -> int:
     except (BrokenPipeError, SystemExit) as error:
         if not is_broken_pipe(error):
             raise
-        give_up(sys.stdout)
-        give_up(sys.stderr)
+        discard_output(sys.stdout)
+        discard_output(sys.stderr)
         return 0
     except OSError as error:
-        give_up(sys.stdout)
+        discard_output(sys.stdout)
         where = f"{error.filename}: " if error.filename else ""
-        return complain(f"silverball: {where}{error.strerror or error}")
+        return print_error(f"silverball: {where}{error.strerror or error}")
     except MemoryError:
-        return complain("silverball: out of memory; ask for less")
+        return print_error("silverball: out of memory; use smaller values")
     except Exception as error:
         if not hasattr(error, "format_message"):
             raise
-        return complain(usage_message(error, arguments))
+        return print_error(usage_message(error, arguments))
     if code == STOPPED:
         return stopped()
     return code if isinstance(code, int) else 0
 
 
-def complain(message: str) -> int:
+def print_error(message: str) -> int:
     """Print an error message, with control characters escaped; returns its exit code."""
     try:
         print("\n".join(map(shortened, plain(message, keep="\n").split("\n"))), file=sys.stderr)
         sys.stderr.flush()
     except OSError:
-        give_up(sys.stderr)
+        discard_output(sys.stderr)
     return 2
 
 
 def shortened(line: str) -> str:
-    """The line, without its middle if it is longer than `LONGEST`."""
-    if len(line) <= LONGEST:
+    """The line, without its middle if it is longer than `MAX_LINE_LENGTH`."""
+    if len(line) <= MAX_LINE_LENGTH:
         return line
-    return f"{line[: LONGEST // 2]} … {line[-LONGEST // 2 :]}"
+    return f"{line[: MAX_LINE_LENGTH // 2]} … {line[-MAX_LINE_LENGTH // 2 :]}"
 
 
 def usage_message(error: Any, arguments: list[str]) -> str:
-    """One sentence for wrong arguments: where, what was expected, what was given, and where to look."""
+    """One sentence about wrong arguments: where, what was expected, what was got, and the help to read."""
     context = error.ctx
     name = context.command_path if context is not None else "silverball"
-    now = new_spelling(arguments)
-    if now is not None:
-        return f"{name}: this is a command of its own now: `silverball {now}`. See `silverball {now} --help`"
+    new = new_spelling(arguments)
+    if new is not None:
+        return f"{name}: this is now a separate command, `silverball {new}`. See `silverball {new} --help`"
     message = error.format_message().rstrip(".")
     given = given_value(getattr(error, "param", None), arguments)
     commands = getattr(context and context.command, "commands", None)
@@ -150,7 +150,7 @@ def usage_message(error: Any, arguments: list[str]) -> str:
 
 
 def new_spelling(arguments: list[str]) -> str | None:
-    """The command that does what these arguments of version 0.1 did; None if they are none."""
+    """The command that replaces these arguments of version 0.1; None if they are not from version 0.1."""
     command, *options = arguments or [""]
     for option in options:
         if option in RENAMED.get(command, ()):

@@ -1,11 +1,11 @@
-"""`silverball ball-time`: measures how long a ball lives under a player."""
+"""`silverball ball-time`: measures how long a player keeps a ball in play."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, Any
 
-from silverball.cli.console import compiling, make_boards, progress_bar, say, say_json
+from silverball.cli.console import compiling, make_boards, print_json, print_lines, progress_bar
 from silverball.cli.shared_options import (
     AsJson,
     FirstSeed,
@@ -30,9 +30,9 @@ def ball_time(
     tick_rate: TickRate = 240,
     as_json: AsJson = False,
 ) -> None:
-    """Measure how long a ball lives under a player and how much it scores, with 95 % intervals.
+    """Measure how long a player keeps a ball in play and how much it scores, with 95 % intervals.
 
-    Each world gets one ball, which is watched until it is lost, scores nothing for 15 s, or the time is over.
+    Each world gets one ball, which is followed until it drains, scores nothing for 15 s, or the time is over.
 
     Example: `silverball ball-time --table random --worlds 1000 --seconds 600 --player reflex`
     """
@@ -51,17 +51,17 @@ def ball_time(
         batch = WorldBatch(make_boards(loaded, seed, worlds, bar), worlds, seed, tick_rate)
         task = bar.add_task(f"watching {worlds} ball{'s' * (worlds > 1)}", total=seconds)
         times = time_balls(batch, player, seconds, lambda done: bar.update(task, completed=done))
-    report = report_of(times) | {
+    report = build_report(times) | {
         "table": table, "seed": seed, "player": player, "tick_rate": tick_rate,
     }  # fmt: skip
     if as_json:
-        say_json(report)
+        print_json(report)
     else:
         print_report(report)
 
 
-def report_of(times: BallTimes) -> dict[str, Any]:
-    """The figures as JSON holds them; None where a figure lies beyond the time that was watched."""
+def build_report(times: BallTimes) -> dict[str, Any]:
+    """The figures for JSON; None for a figure that exceeds the watched time."""
     report: dict[str, Any] = {}
     for name, value in times._asdict().items():
         if isinstance(value, tuple):
@@ -76,17 +76,17 @@ def print_report(report: dict[str, Any]) -> None:
     """Print the report, one figure per line."""
     limit = f"beyond {report['seconds']:g}"
 
-    def shown(name: str, unit: str, digits: int) -> str:
+    def formatted(name: str, unit: str, digits: int) -> str:
         numbers = (report[name], *report[f"{name}_interval"])
         value, low, high = (limit if number is None else f"{number:,.{digits}f}" for number in numbers)
         return f"{value} {unit} (95 %: {low} to {high})"
 
-    say(
+    print_lines(
         f"{report['player']} on {report['table']}: {report['balls']:,} balls, watched for "
         f"{report['seconds']:g} s at most; {report['drained']:,} lost through the gutter, "
         f"{report['stalled']:,} scored nothing for 15 s, {report['alive']:,} alive at the end"
     )
-    say(f"median life       {shown('median', 's', 1)}")
-    say(f"mean life so far  {shown('mean', 's', 1)}")
-    say(f"score per ball    {shown('score', 'points', 0)}")
-    say(f"score per minute  {shown('score_per_minute', 'points', 0)}")
+    print_lines(f"median life       {formatted('median', 's', 1)}")
+    print_lines(f"mean life so far  {formatted('mean', 's', 1)}")
+    print_lines(f"score per ball    {formatted('score', 'points', 0)}")
+    print_lines(f"score per minute  {formatted('score_per_minute', 'points', 0)}")

@@ -8,14 +8,21 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from silverball.cli.console import compiling, errors, progress_bar, say, say_json, say_table
-from silverball.cli.shared_options import LAST_SEED, AsJson, TableName, file_name
-from silverball.errors import OutputError, SilverballError
+from silverball.cli.console import (
+    compiling,
+    error_console,
+    print_json,
+    print_lines,
+    print_table,
+    progress_bar,
+)
+from silverball.cli.shared_options import LAST_SEED, AsJson, TableName, check_output, file_name
+from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
     from silverball.benchmarks.speed import Figure
 
-MOST_ACTIONS = 300_000_000  # three bytes each
+MAX_ACTIONS = 300_000_000  # of three bytes each
 
 bench = typer.Typer(help="Measure how fast and how exact Silverball is on this machine.")
 
@@ -38,36 +45,38 @@ def step(
 
     Example: `silverball bench step --threads 2 --json`
     """
-    if worlds * frames > MOST_ACTIONS:
+    if worlds * frames > MAX_ACTIONS:
         raise SilverballError(
             f"--worlds {worlds} times --frames {frames} are more actions than fit into memory; "
-            f"keep the product below {MOST_ACTIONS:,}"
+            f"their product must be at most {MAX_ACTIONS:,}"
         )
     with compiling():
         from silverball.benchmarks.speed import measure
         from silverball.table import load_table
 
         loaded = load_table(table)
-    with errors.status("measuring …"):
+    with error_console.status("measuring …"):
         report: dict[str, Any] = measure(loaded, worlds, frames, rounds, threads)._asdict()
     if as_json:
-        say_json(report)
+        print_json(report)
         return
-    say(
+    print_lines(
         f"{report['frames_per_second'] / 1e6:.2f} million frames/s on {report['threads']} thread(s), "
         f"the median of {report['rounds']} rounds (slowest {report['slowest'] / 1e6:.2f}, "
         f"fastest {report['fastest'] / 1e6:.2f})"
     )
-    say(
+    print_lines(
         f"a frame is 1/60 s of one world with {report['balls']:.2f} balls and random paddles; "
         f"{worlds} worlds, {frames} frames per call, {report['boards']} board(s)"
     )
-    say(f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}")
+    print_lines(
+        f"{report['machine']}; Python {report['python']}, numba {report['numba']}, numpy {report['numpy']}"
+    )
 
 
 @bench.command()
 def marks(rounds: Rounds = 9, as_json: AsJson = False) -> None:
-    """Measure the step in every situation that could be slow, single calls and the start; 1 to 2 minutes.
+    """Measure the step in each situation that could be slow, single calls, and the start (1 to 2 minutes).
 
     Example: `silverball bench marks`
     """
@@ -78,7 +87,7 @@ def marks(rounds: Rounds = 9, as_json: AsJson = False) -> None:
 
 @bench.command()
 def drawing(rounds: Rounds = 9, as_json: AsJson = False) -> None:
-    """Measure how fast tables are baked and frames are drawn; a minute.
+    """Measure how fast tables are baked and frames are drawn (a minute).
 
     Example: `silverball bench drawing --rounds 5`
     """
@@ -112,7 +121,8 @@ def planner(
 @bench.command()
 def replays(
     minutes: Annotated[
-        float, typer.Option(min=0.1, max=1440.0, help="Length of the replay in which is sought [min].")
+        float,
+        typer.Option(min=0.1, max=1440.0, help="Length of the replay that is searched by seeking [min]."),
     ] = 60.0,
     as_json: AsJson = False,
 ) -> None:
@@ -170,7 +180,7 @@ def envs(
     ] = [],  # noqa: B006  (typer copies it)
     as_json: AsJson = False,
 ) -> None:
-    """Measure the environments for agents, beside those of other packages that are installed.
+    """Measure the environments for agents, and those of other packages that are installed, for comparison.
 
     Example: `silverball bench envs --rounds 5 --out envs.md`
     """
@@ -182,13 +192,13 @@ def envs(
         task = bar.add_task("compiling …", total=None)
         result = measure.run(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
-        say(*report.as_json(result).splitlines())
+        print_lines(*report.as_json(result).splitlines())
     else:
-        say_table(report.terminal_table(result))
-        say(*report.footing(result))
+        print_table(report.terminal_table(result))
+        print_lines(*report.footing(result))
     for path in paths:
         write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
-        say(f"wrote {path}", err=True)
+        print_lines(f"wrote {path}", err=True)
 
 
 @bench.command()
@@ -219,12 +229,12 @@ def peers(
     engines = installed_peers()
     for engine in PEERS:
         if engine not in engines:
-            errors.print(engine.install_hint)
+            error_console.print(engine.install_hint)
     with compiling():
         from silverball.benchmarks.peers import comparison, report
         from silverball.wholefile import write_whole
 
-        if any(path.suffix == ".png" for path in paths):
+        if any(path.suffix.lower() == ".png" for path in paths):
             report.require_matplotlib()
     plan = comparison.Plan(worlds=worlds, rounds=rounds)
     if quick:
@@ -237,42 +247,39 @@ def peers(
 
         result = comparison.run(loaded, plan, engines, advance)
     if as_json:
-        say(*report.as_json(result).splitlines())
+        print_lines(*report.as_json(result).splitlines())
     else:
-        say_table(report.terminal_table(result))
-        say(*report.conclusions(result), *report.footing(result))
+        print_table(report.terminal_table(result))
+        print_lines(*report.conclusions(result), *report.footing(result))
     for path in paths:
-        if path.suffix == ".png":
+        if path.suffix.lower() == ".png":
             write_whole(path, lambda place: report.draw_plot(result, place))
         else:
             write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
-        say(f"wrote {path}", err=True)
+        print_lines(f"wrote {path}", err=True)
 
 
 def show_figures(measure: Callable[[Callable[[str], None]], list[Figure]], as_json: bool) -> None:
-    """Measure, with a bar that names what is being measured, and print the figures."""
+    """Run a measurement with a progress bar that names its current part, and print the figures."""
     from silverball.benchmarks.speed import machine
 
     with progress_bar() as bar:
         task = bar.add_task("", total=None)
         figures = measure(lambda doing: bar.update(task, description=doing))
     if as_json:
-        say_json([figure._asdict() for figure in figures])
+        print_json([figure._asdict() for figure in figures])
         return
     for figure in figures:
-        say(f"{figure.name:44} {figure.value:10.4g} {figure.unit}")
-    say(machine())
+        print_lines(f"{figure.name:44} {figure.value:10.4g} {figure.unit}")
+    print_lines(machine())
 
 
 def output_path(text: str, endings: tuple[str, ...]) -> Path:
-    """The path of a report, whose ending says its kind.
+    """The path of a report, checked for its ending, which selects the format.
 
     Raises:
-        OutputError: The ending is another one, or the folder does not exist.
+        OutputError: The ending is not one of `endings`, or the folder does not exist.
     """
     path = file_name(text)
-    if path.suffix not in endings:
-        raise OutputError(f"{path}: this benchmark is written as {' or '.join(endings)}; use such an ending")
-    if not path.absolute().parent.is_dir():
-        raise OutputError(f"{path}: the folder {path.parent} does not exist; make it first")
+    check_output(path, endings, force=True)
     return path

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from silverball.cli.console import say, say_json, say_table
+from silverball.cli.console import print_json, print_lines, print_table
 from silverball.cli.shared_options import AsJson
 from silverball.errors import OutputError
 
@@ -95,7 +95,7 @@ def cache(
     removed, problems = remove_files(listing)
     total = sum(one.size for one in removed)
     if as_json:
-        say_json(
+        print_json(
             {
                 "folder": str(folder),
                 "removed_files": len(removed),
@@ -104,7 +104,7 @@ def cache(
             }
         )
     else:
-        say(f"removed {counted(len(removed))}, {megabytes(total)}, from {folder}")
+        print_lines(f"removed {counted(len(removed))}, {megabytes(total)}, from {folder}")
     if problems:
         raise OutputError(*shortened(problems))
 
@@ -221,11 +221,11 @@ def show(folder: Path, listing: Listing, as_json: bool) -> None:
     """Print the folder, the sizes and the problems."""
     if as_json:
         caches = sizes_json(listing)
-        say_json({"folder": str(folder), "caches": caches, "problems": listing.problems})
+        print_json({"folder": str(folder), "caches": caches, "problems": listing.problems})
         return
-    say(str(folder))
-    say_table(sizes_table(listing))
-    say(*shortened(listing.problems))
+    print_lines(str(folder))
+    print_table(sizes_table(listing))
+    print_lines(*shortened(listing.problems))
 
 
 def sizes_table(listing: Listing) -> RichTable:

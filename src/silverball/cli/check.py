@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from silverball.cli.completion import complete_table
-from silverball.cli.console import say
+from silverball.cli.console import print_lines
 
 
 def check(
@@ -20,7 +20,7 @@ def check(
         ),
     ],
 ) -> None:
-    """Check a table and report all of its problems at once.
+    """Check a table and report all of its problems.
 
     Finds unknown keys, values out of range, parts that overlap, paddles that touch something while they turn,
     boards on which a ball cannot reach the gutter, and places where a ball could lie forever.
@@ -32,4 +32,4 @@ def check(
     from silverball.table import load_table
 
     loaded = load_table(table)
-    say(f"{table}: no problems in {loaded.name!r}")
+    print_lines(f"{table}: no problems in {loaded.name!r}")

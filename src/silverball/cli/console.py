@@ -24,29 +24,29 @@ if TYPE_CHECKING:
 
 PIPE_WIDTH = 200  # columns of a table where the output is not a terminal
 
-errors = Console(stderr=True, markup=False, highlight=False, emoji=False)
+error_console = Console(stderr=True, markup=False, highlight=False, emoji=False)
 
 
-def say(*lines: str, err: bool = False) -> None:
+def print_lines(*lines: str, err: bool = False) -> None:
     """Print lines to standard output, or to standard error."""
     for line in lines:
         typer.echo(plain(line), err=err)
 
 
-def say_json(value: Any, indent: int | None = 2) -> None:
+def print_json(value: Any, indent: int | None = 2) -> None:
     """Print a value as JSON, in ASCII."""
     typer.echo(json.dumps(value, indent=indent))
 
 
-def say_table(table: RichTable) -> None:
-    """Print a table; where the output is not a terminal, it is not folded to 80 columns."""
+def print_table(table: RichTable) -> None:
+    """Print a table; if the output is not a terminal, it is `PIPE_WIDTH` columns wide."""
     console = Console() if Console().is_terminal else Console(width=PIPE_WIDTH)
     console.print(table)
 
 
 def progress_bar(*columns: TextColumn) -> Progress:
     """A progress bar on standard error that is removed at the end; invisible where that is not a terminal."""
-    return Progress(*columns, console=errors, transient=True, disable=not errors.is_terminal)
+    return Progress(*columns, console=error_console, transient=True, disable=not error_console.is_terminal)
 
 
 class CompilationBar(Progress):
@@ -62,12 +62,12 @@ class CompilationBar(Progress):
 
 
 @contextmanager
-def compiling(kernel: str = "run_worlds", about: str = "ten seconds") -> Iterator[None]:
+def compiling(kernel: str = "run_worlds", duration: str = "ten seconds") -> Iterator[None]:
     """Show a bar while a kernel is compiled: on the first start only, later starts load it from disk.
 
     Args:
-        kernel: The kernel that takes longest; no bar is shown if it has been compiled before.
-        about: How long the compilation takes, in words.
+        kernel: The kernel that takes longest to compile; no bar is shown if it is in the cache.
+        duration: The approximate time that the compilation takes, in words.
     """
     from silverball.physics.kernel import cache_folder, evict_old_code, is_compiled
 
@@ -77,8 +77,10 @@ def compiling(kernel: str = "run_worlds", about: str = "ten seconds") -> Iterato
     evict_old_code()
     often = "once on this machine" if cache_folder() else "at every start: its cache cannot be written"
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(20), TimeElapsedColumn()
-    with CompilationBar(*columns, console=errors, transient=True, disable=not errors.is_terminal) as bar:
-        bar.add_task(f"Compiling the physics, {often} (about {about}) …", total=1.0)
+    with CompilationBar(
+        *columns, console=error_console, transient=True, disable=not error_console.is_terminal
+    ) as bar:
+        bar.add_task(f"Compiling the physics, {often} (about {duration}) …", total=1.0)
         yield
 
 

@@ -15,6 +15,7 @@ from silverball.cli.shared_options import (
     Size,
     TableName,
     ThemeName,
+    check_output,
     file_name,
     theme_named,
 )
@@ -46,8 +47,9 @@ def demo(
 
     Example: `silverball demo --out demo.mp4 --seconds 20`
     """
-    place = out or free_name("demo.gif")
-    make_demo(place, seconds, table, seed, size, player=player, theme=theme, force=force)
+    make_demo(
+        out or free_name("demo.gif"), seconds, table, seed, size, player=player, theme=theme, force=force
+    )
 
 
 def make_demo(
@@ -64,18 +66,17 @@ def make_demo(
     """Film a game, or draw its last frame, and print the name of the file.
 
     Args:
-        out: File to write; its ending says what.
+        out: File to write; its ending selects the format.
         seconds: Length of the recording [s].
         table: Built-in table or table file.
-        seed: Of the board and the game.
-        size: Height of the picture [pixels]; None for that of the kind of file.
+        seed: Seed of the board and the game.
+        size: Height of the picture [pixel]; None: the default of the format.
         player: Name of the player.
         theme: Name of the theme.
         force: Whether an existing file is overwritten.
     """
     from silverball.cli.filming import ENDINGS, film_size, record
     from silverball.drawing import Renderer
-    from silverball.export.film import check_output
     from silverball.players import make_player
     from silverball.table import generate_table, load_table
 
@@ -87,8 +88,10 @@ def make_demo(
     if board.random is not None:
         board = generate_table(seed, board)
     picture_size = film_size(out, board, seconds, size)
-    kernel, about = ("plan_worlds", "half a minute") if player == "planner" else ("run_worlds", "ten seconds")
-    with compiling(kernel, about):
+    kernel, duration = (
+        ("plan_worlds", "half a minute") if player == "planner" else ("run_worlds", "ten seconds")
+    )
+    with compiling(kernel, duration):
         from silverball.app.sessions import DemoSession
         from silverball.app.startup import warm_up
 

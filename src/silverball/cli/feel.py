@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from silverball.cli.console import compiling, progress_bar, say, say_json, say_table
+from silverball.cli.console import compiling, print_json, print_lines, print_table, progress_bar
 from silverball.cli.shared_options import AsJson, FirstSeed, TableName
 from silverball.plain import plain
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from silverball.metrics.feel import Feel
 
-# Figures with an interval, in the order of the report: what they are called, and their format.
+# Figures with an interval, in the order of the report: label and format.
 ROWS = {
     "seconds_per_ball": ("seconds per ball", "{:.1f}"),
     "points_per_minute": ("points per minute", "{:,.0f}"),
@@ -67,21 +67,21 @@ def feel(
     with progress_bar() as bar:
         tasks: dict[str, Any] = {}
 
-        def advance(what: str, done: float) -> None:
-            if what not in tasks:
-                tasks[what] = bar.add_task(what, total=1.0)
-            bar.update(tasks[what], completed=done)
+        def advance(name: str, done: float) -> None:
+            if name not in tasks:
+                tasks[name] = bar.add_task(name, total=1.0)
+            bar.update(tasks[name], completed=done)
 
         measured = measure(loaded, games, seed, progress=advance)
-    report = {"table": table, "seed": seed, "games": games, **report_of(measured)}
+    report = {"table": table, "seed": seed, "games": games, **build_report(measured)}
     if as_json:
-        say_json(report)
+        print_json(report)
     else:
         print_report(report)
 
 
-def report_of(feel: Feel) -> dict[str, Any]:
-    """The figures as JSON holds them: [value, low, high] each, None where there is no value."""
+def build_report(feel: Feel) -> dict[str, Any]:
+    """The figures for JSON: [value, low, high] each, None for a missing value."""
     from silverball.metrics.feel import hot_cells, shots_as_dict
 
     players = {
@@ -101,19 +101,19 @@ def report_of(feel: Feel) -> dict[str, Any]:
 
 
 def finite(value: float) -> float | None:
-    """The value, or None where JSON has no number for it."""
+    """The value, or None if it is infinite or NaN, which JSON cannot hold."""
     return float(value) if math.isfinite(value) else None
 
 
 def print_report(report: dict[str, Any]) -> None:
     """Print the report as tables: the figures, the cylinders that strikes reach, and the shots."""
-    say(f"{report['table']}: {report['games']:,} games of one ball per player, seed {report['seed']}")
-    say_table(figures_table(report["players"]))
+    print_lines(f"{report['table']}: {report['games']:,} games of one ball per player, seed {report['seed']}")
+    print_table(figures_table(report["players"]))
     cylinders = cylinders_table(report["players"])
     if cylinders.row_count:
-        say_table(cylinders)
+        print_table(cylinders)
     if report["shots"]:
-        say_table(shots_table(report["shots"]))
+        print_table(shots_table(report["shots"]))
 
 
 def new_table(title: str, first: str, columns: list[str]) -> RichTable:
@@ -152,33 +152,33 @@ def cylinders_table(players: dict[str, Any]) -> RichTable:
 
 
 def shots_table(shots: list[dict[str, Any]]) -> RichTable:
-    """What each paddle can aim at: a row for every paddle and way of the ball."""
+    """The shots of each paddle: a row for every paddle and direction of the ball."""
     from rich.text import Text
 
     aims = list(shots[0]["windows_ms"])
     columns = [*(f"{aim} \\[ms]" for aim in aims), "directions \\[°]", "within 10°", "reach the top"]
     table = new_table("Shots: longest windows of the press, and where they go", "paddle, ball", columns)
     table.add_column("hit first, most often")
-    for one in shots:
-        name = f"{one['paddle']}, {one['way']}"
-        if one["directions_deg"] is None:
+    for shot in shots:
+        name = f"{shot['paddle']}, {shot['way']}"
+        if shot["directions_deg"] is None:
             table.add_row(name, "none")
             continue
-        low, high = one["directions_deg"]
-        first = sorted(one["first_met"].items(), key=lambda item: -item[1])
+        low, high = shot["directions_deg"]
+        first = sorted(shot["first_met"].items(), key=lambda item: -item[1])
         table.add_row(
             name,
-            *(f"{one['windows_ms'][aim]:.0f}" for aim in aims),
+            *(f"{shot['windows_ms'][aim]:.0f}" for aim in aims),
             f"{low:.0f} to {high:.0f}",
-            f"{one['bunched_in_10_deg']:.0%}",
-            f"{one['share_to_top']:.0%}",
+            f"{shot['bunched_in_10_deg']:.0%}",
+            f"{shot['share_to_top']:.0%}",
             Text(", ".join(f"{plain(part)} {count}" for part, count in first[:SHOWN_PARTS])),
         )
     return table
 
 
 def interval(figure: list[float | None], form: str) -> str:
-    """A figure with the half width of its interval; a dash where there is none."""
+    """A figure with the half width of its interval; a dash for a missing value."""
     value, low, high = figure
     if value is None or low is None or high is None:
         return "–"

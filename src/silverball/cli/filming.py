@@ -1,4 +1,4 @@
-"""Recording of a session to a film or a picture, for `demo` and `replay`."""
+"""Records a session to a film or a picture, for `demo` and `replay`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from silverball.cli.console import say
+from silverball.cli.console import print_lines
 from silverball.plain import plain
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from silverball.table import Table
 
 ENDINGS = (".gif", ".mp4", ".png")
-HEIGHTS = {".gif": 720, ".mp4": 1152, ".png": 1152}  # [pixel] if no size is asked for
+HEIGHTS = {".gif": 720, ".mp4": 1152, ".png": 1152}  # [pixel] default heights
 GIF_LIMIT = (
     600_000_000  # pixels of all pictures together; a GIF is compressed in memory, at 1 to 2 bytes each
 )
@@ -38,7 +38,7 @@ def film_size(out: Path, table: Table, seconds: float, height: int | None) -> tu
     if ending == ".gif" and size[0] * size[1] * seconds * FILM_RATES[ending] > GIF_LIMIT:
         raise OutputError(
             f"{out}: a GIF of {seconds:g} s at {size[0]} × {size[1]} pixels is too large to make; "
-            "ask for fewer --seconds, a smaller --size, or an .mp4"
+            "use fewer --seconds, a smaller --size, or an .mp4"
         )
     return size
 
@@ -49,11 +49,11 @@ def record(out: Path, session: Session, renderer: Renderer, seconds: float, *, q
     from rich.progress import Progress
 
     from silverball.app.sound.mixdown import FilmSound
-    from silverball.cli.console import errors
+    from silverball.cli.console import error_console
     from silverball.export.film import FILM_RATES, write_film, write_picture
 
     ending = out.suffix.lower()
-    with Progress(console=errors, transient=True, disable=not errors.is_terminal) as bar:
+    with Progress(console=error_console, transient=True, disable=not error_console.is_terminal) as bar:
         task = bar.add_task(f"playing into {escape(plain(out.name))}", total=seconds)
 
         def advance(done: float) -> None:
@@ -69,7 +69,7 @@ def record(out: Path, session: Session, renderer: Renderer, seconds: float, *, q
         else:
             write_film(out, pictures, sound.track if sound is not None else None)
     if not quiet:
-        say(f"wrote {out}")
+        print_lines(f"wrote {out}")
 
 
 def session_pictures(
@@ -85,32 +85,32 @@ def session_pictures(
     """Advance a session and yield its pictures.
 
     Args:
-        session: What is recorded.
+        session: The session to record.
         renderer: A renderer of its table.
         seconds: Length of the recording [s].
         rate: Pictures per second.
-        advance: Called after each picture with the seconds that are done.
+        advance: Called after each picture with the recorded time [s].
         sound: Collects the sound of each picture.
         only_last: Whether to yield the last picture only.
     """
-    from silverball.app.controls import Held
+    from silverball.app.controls import PaddleInput
     from silverball.app.score_display import ScoreDisplay
     from silverball.drawing import Moment
 
-    nothing = Held((False, False), (False, False))
+    no_buttons = PaddleInput((False, False), (False, False))
     display, world = ScoreDisplay(), session.game.world
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
-        session.advance(nothing, start + round(number * world.tick_rate / rate) - world.tick)
-        events, news = session.game.take_world_events(), session.game.take_game_events()
-        display.add_events(news)
+        session.advance(no_buttons, start + round(number * world.tick_rate / rate) - world.tick)
+        events, game_events = session.game.take_world_events(), session.game.take_game_events()
+        display.add_events(game_events)
         renderer.add_events(events, world.tick_rate)
         if sound is not None:
-            sound.add_picture(world, events, session.game.held, news)
+            sound.add_picture(world, events, session.game.held, game_events)
         dots, moment = display.frame(session.game.view, number / rate), Moment.of(world)
         if not only_last or number == count:
             yield renderer.array(moment, dots)
         else:
             for _ in renderer.effects.trails(moment):
-                pass  # recorded for the last picture
+                pass  # the trails are recorded for the last picture
         advance(number / rate)

@@ -8,8 +8,8 @@ from typing import Annotated
 import typer
 
 from silverball.cli.completion import complete_table
-from silverball.cli.console import say
-from silverball.cli.shared_options import LAST_SEED, Force
+from silverball.cli.console import print_lines
+from silverball.cli.shared_options import LAST_SEED, Force, check_output
 
 
 def generate(
@@ -31,14 +31,12 @@ def generate(
 
     Example: `silverball generate --seed 7 --out seven.toml`
     """
-    from silverball.errors import OutputError
     from silverball.table import dump_table, generate_table, save_table
 
     board = generate_table(seed, recipe)
     if out is None:
-        say(*dump_table(board).removesuffix("\n").split("\n"))
+        print_lines(*dump_table(board).removesuffix("\n").split("\n"))
         return
-    if out.exists() and not force:
-        raise OutputError(f"{out}: this file exists; choose another name, or overwrite it with --force")
+    check_output(out, (".toml",), force=force)
     save_table(board, out)
-    say(f"wrote {out}")
+    print_lines(f"wrote {out}")

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from silverball.cli.cache import cache_base, counted, find_files, megabytes, shortened, sizes_json
-from silverball.cli.console import say_json, say_table
+from silverball.cli.console import print_json, print_table
 from silverball.cli.shared_options import AsJson
 from silverball.plain import plain
 
@@ -26,7 +26,7 @@ OPTIONAL = (
 )  # fmt: skip
 FOLDER_VARIABLES = ("SILVERBALL_DATA", "SILVERBALL_CACHE")
 VARIABLES = ("SILVERBALL_", "NUMBA_", "SDL_", "DISPLAY", "WAYLAND_DISPLAY")  # beginnings of names
-LAST_KERNEL_OF_ENVIRONMENTS = "move"  # it contains all the others
+LAST_KERNEL_OF_ENVIRONMENTS = "run_task"  # it contains all the others
 
 
 def info(as_json: AsJson = False) -> None:
@@ -36,7 +36,7 @@ def info(as_json: AsJson = False) -> None:
     """
     report = {name: collect(part) for name, part in PARTS.items()}
     if as_json:
-        say_json(report)
+        print_json(report)
     else:
         print_report(report)
 
@@ -197,7 +197,7 @@ def print_report(report: dict[str, Any]) -> None:
     table.add_column(overflow="fold")
     for name, value in rows(report):
         table.add_row(Text(name), Text(plain(value)))
-    say_table(table)
+    print_table(table)
 
 
 def rows(report: dict[str, Any]) -> Iterator[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""`silverball play`: opens the window; bare `silverball` does so too, or films a demo without a display."""
+"""`silverball play`: opens the window; `silverball` alone does too, or films a demo without a display."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def play(
     ] = None,
     mode: Annotated[
         Mode | None,
-        typer.Option(help="Start this game at once, arcade or free (the original). [default: the menu]"),
+        typer.Option(help="Start a game of this mode, arcade or free (the original). [default: the menu]"),
     ] = None,
 ) -> None:
     """Play in a window: A and D move the paddles, Space selects and launches a ball, F1 shows all keys.
@@ -47,12 +47,12 @@ def open_window(
     mode: Mode | None = None,
     replay: Replay | None = None,
 ) -> None:
-    """Open the window and play, telling the terminal while the physics is being compiled."""
+    """Open the window and play; a message in the terminal says when the physics is being compiled."""
     from silverball.app.startup import compiling_message
     from silverball.app.window import Window
-    from silverball.cli.console import errors
+    from silverball.cli.console import error_console
 
-    status = errors.status("compiling the physics…")
+    status = error_console.status("compiling the physics…")
 
     def show_status() -> None:
         status.update(compiling_message())
@@ -66,7 +66,7 @@ def open_window(
 
 
 def play_or_demo() -> None:
-    """Play; where there is no display, say so and film a demo instead."""
+    """Open the window; without a display, print a message and film a demo instead."""
     try:
         open_window()
     except NoDisplay:

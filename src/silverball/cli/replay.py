@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from silverball.cli.completion import LAST_REPLAY, complete_replay
-from silverball.cli.console import baking, compiling, errors, progress_bar, say, say_json
-from silverball.cli.shared_options import Force, Size, ThemeName, file_name, theme_named
+from silverball.cli.console import baking, compiling, error_console, print_json, print_lines, progress_bar
+from silverball.cli.shared_options import Force, Size, ThemeName, check_output, file_name, theme_named
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
     from silverball.game.replay.verify import Verdict
 
-DIFFERS = 1  # exit code where a replay does not lead to what it records
+DIFFERS = 1  # exit code if playing a replay does not reproduce what it records
 
 
 def replay(
@@ -29,7 +29,7 @@ def replay(
         ),
     ],
     verify: Annotated[
-        bool, typer.Option("--verify", help="Play it without showing it, and check every recorded result.")
+        bool, typer.Option("--verify", help="Play it without a window, and check every recorded result.")
     ] = False,
     against: Annotated[
         str | None,
@@ -57,26 +57,26 @@ def replay(
 ) -> None:
     """Watch a recorded game in the window, film it, verify it, or compare it with another.
 
-    Exit codes: 0 done and equal, 1 it differs, 2 it cannot be played.
+    Exit codes: 0 success, 1 the replay differs, 2 it cannot be played.
 
     Example: `silverball replay last --out game.gif --from 10 --seconds 8`
     """
     game = load(file)
-    report = facts(file, game)
+    report = replay_summary(file, game)
     verdict: Verdict | None = None
     if verify:
         verdict = verified(game)
         report["verify"] = verdict._asdict()
-        say_unless(as_json, f"{file}: {verdict.message}")
+        print_unless(as_json, f"{file}: {verdict.message}")
     if against is not None and (verdict is None or verdict.ok):
         verdict = compared(game, load(against))
         report["against"] = {"file": against} | verdict._asdict()
-        say_unless(as_json, f"{file} and {against}: {verdict.message}")
+        print_unless(as_json, f"{file} and {against}: {verdict.message}")
     if out is not None and (verdict is None or verdict.ok):
         make_film(out, game, start, seconds, size, theme=theme, force=force, quiet=as_json)
         report["out"] = str(out)
     if as_json:
-        say_json(report, indent=None)
+        print_json(report, indent=None)
     elif out is None and verdict is None:
         watch(game)
     if verdict is not None and not verdict.ok:
@@ -108,8 +108,8 @@ def last_game() -> str | None:
         return store.last_game()
 
 
-def facts(file: str, game: Replay) -> dict[str, Any]:
-    """What the head of a replay says, for the JSON report."""
+def replay_summary(file: str, game: Replay) -> dict[str, Any]:
+    """The header of a replay, for the JSON report."""
     return {
         "file": file,
         "program": game.program,
@@ -124,10 +124,10 @@ def facts(file: str, game: Replay) -> dict[str, Any]:
     }
 
 
-def say_unless(as_json: bool, sentence: str) -> None:
+def print_unless(as_json: bool, sentence: str) -> None:
     """Print a sentence, unless the report is JSON."""
     if not as_json:
-        say(sentence)
+        print_lines(sentence)
 
 
 def verified(game: Replay) -> Verdict:
@@ -143,7 +143,7 @@ def compared(game: Replay, other: Replay) -> Verdict:
     """Compare two replays tick by tick."""
     from silverball.game.replay.verify import compare
 
-    with errors.status("playing both …"):
+    with error_console.status("playing both …"):
         return compare(game, other)
 
 
@@ -173,7 +173,6 @@ def make_film(
     from silverball.app.sessions import ReplaySession
     from silverball.cli.filming import ENDINGS, film_size, record
     from silverball.drawing import Renderer
-    from silverball.export.film import check_output
     from silverball.game.replay.player import ReplayPlayer
 
     check_output(out, ENDINGS, force=force)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from silverball.cli.console import compiling, errors, progress_bar
+from silverball.cli.console import compiling, error_console, progress_bar
 from silverball.game.view import Mode
 from silverball.plain import plain
 
@@ -21,16 +21,14 @@ NAME_LENGTH = 60  # printed characters of a name
 def scores(
     ctx: typer.Context,
     table: Annotated[
-        str, typer.Option(help="Only scores of this table: the name above its scores. [default: all]")
+        str, typer.Option(help="Only scores of this table, by the name in its heading. [default: all]")
     ] = "",
-    mode: Annotated[
-        Mode | None, typer.Option(help="Only scores of this kind of game. [default: both]")
-    ] = None,
+    mode: Annotated[Mode | None, typer.Option(help="Only scores of this mode. [default: both]")] = None,
     limit: Annotated[
         int, typer.Option(min=1, max=1_000_000, help="Scores shown per table, best first.")
     ] = 10,
     verify: Annotated[
-        bool, typer.Option("--verify", help="Play all replays and mark scores that they do not prove.")
+        bool, typer.Option("--verify", help="Play all replays and list the scores that they do not prove.")
     ] = False,
     replay: Annotated[
         int | None, typer.Option(metavar="ID", help="With --export: the ID of the score.")
@@ -51,7 +49,7 @@ def scores(
     --verify, all other scores are listed last, with the reason; without it, the list shows the result of the
     last verification.
 
-    Exit codes: 0 done, 1 a score is not proven, 2 the scores cannot be read or changed.
+    Exit codes: 0 success, 1 a score is not proven, 2 the scores cannot be read or changed.
 
     Example: `silverball scores --table random`
 
@@ -63,16 +61,18 @@ def scores(
     refuse_conflicts(ctx)
     with Store() as store:
         if store.warning and not store.is_unreadable:
-            errors.print(plain(store.warning, keep="\n"), soft_wrap=True, markup=False, highlight=False)
+            error_console.print(
+                plain(store.warning, keep="\n"), soft_wrap=True, markup=False, highlight=False
+            )
         if remove is not None and not store.is_persistent:
             raise SilverballError(f"{store.path}: nothing was changed: the file cannot be written")
         if verify and not store.has_read:
             raise SilverballError(f"{store.path}: nothing was verified: the file cannot be read")
         if remove is not None:
-            gone = store.score(remove)
+            score = store.score(remove)
             store.remove(remove)
-            who, where = name(gone.initials), name(gone.table_name)
-            typer.echo(f"removed score {remove}: {gone.score:,} by {who} on {where}")
+            initials, table_name = short_name(score.initials), short_name(score.table_name)
+            typer.echo(f"removed score {remove}: {score.score:,} by {initials} on {table_name}")
         elif replay is not None:
             write_replay(store, replay, export, force)
         else:
@@ -97,7 +97,7 @@ def refuse_conflicts(ctx: typer.Context) -> None:
     }
     if ("replay" in given) != ("export" in given):
         raise SilverballError(
-            "silverball scores: --replay and --export belong together: --replay ID --export FILE"
+            "silverball scores: --replay and --export must be used together: --replay ID --export FILE"
         )
     if "force" in given and "export" not in given:
         raise SilverballError("silverball scores: --force is for --export only; leave it out")
@@ -120,11 +120,13 @@ def select_lists(store: Store, table: str, mode: Mode | None) -> list[ScoreList]
     if not table:
         return lists
     wanted = table.casefold()
-    found = [one for one in lists if wanted in (one.table_name.casefold(), name(one.table_name).casefold())]
+    found = [
+        one for one in lists if wanted in (one.table_name.casefold(), short_name(one.table_name).casefold())
+    ]
     if not found:
-        names = ", ".join(sorted({name(one.table_name) for one in lists})) or "no table yet"
+        names = ", ".join(sorted({short_name(one.table_name) for one in lists})) or "no table yet"
         raise SilverballError(
-            f"--table: there are no such scores on '{name(table)}'; there are scores on {names}"
+            f"--table: there are no scores on '{short_name(table)}'; there are scores on {names}"
         )
     return found
 
@@ -135,20 +137,13 @@ def write_replay(store: Store, id: int, out: str, force: bool) -> None:
     Raises:
         OutputError: The file exists, or cannot be written.
     """
-    from silverball.cli.shared_options import file_name
+    from silverball.cli.shared_options import check_output, file_name
     from silverball.errors import OutputError
     from silverball.wholefile import write_whole
 
     path, shown = file_name(out), plain(out)
     text = store.replay(id)
-    if path.is_dir():
-        raise OutputError(f"{shown}: this is a folder; give the name of a file in it")
-    if path.exists() and not path.is_file():
-        raise OutputError(f"{shown}: this is not a regular file; choose another name")
-    if path.exists() and not force:
-        raise OutputError(f"{shown}: this file exists; choose another name, or overwrite it with --force")
-    if not path.absolute().parent.is_dir():
-        raise OutputError(f"{shown}: the folder {plain(str(path.parent))} does not exist; make it first")
+    check_output(path, force=force)
     try:
         write_whole(path, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
@@ -169,7 +164,7 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, S
     ]
     numbers = {one.id for one in lists}
     seeds = {(score.seed, score.mode) for score, number in all_scores if number in numbers}
-    tried = sorted((one for one in all_scores if (one[0].seed, one[0].mode) in seeds), key=better_first)
+    tried = sorted((one for one in all_scores if (one[0].seed, one[0].mode) in seeds), key=by_score)
     tables = {number: store.table_text(number) for number in {number for _, number in tried}}
     counted = CountedGames()
     proofs: dict[int, ScoreVerdict] = {}
@@ -181,8 +176,8 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, S
                 if number in numbers:
                     proofs[score.id] = proof
                     if not proof.verified and not quiet:
-                        who = f"score {score.id}, {score.score:,} by {name(score.initials)}"
-                        typer.echo(f"{who}: not proven: {proof.why}")
+                        label = f"score {score.id}, {score.score:,} by {short_name(score.initials)}"
+                        typer.echo(f"{label}: not proven: {proof.why}")
     finally:
         store.save_verdicts({id: (proof.verified, proof.why) for id, proof in proofs.items()})
     if not quiet:
@@ -191,8 +186,8 @@ def verify_all(store: Store, lists: list[ScoreList], quiet: bool) -> dict[int, S
     return proofs
 
 
-def better_first(one: tuple[Score, int]) -> tuple[int, int]:
-    """Sort key: higher scores first, then earlier ones; of two scores of one game the first one counts."""
+def by_score(one: tuple[Score, int]) -> tuple[int, int]:
+    """Sort key: higher scores first, then earlier ones; of two scores of one game the first counts."""
     return -one[0].score, one[0].id
 
 
@@ -237,7 +232,7 @@ def as_object(place: int, score: Score) -> dict[str, Any]:
 def print_list(
     one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several: bool, is_verified: bool
 ) -> None:
-    """Print a list as a table; the digest of the table tells lists of the same name apart."""
+    """Print a list as a table; the digest of the table distinguishes lists of one name."""
     from rich import box
     from rich.console import Console
     from rich.table import Table
@@ -245,9 +240,9 @@ def print_list(
 
     from silverball.game.scores.verify_score import is_built_in
 
-    words = [name(one.table_name), name(one.mode)]
+    words = [short_name(one.table_name), short_name(one.mode)]
     words += ["built-in"] * is_built_in(one.table_digest)
-    words += [f"version {name(one.table_digest[:8])}"] * is_one_of_several
+    words += [f"version {short_name(one.table_digest[:8])}"] * is_one_of_several
     grid = Table(title=Text(" · ".join(words)), title_justify="left", box=box.SIMPLE_HEAD)
     for head in ("place", "score"):
         grid.add_column(head, justify="right")
@@ -258,7 +253,7 @@ def print_list(
     grid.add_column("ID", justify="right")
     for place, score in rows:
         cells = (
-            str(place), f"{score.score:,}", name(score.initials), str(score.seed),
+            str(place), f"{score.score:,}", short_name(score.initials), str(score.seed),
             score.played("%Y-%m-%d %H:%M"), proof_words(score, is_verified), str(score.id),
         )  # fmt: skip
         grid.add_row(*map(Text, cells), style="red" if score.is_rejected else None)
@@ -268,13 +263,13 @@ def print_list(
 
 
 def proof_words(score: Score, is_verified: bool) -> str:
-    """State of the proof, in words; the result of an earlier verification is in the past tense."""
+    """The state of the proof in words; that of an earlier verification is in the past tense."""
     if score.verified is None:
         return "not verified" if score.has_replay else "no replay"
     words = "proven" if score.verified else "not proven"
     return words if is_verified or score.damage else f"was {words}"
 
 
-def name(text: str) -> str:
+def short_name(text: str) -> str:
     """Text from a file or the command line, escaped and shortened to be printed on one line."""
     return plain(text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}…")

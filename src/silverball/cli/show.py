@@ -7,8 +7,16 @@ from typing import Annotated
 
 import typer
 
-from silverball.cli.console import baking, say
-from silverball.cli.shared_options import BoardSeed, Force, TableName, ThemeName, file_name, theme_named
+from silverball.cli.console import baking, print_lines
+from silverball.cli.shared_options import (
+    BoardSeed,
+    Force,
+    TableName,
+    ThemeName,
+    check_output,
+    file_name,
+    theme_named,
+)
 
 
 def show(
@@ -24,7 +32,7 @@ def show(
     Example: `silverball show --table random --seed 7 --theme parlour --out seven.png`
     """
     from silverball.drawing import Moment, Renderer, best_size
-    from silverball.export.film import check_output, write_picture
+    from silverball.export.film import write_picture
     from silverball.table import generate_table, load_table
 
     look = theme_named(theme)
@@ -40,4 +48,4 @@ def show(
         picture = renderer.array(Moment.before(board))
     renderer.close()
     write_picture(out, picture)
-    say(f"wrote {out}")
+    print_lines(f"wrote {out}")

@@ -1,11 +1,11 @@
-"""Signal handlers: Ctrl-C, SIGTERM and SIGHUP end a command at a point where that is safe.
+"""Signal handlers: Ctrl-C, SIGTERM and SIGHUP end a command at a safe point.
 
 Python calls a signal handler between any two instructions of the main thread. An exception raised there while
 a module is imported, an object destroyed or a thread started would be swallowed, become a traceback, or leave
 something half done. The handler therefore inspects the stack of the main thread and, if necessary, sends the
 signal again a moment later. (Kernels are compiled in another thread, see `physics/compile_thread.py`.)
 
-Only the standard library is imported here, and nothing else before the handlers are set.
+This module imports only the standard library, so that the handlers are set before anything else is imported.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from types import FrameType
 
 RETRY_SECONDS = 0.02
 STOPPED = 130  # the exit code after Ctrl-C
-NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # a terminal that closes must not leave half files behind either
-UNINTERRUPTIBLE = {  # functions of the standard library, by file; the last line is for every file
+NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # SIGHUP too: a closed terminal must not leave partial files
+UNINTERRUPTIBLE = {  # functions of the standard library, by file; "" stands for every file
     "threading.py": ("start", "set", "notify", "_release_save", "_acquire_restore"),
     "thread.py": ("submit", "_adjust_thread_count"),
     "subprocess.py": ("__init__",),
@@ -65,7 +65,7 @@ def stopped() -> int:
 def _handled() -> list[int]:
     """The signals that end the command: those of this system that were not ignored when it was started.
 
-    `nohup` ignores SIGHUP, and a shell ignores SIGINT for what it runs in the background.
+    `nohup` ignores SIGHUP, and a shell ignores SIGINT for its background commands.
     """
     numbers = [getattr(signal, name) for name in NAMES if hasattr(signal, name)]
     return [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]
@@ -110,10 +110,10 @@ def _is_safe(frame: FrameType | None) -> bool:
 
 def _leave(code: int) -> None:
     """Exit the process with an exit code."""
-    from silverball.cli.streams import give_up
+    from silverball.cli.streams import discard_output
 
-    give_up(sys.stdout)
-    give_up(sys.stderr)
+    discard_output(sys.stdout)
+    discard_output(sys.stderr)
     if not any(thread.daemon for thread in threading.enumerate()):
         sys.exit(code)
     # A thread may stay in the compiler for many seconds; Python must not be finalized meanwhile.

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from silverball.cli.console import compiling, make_boards, progress_bar, say, say_json
+from silverball.cli.console import compiling, make_boards, print_json, print_lines, progress_bar
 from silverball.cli.shared_options import (
     AsJson,
     FirstSeed,
@@ -80,7 +80,7 @@ def simulate(
         "digest": digest(batch.state),
     }
     if as_json:
-        say_json(report)
+        print_json(report)
     else:
         print_report(report)
 
@@ -89,13 +89,13 @@ def print_report(report: dict[str, Any]) -> None:
     """Print the report, one figure per line."""
     for name, value in report.items():
         if isinstance(value, dict):
-            say(f"{name}:")
+            print_lines(f"{name}:")
             for part, count in value.items():
-                say(f"  {part:24} {count:>12,}")
+                print_lines(f"  {part:24} {count:>12,}")
         else:
             shown = value
             if isinstance(value, float):
                 shown = f"{value:,.6g}"
             elif isinstance(value, int):
                 shown = f"{value:,}"
-            say(f"{name.replace('_', ' '):30} {shown}")
+            print_lines(f"{name.replace('_', ' '):30} {shown}")

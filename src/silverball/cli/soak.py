@@ -9,7 +9,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 from silverball.cli.completion import complete_table
-from silverball.cli.console import compiling, progress_bar, say, say_json
+from silverball.cli.console import compiling, print_json, print_lines, progress_bar
 from silverball.cli.shared_options import AsJson, FirstSeed, TickRate, Worlds
 from silverball.errors import SilverballError, StateError
 
@@ -26,19 +26,21 @@ def soak(
         ),
     ] = None,
     seed: FirstSeed = 0,
-    frames: Annotated[int, typer.Option(min=1, help="Frames to reach, those of earlier runs included.")] = (
-        10_000_000
-    ),
+    frames: Annotated[
+        int, typer.Option(min=1, help="Total frames to reach, including those of earlier runs.")
+    ] = (10_000_000),
     worlds: Worlds = 256,
     tick_rate: TickRate = 60,
-    hostile: Annotated[bool, typer.Option("--hostile", help="Use boards that break every rule.")] = False,
+    hostile: Annotated[
+        bool, typer.Option("--hostile", help="Use boards that violate the rules of tables.")
+    ] = False,
     progress: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Progress file. [default: a file in the data folder]"),
     ] = None,
     again: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Repeat a finding instead: does it still happen?"),
+        typer.Option(metavar="FILE", help="Repeat a finding instead, and report whether it still happens."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -58,7 +60,7 @@ def soak(
         "random" if table is None else table, seed, worlds, tick_rate, hostile, frames, progress
     )
     if as_json:
-        say_json(report)
+        print_json(report)
     else:
         print_report(report)
     raise typer.Exit(1 if any(report["findings"].values()) else 0)
@@ -86,7 +88,7 @@ def run_soak(
             task = bar.add_task(f"soaking {frames:,} frames", total=frames, completed=earlier.totals.frames)
             log = campaign.soak(options, frames, path, lambda done: bar.update(task, completed=done))
     except KeyboardInterrupt:
-        say(f"progress is saved in {path}; the same command continues from there", err=True)
+        print_lines(f"progress is saved in {path}; the same command continues from there", err=True)
         raise
     seconds = time.perf_counter() - started
     return {
@@ -111,18 +113,18 @@ def run_soak(
 
 def print_report(report: dict[str, Any]) -> None:
     """Print the report in a few lines."""
-    say(
+    print_lines(
         f"{report['frames']:,} frames of 1/{report['tick_rate']} s on {report['boards']:,} boards "
         f"({report['table']}, seed {report['seed']}), {report['frames_per_second'] / 1e6:.2f} million/s"
     )
-    say(
+    print_lines(
         f"{report['balls_created']:,} balls, {report['hits']:,} hits, {report['jams']:,} jams; "
         f"deepest penetration {report['deepest_penetration']:.3g} u"
     )
-    say(", ".join(f"{kind} {number:,}" for kind, number in report["findings"].items()))
+    print_lines(", ".join(f"{kind} {number:,}" for kind, number in report["findings"].items()))
     for name in report["files"][:SHOWN_FINDINGS]:
-        say(f"  silverball soak --again {name}")
-    say(f"progress is saved in {report['progress']}")
+        print_lines(f"  silverball soak --again {name}")
+    print_lines(f"progress is saved in {report['progress']}")
 
 
 def repeat(path: Path, as_json: bool) -> NoReturn:
@@ -143,11 +145,11 @@ def repeat(path: Path, as_json: bool) -> NoReturn:
     happens = found.name.lower() == finding.kind
     if as_json:
         report = {"kind": finding.kind, "found": found.name.lower(), "happens_again": happens}
-        say_json(report)
+        print_json(report)
     elif happens:
-        say(f"{path}: the {finding.kind} of ball {finding.ball} happens again")
+        print_lines(f"{path}: the {finding.kind} of ball {finding.ball} happens again")
     elif found != Found.NOTHING:
-        say(f"{path}: instead of the {finding.kind}, another finding: {found.name.lower()}")
+        print_lines(f"{path}: instead of the {finding.kind}, another finding: {found.name.lower()}")
     else:
-        say(f"{path}: the {finding.kind} does not happen any more")
+        print_lines(f"{path}: the {finding.kind} no longer happens")
     raise typer.Exit(0 if found == Found.NOTHING else 1)

@@ -1,9 +1,9 @@
-"""Standard streams: made safe where they are closed, full, broken, or limited to few characters.
+"""Standard streams: handling of streams that are closed, full, broken, or limited to few characters.
 
-The number of a closed stream is reserved: otherwise the next file to be opened would get it, and be written
-to by accident. Printing to a closed standard output is an error (exit code 2); without standard input or
-standard error everything works. A reader that goes away, as `head` does, is not an error: the rest of the
-output is dropped and the exit code is 0.
+The descriptor of a closed stream is reserved: otherwise the next opened file would get it and be written to
+by accident. Printing to a closed standard output is an error (exit code 2); without standard input or
+standard error everything works. A reader that closes the output early, like `head`, is not an error: the rest
+of the output is dropped and the exit code is 0.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from silverball.errors import OutputError
 
 
 class ClosedOutput(io.TextIOBase):
-    """Stands in for a closed standard output."""
+    """Replaces a closed standard output; writing to it raises an error."""
 
     encoding = "utf-8"
 
     def write(self, _text: str) -> NoReturn:
-        """Refuse to print.
+        """Raise an error.
 
         Raises:
             OutputError: Always.
@@ -49,8 +49,8 @@ def prepare() -> None:
         sys.stdout.reconfigure(errors="backslashreplace")  # as standard error does by default
 
 
-def give_up(stream: Any) -> None:
-    """Send the rest of a stream that cannot be written to the null device; Python flushes it at the exit."""
+def discard_output(stream: Any) -> None:
+    """Redirect a stream that cannot be written to the null device, since Python flushes it at exit."""
     with suppress(OSError):
         stream.flush()
         return
@@ -62,5 +62,5 @@ def give_up(stream: Any) -> None:
 
 
 def is_broken_pipe(error: BaseException) -> bool:
-    """Whether the reader of the output has gone; click and rich wrap that in errors of their own."""
+    """Whether the reader has closed the output; click and rich wrap that error in others."""
     return isinstance(error, BrokenPipeError) or isinstance(error.__context__, BrokenPipeError)

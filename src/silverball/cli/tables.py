@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from silverball.cli.console import say
+from silverball.cli.console import print_lines
 
 
 def tables() -> None:
@@ -19,4 +19,4 @@ def tables() -> None:
             recipe = table.random
             counts = f"{recipe.triangular_prisms} triangular prisms, {recipe.cylinders} cylinders"
             obstacles = f"{counts}, placed at random for every seed"
-        say(f"{name:10} {obstacles}")
+        print_lines(f"{name:10} {obstacles}")

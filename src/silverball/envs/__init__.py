@@ -1,11 +1,11 @@
 """Pinball as Gymnasium environments for learning agents, registered when this package is imported.
 
     silverball/Pinball-v0         a random board for every episode; the state as a row of numbers
-    silverball/PinballClassic-v0  the drawn table
+    silverball/PinballClassic-v0  the built-in table `classic`
     silverball/PinballPixels-v0   random boards; the last four pictures of 84 × 84
 
 `gymnasium.make(id)` makes one environment (`single.py`), `gymnasium.make_vec(id, num_envs)` thousands that
-make a step in one call (`vector.py`). `options.py` has the options, `observations.py` the slots of an
+step in one call (`vector.py`). `options.py` has the options, `observations.py` the slots of an
 observation, `rewards.py` the rewards, `episode.py` the step. `sb3.py` and `puffer.py` are adapters for
 Stable-Baselines3 and PufferLib.
 """
@@ -39,7 +39,7 @@ IDS: dict[str, dict[str, Any]] = {
     "silverball/PinballClassic-v0": {"table": "classic"},
     "silverball/PinballPixels-v0": {"table": "random", "observation": "pixels"},
 }
-"""Every environment with the options that it sets."""
+"""The registered environments, with the options that each sets."""
 
 REWARD_THRESHOLDS = {
     "silverball/Pinball-v0": 110.0,
@@ -56,8 +56,8 @@ for _id in set(IDS) - set(gymnasium.registry):
         vector_entry_point="silverball.envs.vector:PinballVectorEnv",
         kwargs=IDS[_id],
         reward_threshold=REWARD_THRESHOLDS[_id],
-        # The wrappers of `gymnasium.make` would take longer than the step. None is needed: the environment
-        # itself demands a reset, applies its time limit and refuses invalid actions, and the tests run
+        # The wrappers of `gymnasium.make` would take longer than a step, and none is needed: the environment
+        # itself demands a reset, applies its time limit and rejects invalid actions. The tests run
         # Gymnasium's checker on every id.
         disable_env_checker=True,
         order_enforce=False,

@@ -21,30 +21,30 @@ def action_space(options: Options) -> spaces.Space[Any]:
     return spaces.MultiBinary(count) if options.actions == "multibinary" else spaces.Discrete(1 << count)
 
 
-def as_array(given: Any) -> NDArray[Any]:
+def as_array(actions: Any) -> NDArray[Any]:
     """Actions of any type as an array."""
     try:
-        return np.asarray(given)
+        return np.asarray(actions)
     except ValueError:  # rows of different lengths
-        return np.asarray(given, object)
+        return np.asarray(actions, object)
 
 
-def as_bits(given: NDArray[Any]) -> NDArray[np.bool_] | None:
-    """The bits, or None if one is neither 0 nor 1. Any type will do, also floats, as for `MultiBinary`."""
-    on: NDArray[np.bool_] = given == 1
-    return on if np.all(np.logical_or(given == 0, on)) else None
+def as_bits(actions: NDArray[Any]) -> NDArray[np.bool_] | None:
+    """Actions as bits; None if one is neither 0 nor 1. Any dtype is accepted, like by `MultiBinary`."""
+    bits: NDArray[np.bool_] = actions == 1
+    return bits if np.all(np.logical_or(actions == 0, bits)) else None
 
 
 def keys_to_action(options: Options) -> dict[tuple[str, ...], Any]:
     """The action of every set of pressed keys, for `gymnasium.utils.play`.
 
-    The empty set is left out: `play` does not expect it, and uses 0 then, which holds no button.
+    The empty set is omitted: `play` does not expect it and uses 0 instead, which holds no button.
     """
     buttons = options.buttons
     found: dict[tuple[str, ...], Any] = {}
     for bits in product((0, 1), repeat=len(buttons)):
         keys = tuple(KEYS[name] for name, bit in zip(buttons, bits, strict=True) if bit)
-        code = sum(bit << place for place, bit in enumerate(bits))
+        code = sum(bit << position for position, bit in enumerate(bits))
         if keys:
             found[keys] = np.array(bits, np.int8) if options.actions == "multibinary" else code
     return found

@@ -1,8 +1,8 @@
 """The pool of boards that episodes draw from, made before the first step and shared by all environments.
 
-A board takes 10 ms or more to generate and check, a step a tenth of a microsecond; so episodes draw a board
-from a pool. All boards of a pool have the same borders and paddles, so that observations mean the same on
-each: they come from one recipe, or from a list of tables with the same board and paddles.
+Generating and checking a board takes 10 ms or more, a step a tenth of a microsecond, so episodes draw their
+boards from a pool. All boards of a pool have the same borders and paddles, so that observations have the same
+meaning on each: they come from one recipe, or from a list of tables with equal `board` and `paddle`.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from silverball.world.compile import Boards, blank_worlds, compile_tables
 
 
 class Pool(NamedTuple):
-    """Compiled boards, and what environments need to know about them.
+    """Compiled boards, with the data that environments need about them.
 
     Attributes:
         tables: The finished tables.
-        seeds: The seed of each board, int64 [board]; for a list of tables their numbers; −1 for one table.
+        seeds: The seed of each board, int64 [board]; for a list of tables its index; for one table −1.
         boards: The compiled tables.
-        blanks: WORLD records of worlds in which nothing has happened yet, one for each board.
-        layouts: The obstacles of each board as they stand in an observation, float32 [board, column].
+        blanks: WORLD records of new worlds, one for each board.
+        layouts: The columns of an observation that describe the obstacles, float32 [board, column].
         fields: The groups of an observation and their columns.
     """
 
@@ -46,10 +46,10 @@ class Pool(NamedTuple):
     fields: tuple[Field, ...]
 
     def board_of_seed(self, seed: Any) -> int:
-        """The board with this seed, or with this number in a list of tables.
+        """The index of the board with this seed, or at this position of a list of tables.
 
         Raises:
-            ValueError: There is none.
+            ValueError: There is no such board.
         """
         if self.seeds[0] < 0:
             name = plain(self.tables[0].name)
@@ -72,7 +72,7 @@ class Pool(NamedTuple):
         return self.fields[-1].end
 
 
-def pool_of(table: TableSource | Sequence[TableSource], count: int, board_seed: int) -> Pool:
+def make_pool(table: TableSource | Sequence[TableSource], count: int, board_seed: int) -> Pool:
     """The pool of a recipe, of one table, or of a list of tables.
 
     Args:
@@ -86,12 +86,12 @@ def pool_of(table: TableSource | Sequence[TableSource], count: int, board_seed: 
         ValueError: The tables of a list differ in their boards or paddles, or one is a recipe.
     """
     if isinstance(table, (list, tuple)):
-        return _pool_of_list(tuple(_loaded(one) for one in table))
-    one = _loaded(table)  # type: ignore[arg-type]
-    return _pool_of_recipe(one, count, board_seed) if one.random is not None else _pool((one,), [-1])
+        return _list_pool(tuple(_load(one) for one in table))
+    one = _load(table)  # type: ignore[arg-type]
+    return _recipe_pool(one, count, board_seed) if one.random is not None else _pool((one,), [-1])
 
 
-def _loaded(table: TableSource) -> Table:
+def _load(table: TableSource) -> Table:
     if isinstance(table, (str, os.PathLike)):
         return load_table(table)
     if isinstance(table, Mapping):
@@ -109,22 +109,22 @@ def _loaded(table: TableSource) -> Table:
 
 
 @lru_cache(maxsize=8)
-def _pool_of_recipe(recipe: Table, count: int, board_seed: int) -> Pool:
+def _recipe_pool(recipe: Table, count: int, board_seed: int) -> Pool:
     seeds = range(board_seed, board_seed + count)
     return _pool(tuple(generate_table(seed, recipe) for seed in seeds), seeds)
 
 
 @lru_cache(maxsize=8)
-def _pool_of_list(tables: tuple[Table, ...]) -> Pool:
+def _list_pool(tables: tuple[Table, ...]) -> Pool:
     if not tables:
-        raise ValueError("the list of tables is empty, it needs at least one")
+        raise ValueError("the list of tables must have at least one, got an empty list")
     for number, table in enumerate(tables):
         which = f"table {number} of the list ({plain(table.name)})"
         if table.random is not None:
             raise ValueError(f"{which} is a recipe: draw boards from it with generate_table(seed, recipe)")
         for part in ("board", "paddle"):
             if getattr(table, part) != getattr(tables[0], part):
-                raise ValueError(f"{which} has another [{part}] than the first one; they must be the same")
+                raise ValueError(f"{which} has a different [{part}] than the first one; they must be equal")
     return _pool(tables, range(len(tables)))
 
 
@@ -138,7 +138,7 @@ def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
 
 
 def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:
-    """The obstacles of each board as they stand in an observation; 0 where other boards have more."""
+    """The columns that describe the obstacles, float32 [board, column]; unused ones are 0."""
     prisms, cylinders = layout[-2:]
     shown = np.zeros((len(boards.board), cylinders.end - prisms.first), np.float32)
     for row, board in zip(shown, boards.board, strict=True):
@@ -162,5 +162,5 @@ class PooledBatch(WorldBatch):
     def __init__(
         self, pool: Pool, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
     ) -> None:
-        """Use these WORLD records and boards [world]; both are changed from outside."""
+        """Use these WORLD records and boards [world]; the caller changes both."""
         self._set_attributes(pool.tables, pool.boards, state, board_of, tick_rate, threads)

@@ -1,8 +1,8 @@
-"""Arrays that steps write to, and when they may be written to again.
+"""Output arrays of steps, reused once the caller no longer references them.
 
-What a step has returned must not change while the caller can still see it. So a step writes to new arrays, or
-to those of an earlier step that are no longer referenced: touching new memory takes longer than drawing a
-picture.
+The results of a step must not change while the caller still holds them. A step therefore writes to new
+arrays, or to those of an earlier step that are no longer referenced: first touching new memory takes longer
+than drawing a picture.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from numpy.typing import NDArray
 from silverball.envs.pointers import OUTPUTS
 from silverball.envs.state import INFO
 
-MAX_TRACKED = 4  # outputs that are kept in case that they are no longer referenced
+MAX_TRACKED = 4  # outputs that may be reused
 
 
 class StepOutput:
     """The arrays of one step's results.
 
     Attributes:
-        arrays: By the names of `OUTPUTS`.
-        observations, rewards, terminated, truncated, counts, frames, copies: The same.
-        addresses: Where they are, int64 [array].
-        infos: Each count by its name, a view [env], and Gymnasium's mask for it, which is all True.
+        arrays: Arrays by the names of `OUTPUTS`.
+        observations, rewards, terminated, truncated, counts, frames, copies: The same arrays, as attributes.
+        addresses: Addresses of the arrays, int64 [array].
+        infos: Each count by its name, as a view [env], with Gymnasium's mask, which is True everywhere.
     """
 
     observations: NDArray[np.float32]
@@ -51,11 +51,11 @@ class StepOutput:
         self._own_references = list(map(getrefcount, self._returned))
 
     def is_unreferenced(self) -> bool:
-        """Whether no other object refers to what a step returns; views and tensors of an array do."""
+        """Whether nothing else refers to the returned arrays; their views and tensors count as references."""
         return list(map(getrefcount, self._returned)) == self._own_references
 
     def infos_copy(self) -> dict[str, Any]:
-        """The infos of a step in which all environments took part, as a new dict."""
+        """The infos of a step of all environments, as a new dict."""
         infos = self.infos.copy()
         infos["stalled"] = infos["stalled"] != 0
         return infos
@@ -65,11 +65,11 @@ class OutputPool:
     """The outputs of an engine's steps.
 
     Attributes:
-        last: That of the last step.
+        last: The output of the last step.
     """
 
     def __init__(self, first: dict[str, NDArray[Any]], returned: tuple[str, ...]) -> None:
-        """Begin with these arrays; those named in `returned` are what a step returns."""
+        """Start with these arrays; a step returns those named in `returned`."""
         self._returned = returned
         self._all_true = np.ones(len(first["rewards"]), np.bool_)
         self._all_true.flags.writeable = False
@@ -77,7 +77,7 @@ class OutputPool:
         self._tracked = [self.last]
 
     def advance(self) -> None:
-        """Make `last` an output that the caller does not see."""
+        """Set `last` to an unreferenced output, or to a new one."""
         for output in self._tracked:
             if output.is_unreferenced():
                 self.last = output
@@ -90,6 +90,6 @@ class OutputPool:
         self._tracked = [*self._tracked[-MAX_TRACKED + 1 :], self.last]
 
     def replace(self, **arrays: NDArray[Any]) -> None:
-        """Write to these arrays from now on."""
+        """Replace some of the arrays that steps write to."""
         self.last = StepOutput(self.last.arrays | arrays, self._returned, self._all_true)
         self._tracked = [self.last]

@@ -1,10 +1,10 @@
-"""The engine: all arrays that Python's environments share with the compiled step.
+"""The engine: the arrays of one or many environments, and the calls of the compiled step on them.
 
-A single environment is an engine of one, a vector environment an engine of many; there is no second code
-path. The addresses of the arrays are written once (see world/single_step.py), so that a step is one short
-call, or one for each slice of environments on threads.
+A single environment is an engine of one, a vector environment an engine of many; both use the same code. The
+addresses of the arrays are written once (see world/single_step.py), so a step is one short call, or one per
+slice of environments on threads.
 
-The changing state of an engine of one is contiguous in memory, so that saving it is one copy.
+The state of an engine of one is contiguous in memory, so saving it is one copy.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.board_pool import Pool, PooledBatch, pool_of
+from silverball.envs.board_pool import Pool, PooledBatch, make_pool
 from silverball.envs.buffers import OutputPool
 from silverball.envs.episode import run_task
 from silverball.envs.options import Options
 from silverball.envs.pixels import draw_finals
 from silverball.envs.pointers import ADDRESSES, OUTPUTS, write_addresses
-from silverball.envs.rewards import TERMS, called, called_for_many, resolve_reward
-from silverball.envs.sprites import no_pictures, pictures_of
+from silverball.envs.rewards import TERMS, call_batch_reward, call_reward, resolve_reward
+from silverball.envs.sprites import empty_pictures, make_pictures
 from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, ResetMode, StepFlag, Task
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
@@ -36,20 +36,20 @@ from silverball.physics.records import WORLD, Part, records
 from silverball.world.threads import thread_pool
 
 STATE_FORMAT = 3
-SIGNATURE_SIZE = 16  # [B] of a saved state: a hash of what it must share with the environment
+SIGNATURE_SIZE = 16  # [B] start of a saved state: a hash of the settings that it depends on
 PREFIX_SIZE = SIGNATURE_SIZE + 8  # [B] with the number of the board
-MIN_SLICE_WORK = 1000  # work below which a thread does not pay: environments, states of one tick each
-PICTURE_WORK = 3  # work of a picture, and of each picture that is copied
+MIN_SLICE_WORK = 1000  # ticks of one environment, below which another thread costs more than it saves
+PICTURE_WORK = 3  # [tick] cost of drawing or copying a picture, in the same unit
 RING_FACTOR = (
     4  # length of the ring in windows, if the window is the observation; a longer one moves less often
 )
 
 
 class Engine:
-    """The arrays of some environments, and what moves them.
+    """The arrays of some environments, with methods that step, reset, save and restore them.
 
     Attributes:
-        options: What was chosen.
+        options: The options of the environments.
         pool: The boards.
         batch: The worlds, a `WorldBatch`.
         episodes: EPISODE records [env].
@@ -64,9 +64,9 @@ class Engine:
     def __init__(
         self, options: Options, count: int, mode: ResetMode, threads: int, has_fixed_output: bool
     ) -> None:
-        """Make `count` environments; `has_fixed_output`: every step writes to the same arrays."""
+        """Make `count` environments; with `has_fixed_output` every step writes to the same arrays."""
         self.options, self.count, self.has_fixed_output = options, count, has_fixed_output
-        self.pool: Pool = pool_of(options.table, options.boards, options.board_seed)
+        self.pool: Pool = make_pool(options.table, options.boards, options.board_seed)
         self.reward = resolve_reward(options.reward)
         self.shows_pictures = options.observation == "pixels"
         self.stack = options.stack if self.shows_pictures else 0
@@ -94,7 +94,7 @@ class Engine:
         self.set_unstarted()
 
     def _allocate_state(self, threads: int) -> None:
-        """Make the arrays of everything that changes, contiguous for one environment."""
+        """Allocate the state; that of a single environment is contiguous."""
         sizes = (SIGNATURE_SIZE, 8, WORLD.itemsize, EPISODE.itemsize, self.stack * PICTURE_STATE.itemsize)
         edges = np.cumsum((0, *(size * self.count for size in sizes)))
         self.memory = np.zeros(edges[-1], np.uint8)
@@ -110,21 +110,21 @@ class Engine:
         self.state_parts = [part.reshape(self.count, -1) for part in parts]
 
     def _signature(self) -> bytes:
-        """A hash of what a state must share with the environments that it is restored into."""
+        """A hash of the settings that a state depends on: it can only be restored where they are equal."""
         shared = (STATE_FORMAT, PHYSICS_VERSION, self.options.tick_rate, self.stack, self.pool.boards.digests)
         return hashlib.sha256(repr(shared).encode()).digest()[:SIGNATURE_SIZE]
 
     def _prepare_pictures(self) -> None:
-        """Choose how pictures are drawn, and make what the drawing needs."""
+        """Choose how pictures are drawn, and allocate their ring and records."""
         if not self.shows_pictures:
-            self.pictures = no_pictures(self.pool)
+            self.pictures = empty_pictures(self.pool)
             self.ring = 0
         else:
-            self.pictures = pictures_of(self.pool, self.options.size, self.options.rgb)
+            self.pictures = make_pictures(self.pool, self.options.size, self.options.rgb)
             self.ring = self.stack * (RING_FACTOR if self.stack > 1 and self.has_fixed_output else 1)
         self.raster = self.pictures.raster.copy()
         self.raster["stack"] = self.stack
-        # A single picture is drawn right into the output; of several the window moves along a ring.
+        # A single picture is drawn directly into the output; a window of several moves along a ring.
         self.draws_into_output = self.stack == 1 and not self.has_fixed_output
         self.rules["copies_stack"] = not self.has_fixed_output and self.stack > 1
         self.rules["must_redraw"] = self.draws_into_output
@@ -151,7 +151,7 @@ class Engine:
         return OutputPool(arrays, ("rewards", "terminated", "truncated", "counts", shown))
 
     def _write_addresses(self) -> None:
-        """Write down where all arrays are: attributes of the engine by their names, and those of others."""
+        """Write the addresses of all arrays; arrays that are attributes of the engine are found by name."""
         boards, pictures, pool, batch = self.pool.boards, self.pictures, self.pool, self.batch
         arrays = {
             "worlds": batch.state, "board_of": batch.board_of, "logs": batch.logs, "tallies": batch.tallies,
@@ -164,16 +164,16 @@ class Engine:
         write_addresses(self.addresses, {**vars(self), **arrays, **self.outputs.last.arrays})
         self._output_addresses = self.addresses.view(np.int64)[: len(OUTPUTS)]
 
-    # --- what moves it
+    # --- steps and resets
 
     def step_one(self, action: int) -> tuple[float, int]:
-        """Make a step in the only environment, unless its episode is over; its reward and `StepFlag` bits."""
+        """Step the only environment, unless its episode is over; returns its reward and `StepFlag` bits."""
         if self.episodes["over"][0]:
             return 0.0, StepFlag.WAS_OVER
         self._advance_window()
         reward, flags = self.run_task(self.addresses, 0, 1, action)
         if callable(self.reward):
-            reward = called(self.reward, dict(zip(TERMS, self.terms[0].tolist(), strict=True)))
+            reward = call_reward(self.reward, dict(zip(TERMS, self.terms[0].tolist(), strict=True)))
         return reward, flags
 
     def step(self) -> None:
@@ -181,7 +181,7 @@ class Engine:
         self._advance_window()
         self._run(Task.STEP)
         if callable(self.reward):
-            rewards = called_for_many(self.reward, self.terms)
+            rewards = call_batch_reward(self.reward, self.terms)
             has_moved = self.rules["mode"] != ResetMode.NEXT_STEP or self.episodes["steps"] > 0
             self.outputs.last.rewards[:] = np.where(has_moved, rewards, 0.0)
 
@@ -230,18 +230,18 @@ class Engine:
     def write_to(
         self, observations: NDArray[Any], terminated: NDArray[np.bool_], truncated: NDArray[np.bool_]
     ) -> bool:
-        """Write to these arrays from now on, if possible; see `PinballVectorEnv.write_to`."""
+        """Make all further steps write to these arrays, if possible; see `PinballVectorEnv.write_to`."""
         last, name = self.outputs.last, "frames" if self.shows_pictures else "observations"
-        own = last.arrays[name]
-        pairs = ((observations, own), (terminated, last.terminated), (truncated, last.truncated))
+        current = last.arrays[name]
+        pairs = ((observations, current), (terminated, last.terminated), (truncated, last.truncated))
         fits = all(
-            given.dtype == mine.dtype and given.size == mine.size
-            and given.flags.c_contiguous and given.flags.writeable
-            for given, mine in pairs
+            new.dtype == old.dtype and new.size == old.size
+            and new.flags.c_contiguous and new.flags.writeable
+            for new, old in pairs
         )  # fmt: skip
         if not (fits and self.has_fixed_output and self.stack <= 1):
             return False
-        shown = {name: observations.reshape(own.shape)}
+        shown = {name: observations.reshape(current.shape)}
         self.outputs.replace(terminated=terminated, truncated=truncated, **shown)
         self._output_addresses[:] = self.outputs.last.addresses
         self.rules["can_repair"], self.rules["must_redraw"] = 0, self.shows_pictures
@@ -261,7 +261,7 @@ class Engine:
         draw_finals(self.addresses, rows, drawn.ctypes.data)
         return drawn
 
-    # --- starting and saving
+    # --- seeds and saved states
 
     @property
     def state_prefixes(self) -> frozenset[bytes]:
@@ -293,7 +293,7 @@ class Engine:
         """Restore states, one for each of these environments or one for all; `observe` writes observations.
 
         Raises:
-            StateError: They are not states of such environments.
+            StateError: They are not states of environments with the same options.
         """
         signature_part = self.state_parts[0]
         size = sum(part.shape[1] for part in self.state_parts)
@@ -311,11 +311,11 @@ class Engine:
             own[rows] = part
 
     def __reduce__(self) -> NoReturn:
-        """Refuse to be copied: the kernels know the arrays by address. Environments copy themselves."""
+        """Refuse to be copied: kernels hold addresses of the arrays. Environments implement copying."""
         raise TypeError("an engine cannot be copied or pickled: copy the environment that owns it")
 
     def refuse_state(self, size: int) -> NoReturn:
-        """Say what is wrong with a state of this size [B] that cannot be restored."""
+        """Raise the error of a state of this size [B] that cannot be restored."""
         expected = sum(part.shape[1] for part in self.state_parts)
         if size != expected:
             raise StateError(
@@ -329,12 +329,12 @@ class Engine:
 
 @cache
 def _announce_compilation() -> None:
-    """Say why the first environment of a process takes its time, if it does."""
+    """Print a notice if creating the first environment of a process compiles for half a minute."""
     if SETTINGS.DISABLE_JIT or is_compiled(run_task.__name__, AGENTS):
         return
-    how_often = "once" if cache_folder(AGENTS) else "as at every start: its cache folder cannot be written"
-    words = f"compiling the environments for this machine, {how_often}; this takes half a minute or so…"
-    print("silverball:", words, file=sys.stderr, flush=True)
+    often = "once" if cache_folder(AGENTS) else "at every start: its cache folder cannot be written"
+    notice = f"compiling the environments for this machine, {often}; this takes about half a minute …"
+    print("silverball:", notice, file=sys.stderr, flush=True)
 
 
 def _as_records(memory: NDArray[np.uint8], dtype: np.dtype[Any]) -> NDArray[Any]:

@@ -1,11 +1,11 @@
-"""What happens in one step of an environment, in one compiled call.
+"""The step of the environments: actions, physics, rewards, ends and resets in one compiled call.
 
     the action's bits become buttons → a ball is created if requested → the worlds move (run_worlds)
     → for each environment: reward, next ball, end of the episode, reset if due
     → observations and counts are written
 
-A ball is *stalled* when no hit has scored for too long; this ends the episodes of agents that hold both
-paddles up forever with a ball lying on them. The remaining time is part of the observation.
+A ball is *stalled* when no hit has scored for too long; otherwise an agent could hold a
+ball on raised paddles forever. The remaining time is part of the observation.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, BallSlot,
 from silverball.envs.pixels import PICTURE_STATE_SIZE, copy_stack, draw_first, draw_step, redraw_stack
 from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
-from silverball.envs.state import COUNTS, EPISODE, ResetMode, RulesRecord, StepFlag, Task
+from silverball.envs.state import COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.portable_math import WORD, threefry
@@ -25,10 +25,11 @@ from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, 
 from silverball.physics.step import run_worlds
 from silverball.world.single_step import INT, LEFT, RIGHT, array_at
 
-BLOCK = 64  # worlds that are moved before their rewards are computed: their records stay in the cache
+BLOCK = 64  # worlds stepped before their rewards are computed, so that their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
 # A WORLD record has its counters in the order of `COUNTS`; `write_counts` appends two fields of an episode.
 COUNTS_AT, COUNTS_SIZE = int(WORLD.fields["score"][1]), 8 * len(COUNTS)  # type: ignore[index]
+EPISODE_COUNTS_SIZE = 8 * (len(INFO) - len(COUNTS))  # the first fields of an EPISODE record
 BALL_WIDTH, PADDLE_WIDTH = len(BallSlot), len(PaddleSlot)
 
 
@@ -151,10 +152,10 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
     episode.last_score = world.score
     episode.steps += 1
     episode.idle_steps = 0 if gained > 0 else episode.idle_steps + 1
-    flags, plays = 0, world.created > world.drained
+    flags, has_ball = 0, world.created > world.drained
     if world.drained >= rules.balls:
         flags = StepFlag.TERMINATED + 0
-    elif not plays and rules.creates_by_button == 0:
+    elif not has_ball and rules.creates_by_button == 0:
         board = views.boards(ptr)[views.board_of(ptr)[index]]
         create_ball(world, board, views.colliders(ptr), views.places(ptr), views.logs(ptr)[index])
         episode.idle_steps = 0
@@ -163,7 +164,7 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
         flags = StepFlag.TERMINATED + 0
     if flags == 0 and (episode.steps >= rules.max_steps or world.fault != Fault.NONE):
         flags = StepFlag.TRUNCATED + 0
-    seconds = rules.ticks * rules.tick if plays else 0.0
+    seconds = rules.ticks * rules.tick if has_ball else 0.0
     reward = rules.weights[POINTS] * gained + rules.weights[SECONDS] * seconds
     if rules.weighs_counts != 0:
         reward += weigh_counts(ptr, rules, index, before)
@@ -181,7 +182,7 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
 
 @ir_inlined
 def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> float:
-    """The weighted sum of the stall and of the growth of the counts; writes these terms, too."""
+    """Write the terms of the stall and of the growth of the counts; returns their weighted sum."""
     stalled = views.episodes(ptr)[index].stalled
     views.terms(ptr)[index, STALLED] = stalled
     reward = rules.weights[STALLED] * stalled
@@ -196,24 +197,24 @@ def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> 
 
 @internal
 def begin_episode(ptr: Pointers, rules: RulesRecord, index: int) -> None:
-    """Begin the next episode: its board, its seed, a blank world, the first ball."""
+    """Begin the next episode: choose its board and seed, reset the world, create the first ball."""
     episode = views.episodes(ptr)[index]
     episode.number += 1
     key0, key1 = episode.seed & WORD, (episode.seed >> 32) & WORD
     high, low = threefry(key0, key1, episode.number & WORD, 0)
     choice, _ = threefry(key0, key1, episode.number & WORD, 1)
-    which = (choice * rules.boards) >> 32 if rules.own_boards == 0 else index % rules.boards
+    board = (choice * rules.boards) >> 32 if rules.own_boards == 0 else index % rules.boards
     if views.requested_boards(ptr)[index] >= 0:
-        which = views.requested_boards(ptr)[index]
-    views.board_of(ptr)[index] = which
-    copy_bytes(ptr.worlds_at + index * WORLD_SIZE, ptr.blanks_at + which * WORLD_SIZE, WORLD_SIZE)
+        board = views.requested_boards(ptr)[index]
+    views.board_of(ptr)[index] = board
+    copy_bytes(ptr.worlds_at + index * WORLD_SIZE, ptr.blanks_at + board * WORLD_SIZE, WORLD_SIZE)
     world, log = views.worlds(ptr)[index], views.logs(ptr)[index]
     world.seed = ((high & 0x7FFFFFFF) << 32) | low
     log.count, log.carried, log.done, log.lost = 0, 0, 0, 0
-    episode.board_seed = views.board_seeds(ptr)[which]
+    episode.board_seed = views.board_seeds(ptr)[board]
     episode.stalled, episode.over, episode.steps, episode.idle_steps, episode.last_score = 0, 0, 0, 0, 0
     if rules.creates_by_button == 0:
-        create_ball(world, views.boards(ptr)[which], views.colliders(ptr), views.places(ptr), log)
+        create_ball(world, views.boards(ptr)[board], views.colliders(ptr), views.places(ptr), log)
     if rules.draws_pictures != 0:
         draw_first(ptr, index)
 
@@ -244,7 +245,7 @@ def write_counts(ptr: Pointers, address: int, index: int) -> None:
     """Write the counts of the episode so far at an address, in the order of `INFO`."""
     start = address + index * ptr.info * 8
     copy_bytes(start, ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
-    copy_bytes(start + COUNTS_SIZE, ptr.episodes_at + index * EPISODE_SIZE, 16)
+    copy_bytes(start + COUNTS_SIZE, ptr.episodes_at + index * EPISODE_SIZE, EPISODE_COUNTS_SIZE)
 
 
 @internal

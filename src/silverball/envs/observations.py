@@ -1,7 +1,7 @@
 """Observations: the slots of a state, their spaces, and views of raw rows and pictures.
 
-A state observation is one row of 32-bit floats: group after group, in each group item after item, in each
-item slot after slot. All values lie in −1 … 1. Slots of absent parts (no second ball, no paddle on that side)
+A state observation is one row of 32-bit floats, ordered by group, then item, then slot. All values lie in
+−1 … 1. Slots of absent parts (no second ball, no paddle on that side)
 are 0.
 
 Positions are in half board lengths and widths: x = 1 is the top, x = −1 the bottom, z = −1 the left border,
@@ -66,13 +66,13 @@ class CylinderSlot(IntEnum):
 
 
 class Group(NamedTuple):
-    """Items of one kind, with the same slots each.
+    """A group of items with the same slots.
 
     Attributes:
-        name: Its key in a dict observation.
-        item: What one item is.
+        name: Key in a dict observation.
+        item: Name of one item.
         slots: The slots of an item.
-        means: For each slot: its least value (the greatest is 1), and its meaning.
+        means: Least value (the greatest is 1) and meaning of each slot.
     """
 
     name: str

@@ -1,6 +1,6 @@
 """The options of an environment: their defaults, descriptions and checks.
 
-Also here: the checks of other arguments that environments share (seeds, render modes, options of a reset).
+The checks of seeds, render modes and reset options, which all environments share, are here too.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ def _seconds_or_none(value: Any) -> float | None:
 
 
 def _reward(reward: Any) -> Any:
-    """A reward as it was given, with weights copied."""
+    """The reward option: checked, unchanged, with a copy of its weights."""
     resolved = resolve_reward(reward)
     return resolved if isinstance(reward, Mapping) else reward
 
 
 class Options(BaseModel):
-    """What can be chosen; `OPTIONS` describes each choice in a sentence."""
+    """The options of an environment; `OPTIONS` describes each in a sentence."""
 
     model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
 
@@ -109,8 +109,8 @@ class Options(BaseModel):
         """The options of these keyword arguments.
 
         Args:
-            given: By their names.
-            others: What else the caller takes: a misspelled name may mean one of these.
+            given: The keyword arguments.
+            others: Names of further arguments of the caller, suggested for misspelled names.
 
         Raises:
             TypeError: An option is unknown.
@@ -120,16 +120,16 @@ class Options(BaseModel):
         for name in given:
             if name in cls.model_fields:
                 continue
-            # Trainers try options of other environments and look for these words (TorchRL: frameskip).
+            # Trainers probe for options of other environments and match this text (TorchRL: frameskip).
             unexpected = f"got an unexpected keyword argument {name!r}"
             if name in VECTOR_ONLY and name not in others:
                 raise TypeError(f"{unexpected}: only vector environments take it, use gymnasium.make_vec")
             raise TypeError(f"{unexpected}; {did_you_mean(name, known)}expected one of {', '.join(known)}")
-        plain = {
+        values = {
             name: value.item() if isinstance(value, np.generic) else value for name, value in given.items()
         }
         try:
-            return cls.model_validate(plain)
+            return cls.model_validate(values)
         except ValidationError as error:
             raise ValueError("; ".join(map(_sentence, error.errors(include_url=False)))) from None
 
@@ -178,7 +178,7 @@ OPTIONS = tuple(
 
 
 def _sentence(detail: Any) -> str:
-    """One of pydantic's findings as a sentence: where, what was expected, what was got."""
+    """One of pydantic's errors as a sentence: where, what was expected, what was got."""
     name, context = detail["loc"][0], detail.get("ctx", {})
     match detail["type"]:
         case "silverball":
@@ -194,14 +194,14 @@ def _sentence(detail: Any) -> str:
 
 
 def refuse_options(given: Mapping[str, Any], names: tuple[str, ...], reason: str) -> None:
-    """Refuse options that a trainer's adapter decides, in Python's words for an unknown argument."""
+    """Reject options that a trainer's adapter sets, with Python's message for an unknown argument."""
     for name in names:
         if name in given:
             raise TypeError(f"got an unexpected keyword argument {name!r}: {reason}")
 
 
 def checked_seed(seed: Any) -> int:
-    """A seed as the engine takes it: an integer from 0, below 2⁶³.
+    """A seed as an integer ≥ 0, modulo 2⁶³.
 
     Raises:
         ValueError: It is not an integer, or negative.
@@ -219,7 +219,7 @@ def checked_render_mode(render_mode: str | None, modes: tuple[str, ...]) -> str 
     """The render mode, if it is None or one of these.
 
     Raises:
-        ValueError: It is another one.
+        ValueError: It is neither.
     """
     if render_mode is not None and render_mode not in modes:
         raise ValueError(f"render_mode must be {' or '.join(map(repr, modes))} or None, got {render_mode!r}")
@@ -227,7 +227,7 @@ def checked_render_mode(render_mode: str | None, modes: tuple[str, ...]) -> str 
 
 
 def checked_generator(generator: np.random.Generator) -> np.random.Generator:
-    """The random generator that a caller sets.
+    """The random generator, if it is one.
 
     Raises:
         TypeError: It is not a generator.

@@ -1,14 +1,14 @@
-"""Drawing pictures of worlds in the compiled step, a million a second.
+"""Pictures of worlds, drawn in the compiled step: a million a second.
 
 The background of each board is drawn once. A picture is a copy of it, then the lit parts (hit in this step),
 the paddles and the balls as sprites. Sprites are blended by the brighter value, so that their order does not
 matter. The board fills the picture: its top is the first row, its left border the first column.
 
-The last pictures of an environment stand in a ring of frames, and the window of the newest ones moves along
-it. Where the window itself is the observation, the ring is longer, and the pictures move back to its start
-when the window reaches its end; where the window is copied, the ring has its length and the window wraps. If
-only the kernels write to the ring, an old picture is turned into a new one by repairing its dirty rectangles:
-balls and lights are erased and drawn again, paddles only if they have moved.
+The last pictures of an environment are stored in a ring of frames, and a window of the newest ones moves
+along it. If the window itself is the observation, the ring is longer than the window, which is redrawn at its
+start when it reaches the end; if the window is copied, both have one length and the window wraps. If only the
+kernels write to the ring, an old picture is turned into a new one by repairing its dirty rectangles: balls
+and lights are erased and drawn again, paddles only if they have moved.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ANGLES = 32  # of a paddle; each has a sprite
 
 @internal
 def draw_step(ptr: Pointers, index: int) -> None:
-    """Record what the next picture shows, and draw it."""
+    """Record the contents of the next picture, and draw it."""
     raster = views.raster(ptr)[0]
     last = raster.stack - 1
     for number in range(last):
@@ -50,8 +50,8 @@ def draw_first(ptr: Pointers, index: int) -> None:
     views.picture_states(ptr)[index, last].lit = 0
     for number in range(last):
         copy_picture_state(ptr, index, last, number)
-    for place in range(ptr.ring):  # the caller may have written there, so nothing can be repaired
-        views.drawn(ptr)[index, place].board = -1
+    for frame in range(ptr.ring):  # the caller may have written to them, so nothing can be repaired
+        views.drawn(ptr)[index, frame].board = -1
     redraw_stack(ptr, index)
 
 
@@ -68,8 +68,8 @@ def draw_finals(addresses: Any, rows: Any, pictures: int) -> None:
 
     Args:
         addresses: One ADDRESSES record.
-        rows: Which environments, int64 [row].
-        pictures: Address of where they go, uint8 [row, stacked, pixel].
+        rows: Numbers of the environments, int64 [row].
+        pictures: Address of the output array, uint8 [row, stacked, pixel].
     """
     ptr = addresses[0]
     for row in range(len(rows)):
@@ -95,7 +95,7 @@ def draw_in_ring(ptr: Pointers, index: int, number: int) -> None:
 def copy_stack(ptr: Pointers, index: int) -> None:
     """Copy the window of an environment to its observation."""
     target, start = ptr.copies_at + index * ptr.stack * ptr.pixels, views.raster(ptr)[0].start
-    to_end = min(ptr.stack, ptr.ring - start)  # pictures up to the end of the ring; the rest is at its start
+    to_end = min(ptr.stack, ptr.ring - start)  # pictures before the end of the ring; the rest is at its start
     copy_bytes(target, frame_address(ptr, index, start), to_end * ptr.pixels)
     copy_bytes(target + to_end * ptr.pixels, frame_address(ptr, index, 0), (ptr.stack - to_end) * ptr.pixels)
 
@@ -122,7 +122,7 @@ def copy_picture_state(ptr: Pointers, index: int, number: int, to: int) -> None:
 
 @internal
 def record_state(ptr: Pointers, index: int, number: int) -> None:
-    """Record what a world shows now as picture state `number`."""
+    """Record the current contents of a world's picture as picture state `number`."""
     state = views.picture_states(ptr)[index, number]
     world, log, rules = views.worlds(ptr)[index], views.logs(ptr)[index], views.rules(ptr)[0]
     state.board = views.board_of(ptr)[index]
@@ -131,8 +131,8 @@ def record_state(ptr: Pointers, index: int, number: int) -> None:
         state.x[slot], state.z[slot], state.alive[slot] = ball.x, ball.z, ball.id
     for side in range(2):
         turn = (world.paddle[side].angle - rules.rest_angle[side]) * rules.angle_scale[side]
-        is_there = rules.angle_scale[side] != 0.0
-        state.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if is_there else -1
+        has_paddle = rules.angle_scale[side] != 0.0
+        state.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if has_paddle else -1
     lit = 0
     for entry in range(log.count):
         event = log.event[entry]
@@ -161,11 +161,11 @@ def repair_dirty_rects(
 ) -> None:
     """Turn the picture of `drawn` into that of `state`, on the same board; every pixel is as `draw` makes it.
 
-    Dirty rectangles are restored to the background, and what they may have cut is drawn again.
+    Dirty rectangles are restored to the background, and sprites that they may have cut are drawn again.
     """
     raster = views.raster(ptr)[0]
     background = ptr.backgrounds_at + state.board * ptr.pixels
-    lowest = 0  # one past the lowest row that was erased and may have cut a paddle
+    lowest = 0  # one past the lowest erased row, which may have cut a paddle
     if drawn.lit != 0:
         lowest = unlight(ptr, raster, drawn, picture, background)
     for slot in range(BALL_COUNT):
@@ -193,7 +193,7 @@ def repair_dirty_rects(
 def restore_background(
     raster: RasterRecord, background: int, picture: int, top: int, left: int, rows: int, columns: int
 ) -> None:
-    """Copy a rectangle of the background to the picture, as far as it lies within it."""
+    """Copy a rectangle of the background to the picture, clipped to it."""
     first, last = max(0, left) * raster.channels, min(raster.width, left + columns) * raster.channels
     if last <= first:
         return
@@ -262,7 +262,7 @@ def visible_box(raster: RasterRecord, c: ColliderRecord) -> tuple[int, int, int,
 
 @internal
 def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, address: int) -> int:
-    """Brighten the prisms and cylinders that were hit; one past the lowest row that changed."""
+    """Brighten the prisms and cylinders that were hit; returns one past the lowest changed row."""
     picture = array_at(address, (ptr.pixels,), BYTE)
     first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
     for shape in range(LIT_BITS):
@@ -292,7 +292,7 @@ def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, add
 def unlight(
     ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int, background: int
 ) -> int:
-    """Restore the background of the lit parts; one past the lowest row that changed."""
+    """Restore the background of the lit parts; returns one past the lowest changed row."""
     first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
     for shape in range(LIT_BITS):
         if state.lit >> shape & 1 != 0:
@@ -310,8 +310,8 @@ def count_coverage(raster: RasterRecord, c: ColliderRecord, samples: int, covere
             covered[row, column] = 0
             x = raster.half_length - (row + 0.5) / raster.rows
             z = (column + 0.5) / raster.columns - raster.half_width
-            far = c.reach + 0.5 / raster.rows + 0.5 / raster.columns
-            if (x - c.x) ** 2 + (z - c.z) ** 2 > far * far:
+            reach = c.reach + 0.5 / raster.rows + 0.5 / raster.columns
+            if (x - c.x) ** 2 + (z - c.z) ** 2 > reach * reach:
                 continue
             for up in range(samples):
                 for across in range(samples):

@@ -1,8 +1,8 @@
-"""The arrays of the environments as the kernels find them: by address, in one ADDRESSES record.
+"""Addresses of the environments' arrays in one ADDRESSES record, and views that turn them into arrays.
 
-A kernel with thirty array arguments would be slow to call and slow to compile. So the addresses and lengths
-of all arrays stand in one record (see world/single_step.py) that kernels pass to each other, and a view such
-as `worlds(ptr)` makes the array where it is needed. Whoever holds the record must hold the arrays.
+A kernel with thirty array arguments would be slow to call and to compile. Instead, one record holds the
+addresses and lengths of all arrays (see world/single_step.py). Kernels pass it to each other, and a view like
+`worlds(ptr)` makes an array where it is needed. The owner of the record must keep the arrays alive.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def _compiled_copy(typing_context: Any, target: Any, source: Any, count: Any) ->
 
 
 def _interpreted_copy(target: int, source: int, count: int) -> None:
-    """The same without the compiler."""
+    """Copy bytes like `_compiled_copy`, without the compiler."""
     ctypes.memmove(int(target), int(source), int(count))
 
 
@@ -80,8 +80,8 @@ ARRAYS = {
     "tallies": _array(INT, "envs", "parts"),  # hits of each part
     "held": _array(BOOL, "one", "envs", "buttons"),  # the buttons for run_worlds
     "episodes": _array(EPISODE, "envs"),
-    "blanks": _array(WORLD, "boards"),  # worlds in which nothing has happened yet
-    "layouts": _array(SMALL_FLOAT, "boards", "layout_columns"),  # obstacles as they stand in an observation
+    "blanks": _array(WORLD, "boards"),  # new worlds
+    "layouts": _array(SMALL_FLOAT, "boards", "layout_columns"),  # obstacles, in the form of an observation
     "rules": _array(RULES, "one"),
     "raster": _array(RASTER, "one"),
     "actions": _array(INT, "envs"),
@@ -96,7 +96,7 @@ ARRAYS = {
     "picture_states": _array(PICTURE_STATE, "envs", "stack"),  # of the window, the newest last
     "final_picture_states": _array(PICTURE_STATE, "ended", "stack"),
     "drawn": _array(PICTURE_STATE, "envs", "ring"),  # what the frames show
-    "backgrounds": _array(BYTE, "boards", "pixels"),  # the still parts of each board
+    "backgrounds": _array(BYTE, "boards", "pixels"),  # the static parts of each board
     "ball_sprites": _array(BYTE, "ball_pixels"),
     "paddle_sprites": _array(BYTE, "paddle_pixels"),
 }

@@ -1,4 +1,4 @@
-"""Adapter for PufferLib: `SilverballPufferEnv`, which writes right into the trainer's buffers.
+"""Adapter for PufferLib: `SilverballPufferEnv`, which writes directly into the trainer's buffers.
 
 import pufferlib.vector
 from silverball.envs.puffer import SilverballPufferEnv
@@ -33,8 +33,8 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
     Args:
         num_envs: The number of environments.
         buf: The trainer's buffers; None: new ones.
-        seed: Of the first episodes: environment i gets seed × num_envs + i, so that workers with consecutive
-            seeds play different episodes.
+        seed: Seed of the first episodes: environment i gets seed × num_envs + i, so workers with
+            consecutive seeds play different episodes.
         threads: How many threads a step may use; PufferLib's workers are processes, so one.
         options: See `silverball.envs.options.OPTIONS`; observations cannot be "dict".
     """
@@ -44,7 +44,7 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
     ) -> None:
         if options.get("observation") == "dict" or options.get("actions") == "multibinary":
             raise ValueError("PufferLib needs observation='state' or 'pixels' and actions='discrete'")
-        refuse_options(options, ("autoreset_mode", "zero_copy"), "it is always the same for PufferLib")
+        refuse_options(options, ("autoreset_mode", "zero_copy"), "the adapter sets it for PufferLib")
         self.envs = PinballVectorEnv(num_envs, AutoresetMode.SAME_STEP, True, threads, **options)
         self.single_observation_space = self.envs.single_observation_space
         self.single_action_space = self.envs.single_action_space
@@ -88,5 +88,5 @@ class SilverballPufferEnv(pufferlib.PufferEnv):  # type: ignore[misc, unused-ign
         return self.observations, self.rewards, self.terminals, self.truncations, ended_infos
 
     def close(self) -> None:
-        """No resources to release."""
+        """Do nothing: there are no resources to release."""
         self.envs.close()

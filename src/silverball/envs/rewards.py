@@ -1,4 +1,4 @@
-"""Rewards: a name, weights for what happened in a step, or a callable.
+"""Rewards: a name, weights of the terms of a step, or a callable.
 
 A step is described by its *terms*, the numbers in `TERMS`. Weights are applied inside the compiled step; a
 callable receives the terms and returns the reward.
@@ -23,21 +23,21 @@ Reward: TypeAlias = str | Mapping[str, float] | Callable[[dict[str, Any]], Any]
 """A name in `REWARDS`, the import path of a callable ("module:name"), weights by term, or a callable."""
 
 POINT = 0.01  # reward of a point: a cylinder of a hundred points is worth 1
-POINTS, SECONDS, STALLED, FIRST_COUNT = range(4)  # places in `TERMS`
+POINTS, SECONDS, STALLED, FIRST_COUNT = range(4)  # indices in `TERMS`
 TERMS = ("points", "seconds", "stalled", *COUNTS[1:])
-"""What describes a step: points gained; its seconds if a ball is on the board at its end, else 0; 1 if the
-ball stalled; then how much each count of `info` grew, except the score."""
+"""The terms of a step: points gained; its seconds if a ball is on the board at its end, else 0; 1 if the ball
+stalled; then the growth of each count of `info` except the score."""
 
 REWARDS: dict[str, dict[str, float]] = {"score": {"points": POINT}, "time": {"seconds": 1.0}}
 """The rewards that have names, as weights."""
 
 
 def resolve_reward(reward: Any) -> dict[str, float] | Callable[[dict[str, Any]], Any]:
-    """The weights of a reward, or its callable.
+    """The weights of a reward, or the callable itself.
 
     Raises:
         ValueError: It is neither, a term is unknown, a weight is not a finite number, or an import path leads
-            nowhere.
+            to nothing.
     """
     if isinstance(reward, str):
         if reward in REWARDS:
@@ -50,13 +50,13 @@ def resolve_reward(reward: Any) -> dict[str, float] | Callable[[dict[str, Any]],
         return reward  # type: ignore[no-any-return]
     names = " or ".join(map(repr, REWARDS))
     raise ValueError(
-        f"reward must be {names}, weights such as {{'points': {POINT}, 'drained': -1.0}}, a callable "
+        f"reward must be {names}, weights like {{'points': {POINT}, 'drained': -1.0}}, a callable "
         f"or its import path 'module:name', got {reward!r}"
     )
 
 
 def did_you_mean(name: Any, known: Iterable[str]) -> str:
-    """A question for an error message that suggests the nearest known name; empty if none is near."""
+    """Text for an error message that suggests the nearest known name; empty if none is near."""
     near = difflib.get_close_matches(str(name)[:60], known, 1)
     return f"did you mean {near[0]!r}? " if near else ""
 
@@ -90,7 +90,7 @@ def _imported(path: str) -> Any:
 
 
 def import_path(function: Any) -> str | None:
-    """The path from which other processes import a callable; None if it has none."""
+    """The path by which other processes can import a callable; None if they cannot."""
     module, name = getattr(function, "__module__", None), getattr(function, "__qualname__", "")
     if not isinstance(module, str) or module == "__main__" or "<" in name:
         return None
@@ -100,8 +100,8 @@ def import_path(function: Any) -> str | None:
     return f"{module}:{name}" if found is function else None
 
 
-def called(reward: Callable[[dict[str, Any]], Any], terms: dict[str, float]) -> float:
-    """What a callable returns for one environment.
+def call_reward(reward: Callable[[dict[str, Any]], Any], terms: dict[str, float]) -> float:
+    """Call a reward callable for one environment.
 
     Raises:
         ValueError: It is not a finite number.
@@ -116,10 +116,10 @@ def called(reward: Callable[[dict[str, Any]], Any], terms: dict[str, float]) -> 
     return number
 
 
-def called_for_many(
+def call_batch_reward(
     reward: Callable[[dict[str, Any]], Any], terms: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """What a callable returns for terms [env, term], float64 [env].
+    """Call a reward callable with terms [env, term]; returns the rewards, float64 [env].
 
     Raises:
         ValueError: It is not a finite number for each environment.

@@ -1,4 +1,4 @@
-"""Adapter for Stable-Baselines3, which has its own interface for vector environments: `SilverballVecEnv`.
+"""Adapter for Stable-Baselines3: `SilverballVecEnv`, a `VecEnv` that steps many tables at once.
 
 from stable_baselines3 import PPO
 from silverball.envs.sb3 import SilverballVecEnv
@@ -39,7 +39,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
 
     Args:
         num_envs: The number of environments.
-        seed: Of the first episodes: environment i gets seed + i; None: random.
+        seed: Seed of the first episodes: environment i gets seed + i; None: random.
         threads: How many threads a step may use; None: one for each core.
         render_mode: "rgb_array" or None.
         options: See `silverball.envs.options.OPTIONS`.
@@ -118,7 +118,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         return self._as_images(observations), rewards.astype(np.float32), ended, infos
 
     def close(self) -> None:
-        """No resources to release."""
+        """Do nothing: there are no resources to release."""
         self.envs.close()
 
     def get_images(self) -> Sequence[NDArray[np.uint8] | None]:

@@ -21,16 +21,16 @@ from silverball.envs.options import (
     checked_reset_options,
     checked_seed,
 )
-from silverball.envs.spec import own_spec
+from silverball.envs.spec import with_step_limit
 from silverball.envs.state import INFO, ResetMode, StepFlag
-from silverball.envs.viewer import Screen, Viewer
+from silverball.envs.viewer import Viewer, ViewerWindow
 from silverball.errors import StateError
 
 REBUILT = {
     "_engine", "_viewer", "_codes", "_weights", "_run_task", "_addresses", "_row", "_counts", "_copy_row",
     "_info", "_memory", "_prefixes", "_size", "_screen",
 }  # fmt: skip
-"""Attributes that follow from the options or refer to the engine's arrays; a copy makes its own."""
+"""Attributes that a copy rebuilds, since they follow from the options or refer to the engine's arrays."""
 
 # Plain integers, since a step tests them.
 TERMINATED, TRUNCATED = int(StepFlag.TERMINATED), int(StepFlag.TRUNCATED)
@@ -69,12 +69,12 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self.action_space = action_space(self.options)
         self.metadata = {**self.metadata, "render_fps": self.options.frames_per_second}
         self._viewer: Viewer | None = None
-        self._screen: Screen | None = None
-        self._is_rng_set = False  # by the caller, since the last reset
+        self._screen: ViewerWindow | None = None
+        self._is_rng_set = False  # whether the caller has set np_random since the last reset
         self._spec: EnvSpec | None = None
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
-        # What the step needs, without lookups.
+        # Everything that a step needs, to save lookups.
         self._run_task, self._addresses = engine.run_task, engine.addresses
         self._row, self._counts = engine.outputs.last.observations[0], engine.outputs.last.counts[0]
         is_plain = self.options.observation == "state" and self.render_mode != "human"
@@ -93,7 +93,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     @spec.setter
     def spec(self, spec: EnvSpec | None) -> None:
-        self._spec = own_spec(spec, self.options.max_steps)
+        self._spec = with_step_limit(spec, self.options.max_steps)
 
     @property
     def np_random(self) -> np.random.Generator:
@@ -107,12 +107,12 @@ class PinballEnv(gymnasium.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Begin an episode: the first of a seed, or the next one of the seed before.
+        """Begin an episode: the first one of `seed`, or without it the next one of the current seed.
 
         Args:
             seed: Determines all boards, starting places and shoves of the episodes that follow.
-            options: ``{"board": 12}`` plays this board: the one with that seed of a recipe, the one with that
-                number of a list of tables. Without it one is drawn.
+            options: ``{"board": 12}`` selects the board with that seed of a recipe, or with that number of a
+                list of tables. Without it a board is drawn.
 
         Returns:
             The observation, and the counts of events, all zero but `created`.
@@ -148,7 +148,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
         Raises:
             ResetNeeded: The episode is over, or has never begun.
-            ValueError: The action is not in the action space, or a reward callable returns no number.
+            ValueError: The action is not in the action space, or a reward callable does not return a number.
         """
         try:
             number = index(action)
@@ -176,7 +176,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """The table as the game draws it, RGB [row, column, 3]; None without a render mode.
 
         In the mode "human" a window shows it instead, after every reset and step, at the speed of play.
-        Closing the window ends the rendering; the environment goes on.
+        Closing the window ends the rendering, not the episode.
 
         Raises:
             NoDisplay: The mode is "human", and there is no display.
@@ -188,7 +188,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         if self.render_mode == "rgb_array":
             return self._viewer.picture(0)
         if self._screen is None:
-            self._screen = Screen(self.metadata["render_fps"])
+            self._screen = ViewerWindow(self.metadata["render_fps"])
         self._screen.show(self._viewer.picture(0))
         return None
 
@@ -213,7 +213,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         return self
 
     def lives(self) -> int:
-        """The number of balls of the episode that are not in the gutter yet."""
+        """The number of balls of the episode that have not drained yet."""
         return self.options.balls - int(self._engine.batch.state["drained"][0])
 
     # --- saving
@@ -226,11 +226,11 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """Restore a saved state, bit for bit; `observe` returns its observation.
 
         Args:
-            state: What `save_state` of an environment with the same boards, tick rate and stack returned. It
-                is not a file format: bytes that were changed are not detected.
+            state: Result of `save_state` of an environment with the same boards, tick rate and stack. It is
+                not a file format: changed bytes are not detected.
 
         Raises:
-            StateError: It is not such a state; the environment is unchanged.
+            StateError: It is not such a state. The environment is unchanged.
         """
         if type(state) is not bytes:
             state = _as_bytes(state)
@@ -255,7 +255,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         return bool(self._engine.episodes["over"][0])
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let `copy` and `pickle` rebuild the environment: its arrays are known by address."""
+        """Make `copy` and `pickle` rebuild the environment, since kernels hold addresses of its arrays."""
         options = self.options.kwargs()
         attributes = {name: value for name, value in vars(self).items() if name not in REBUILT}
         return _rebuild, (type(self), self.render_mode, options, self.save_state(), attributes)

@@ -1,4 +1,4 @@
-"""Gymnasium's spec of an environment, with the environment's own step limit and values that JSON can hold."""
+"""Gymnasium's spec of an environment, with the environment's step limit and values that JSON can hold."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from silverball.envs.rewards import import_path
 from silverball.table import Table
 
 
-def own_spec(spec: EnvSpec | None, max_steps: int | None) -> EnvSpec | None:
-    """A copy of Gymnasium's spec, with the limit that the environment applies itself.
+def with_step_limit(spec: EnvSpec | None, max_steps: int | None) -> EnvSpec | None:
+    """A copy of Gymnasium's spec with the step limit, which the environment applies itself.
 
-    With a registered limit Gymnasium would wrap the environment in another counter of steps.
+    The registered spec has no limit, because Gymnasium would wrap the environment in a second step counter.
 
     Args:
-        spec: As `gymnasium.make` has filled it in.
+        spec: The spec that `gymnasium.make` filled in.
         max_steps: The steps after which the environment truncates an episode; None: never.
     """
     if spec is None:
@@ -38,7 +38,7 @@ class _SpecWithCallable(EnvSpec):
     """The spec of an environment whose reward is a callable without an import path."""
 
     def to_json(self) -> str:
-        """Refuse, and say what JSON can hold.
+        """Raise an error that lists the rewards that JSON can hold.
 
         Raises:
             ValueError: Always.

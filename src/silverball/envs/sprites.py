@@ -1,4 +1,4 @@
-"""Backgrounds of all boards and sprites of what moves, prepared before the first picture is drawn.
+"""Backgrounds of the boards and sprites of balls and paddles, made before the first picture is drawn.
 
 The board is stretched to the whole picture. Grey is the luminance of the colours.
 """
@@ -24,7 +24,7 @@ LUMINANCE = (0.299, 0.587, 0.114)  # Source: ITU-R BT.601
 Color: TypeAlias = tuple[int, int, int]
 """Red, green and blue, 0 to 255 each."""
 
-# Few colours, far apart: agents look at them. Parts of one kind take the colours of a tuple in turn.
+# Few colours, far apart, for agents. Parts of one kind cycle through the colours of a tuple.
 FLOOR: Color = (52, 26, 84)
 RAIL: Color = (84, 72, 132)
 SLANT_WALL: Color = (112, 92, 178)
@@ -54,12 +54,12 @@ class Pictures(NamedTuple):
     paddles: Bytes
 
 
-def pictures_of(pool: Pool, size: tuple[int, int], rgb: bool) -> Pictures:
+def make_pictures(pool: Pool, size: tuple[int, int], rgb: bool) -> Pictures:
     """The pictures of a pool at a size (height, width)."""
     return _cached_pictures(_PoolKey(pool), size, rgb)
 
 
-def no_pictures(pool: Pool) -> Pictures:
+def empty_pictures(pool: Pool) -> Pictures:
     """Empty arrays, for environments that show states."""
     empty = np.zeros(0, np.uint8)
     return Pictures(records(1, RASTER), np.zeros((len(pool.tables), 0), np.uint8), empty, empty)
@@ -111,7 +111,7 @@ def _raster(pool: Pool, size: tuple[int, int], rgb: bool) -> NDArray[Any]:
 
 
 def _background(raster: NDArray[Any], pool: Pool, board: int) -> Bytes:
-    """The still parts of a board, uint8 [pixel]."""
+    """The static parts of a board, uint8 [pixel]."""
     height, width, channels = (int(raster[name][0]) for name in ("height", "width", "channels"))
     rgb = channels == 3
     picture = np.tile(_channels(FLOOR, rgb), (height, width, 1))

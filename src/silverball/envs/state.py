@@ -1,4 +1,4 @@
-"""Records of the compiled step: the state of an episode, the rules, and what pictures show.
+"""Records of the compiled step: the state of an episode, the rules, and the contents of pictures.
 
 All fields are eight bytes wide. An environment's state is its WORLD record (see `physics.records`), its
 EPISODE record and the PICTURE_STATE records of its last pictures. RULES and RASTER hold the options as
@@ -18,9 +18,9 @@ from silverball.physics.records import BALL_COUNT
 class ResetMode(IntEnum):
     """When an environment whose episode has ended begins a new one (Gymnasium's `AutoresetMode`)."""
 
-    DISABLED = 0  # when `reset` asks for it
-    NEXT_STEP = 1  # in the next step, whose action is ignored
-    SAME_STEP = 2  # immediately; the last observation is stored separately
+    DISABLED = 0  # only by `reset`
+    NEXT_STEP = 1  # in the next step, which ignores its action
+    SAME_STEP = 2  # in the step that ends it; the last observation is stored separately
 
 
 class StepFlag(IntEnum):
@@ -33,10 +33,10 @@ class StepFlag(IntEnum):
 
 
 class Task(IntEnum):
-    """What the compiled call of the environments does; a number ≥ 0 is a step with this action."""
+    """Tasks of `run_task`; a number ≥ 0 is a step of the only environment with this action."""
 
     STEP = -1  # by the actions in their array
-    RESET = -2  # the environments of the mask
+    RESET = -2  # the environments in the mask
     OBSERVE = -3  # write the observations again, after states were changed
 
 
@@ -51,8 +51,8 @@ INFO = (*COUNTS, "board", "stalled")
 
 EPISODE = np.dtype(
     [
-        ("board_seed", "i8"),  # of the board, or −1: it was not made from a seed
-        ("stalled", "i8"),  # 1: it ended because no scoring hit was made for too long
+        ("board_seed", "i8"),  # −1: the board was not made from a seed
+        ("stalled", "i8"),  # 1: it ended because no hit had scored for too long
         ("over", "i8"),  # 1: it has ended
         ("steps", "i8"),
         ("idle_steps", "i8"),  # since the last scoring hit or the last new ball
@@ -89,7 +89,7 @@ RULES = np.dtype(
         ("x_scale", "f8"), ("z_scale", "f8"), ("speed_scale", "f8"), ("idle_scale", "f8"),
         ("ball_scale", "f8"), ("angle_scale", "f8", (2,)), ("turn_scale", "f8", (2,)),
         ("rest_angle", "f8", (2,)), ("raised_angle", "f8", (2,)),  # of the paddles [rad]
-        # Flags of what is written.
+        # Flags: 1 if a step writes these.
         ("writes_state", "i8"), ("draws_pictures", "i8"),
         ("copies_stack", "i8"),  # 1: the window of pictures is copied
         ("can_repair", "i8"),  # 1: only the kernels write to the pictures, so that dirty rectangles suffice

@@ -1,4 +1,4 @@
-"""The environment for many agents at once: `PinballVectorEnv`, a `gymnasium.vector.VectorEnv`.
+"""Many environments stepped together: `PinballVectorEnv`, a `gymnasium.vector.VectorEnv`.
 
 One compiled call for each slice of environments does everything: actions, physics, rewards, ends, resets,
 observations and counts. Environment i equals, bit for bit, the single environment with the seed of
@@ -29,7 +29,7 @@ from silverball.envs.options import (
     checked_reset_options,
     checked_seed,
 )
-from silverball.envs.spec import own_spec
+from silverball.envs.spec import with_step_limit
 from silverball.envs.state import INFO, ResetMode
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
@@ -44,11 +44,11 @@ RESET_MODES = {
 }
 
 REBUILT = {"_engine", "_viewer"}
-"""Attributes that refer to the engine's arrays; a copy makes its own."""
+"""Attributes that refer to the engine's arrays; a copy rebuilds them."""
 
 
 class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
-    """Many pinball tables that make a step together.
+    """Many pinball tables that step together.
 
     Args:
         num_envs: The number of environments.
@@ -61,7 +61,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         max_episode_steps: Steps after which an episode is truncated, if fewer than `time_limit` allows; None
             or −1: only `time_limit` counts.
         own_boards: Whether environment i always plays board i instead of one drawn for every episode. A
-            recipe must then have as many `boards`; the tables of a list are taken in turn.
+            recipe must then have as many `boards`; the tables of a list are assigned in turn.
         options: See `silverball.envs.options.OPTIONS`.
 
     Raises:
@@ -119,8 +119,8 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._codes = 1 << len(self.options.buttons)
         self._weights = 1 << np.arange(len(self.options.buttons))
         self._all = np.ones(self.num_envs, np.bool_)
-        self._has_begun = False  # all of them
-        self._draws_seed = np.zeros(self.num_envs, np.bool_)  # at the next reset, since np_random was set
+        self._has_begun = False  # whether every environment has begun an episode
+        self._draws_seed = np.zeros(self.num_envs, np.bool_)  # at the next reset, after np_random was set
         self._spec: EnvSpec | None = None
         self._viewer: Viewer | None = None
 
@@ -132,7 +132,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     @spec.setter
     def spec(self, spec: EnvSpec | None) -> None:
         limit = int(self._engine.rules["max_steps"][0])
-        self._spec = own_spec(spec, limit if limit < NO_LIMIT else None)
+        self._spec = with_step_limit(spec, limit if limit < NO_LIMIT else None)
 
     @property
     def np_random(self) -> np.random.Generator:
@@ -158,8 +158,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """Begin episodes.
 
         Args:
-            seed: Environment i gets seed + i; or a list of one seed each. None continues an environment's
-                seed.
+            seed: Environment i gets seed + i, or the i-th seed of a list. None continues the current seed.
             options: ``{"reset_mask": mask}``, bool [env], begins episodes only in these environments;
                 ``{"board": 12}``, or one for each [env], plays these boards (see `PinballEnv.reset`); for
                 None in the list a board is drawn.
@@ -222,7 +221,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return tuple(self._viewer.picture(index) for index in range(self.num_envs))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Let `copy` and `pickle` rebuild the environments: their arrays are known by address."""
+        """Make `copy` and `pickle` rebuild the environments, since kernels hold addresses of their arrays."""
         engine = self._engine
         options = self.options.kwargs()
         arguments = (
@@ -245,7 +244,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """Copy the states of some environments.
 
         Args:
-            index: Which environments: None (all), a number, a slice, numbers, or a mask.
+            index: The environments: None (all), a number, a slice, numbers, or a mask.
 
         Returns:
             uint8 [saved, byte]; a row's bytes are what `PinballEnv.save_state` returns.
@@ -258,12 +257,12 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         A single state is restored into all chosen environments, which makes them branches of it.
 
         Args:
-            state: What `save_state` of this or of a single environment returned.
-            index: Which environments.
+            state: Result of `save_state` of this or of a single environment.
+            index: The environments, as for `save_state`.
 
         Raises:
-            StateError: They are not states, or belong to other boards, another tick rate or stack. Bytes that
-                were changed are not detected.
+            StateError: They are not states, or belong to other boards, another tick rate or stack. Changed
+                bytes are not detected.
             ValueError: The index is invalid, or selects another number of environments.
         """
         if isinstance(state, (bytes, bytearray, memoryview)):
@@ -294,13 +293,13 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         """Make all further steps write to these arrays, for trainers that have their own (`zero_copy`).
 
         Args:
-            observations: Of the type and shape of a step's.
+            observations: Array of the type and shape of a step's observations.
             terminated: bool [env].
             truncated: bool [env].
 
         Returns:
-            Whether they do. False, and nothing has changed, if the arrays have other types or shapes, are not
-            contiguous or read-only, or if an observation is a dict or several pictures.
+            True if steps write to them now. False, without any change, if the arrays have other types or
+            shapes, are read-only or not contiguous, or if an observation is a dict or several pictures.
         """
         count = (self.num_envs,)
         if (observations.shape, terminated.shape, truncated.shape) != (
@@ -318,24 +317,24 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
 
     def _set_actions(self, actions: Any) -> None:
         """Check actions and store them as numbers."""
-        given = as_array(actions)
+        array = as_array(actions)
         buttons = len(self._weights)
-        if self.options.actions == "multibinary" and given.shape == (self.num_envs, buttons):
-            bits = as_bits(given)
+        if self.options.actions == "multibinary" and array.shape == (self.num_envs, buttons):
+            bits = as_bits(array)
             if bits is None:
-                wrong = next(bit for bit in given.flat if bit not in (0, 1))
+                wrong = next(bit for bit in array.flat if bit not in (0, 1))
                 raise ValueError(f"every bit of the actions must be 0 or 1, got {wrong!r}")
-            given = bits @ self._weights
-        elif given.dtype.kind not in "iub":
-            raise ValueError(f"actions must be integers, got {given.dtype} of the shape {given.shape}")
-        if given.shape != (self.num_envs,):
-            raise ValueError(f"actions must have the shape {self.action_space.shape}, got {given.shape}")
-        # Numbers below a power of two have no other bits, and negative ones have a sign.
-        if not 0 <= np.bitwise_or.reduce(given) < self._codes:
+            array = bits @ self._weights
+        elif array.dtype.kind not in "iub":
+            raise ValueError(f"actions must be integers, got {array.dtype} of the shape {array.shape}")
+        if array.shape != (self.num_envs,):
+            raise ValueError(f"actions must have the shape {self.action_space.shape}, got {array.shape}")
+        # The bitwise or of all actions is in range exactly if each is: _codes is a power of two.
+        if not 0 <= np.bitwise_or.reduce(array) < self._codes:
             raise ValueError(
-                f"every action must be from 0 to {self._codes - 1}, got {given.min()} to {given.max()}"
+                f"every action must be from 0 to {self._codes - 1}, got {array.min()} to {array.max()}"
             )
-        self._engine.actions[:] = given
+        self._engine.actions[:] = array
 
     def _refuse_ended_episodes(self) -> None:
         over = np.flatnonzero(self._engine.episodes["over"])
@@ -357,7 +356,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         return np.array([-1 if one is None else checked_seed(one) for one in seed], np.int64)
 
     def _seed(self, seeds: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
-        """Give the masked environments their seeds; those that never had one get random ones."""
+        """Seed the masked environments; those without a seed get random ones."""
         unseeded = mask & (seeds < 0) & (self._draws_seed | ~self._engine.has_begun)
         self._draws_seed &= ~mask
         if unseeded.any():

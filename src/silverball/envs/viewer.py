@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from silverball.drawing import Renderer
     from silverball.drawing.effects import Effects
 
-SIZE = (330, 680)  # width and height [pixel]
+SIZE = (330, 680)  # [pixel] width and height
 ICON_SIDE = 64  # [pixel]
-MAX_RENDERERS = 8  # a board takes some megabytes
+MAX_RENDERERS = 8  # each takes a few megabytes
 
 
-class Screen:
+class ViewerWindow:
     """A window that shows pictures at the speed of play.
 
     Args:
@@ -32,7 +32,7 @@ class Screen:
         NoDisplay: There is no display, and SDL_VIDEODRIVER does not name a driver that needs none.
     """
 
-    _all: ClassVar[list[Screen]] = []  # all open ones
+    _all: ClassVar[list[ViewerWindow]] = []  # all open ones
 
     def __init__(self, rate: int) -> None:
         import pygame
@@ -54,7 +54,7 @@ class Screen:
         return self._window is None
 
     def show(self, picture: NDArray[np.uint8]) -> None:
-        """Show a picture, RGB [row, column, 3], at the time when it is due."""
+        """Show a picture, RGB [row, column, 3], and wait until the next one is due."""
         import pygame
 
         self._handle_events()
@@ -72,12 +72,12 @@ class Screen:
             self._window = None
 
     def _handle_events(self) -> None:
-        """Close the windows that were asked to close; the first window that polls gets the events of all."""
+        """Close the windows that the user has closed; the first window to poll receives the events of all."""
         import pygame
 
-        # Keys and buttons are left for the program. pygame does not find WINDOWCLOSE if asked for it alone.
-        left = pygame.KEYDOWN, pygame.KEYUP, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP
-        for event in pygame.event.get(exclude=left):
+        # Keys and buttons stay in the queue. pygame does not return WINDOWCLOSE if asked for it alone.
+        excluded = pygame.KEYDOWN, pygame.KEYUP, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP
+        for event in pygame.event.get(exclude=excluded):
             for screen in self._all.copy():
                 if event.type == pygame.QUIT or (
                     event.type == pygame.WINDOWCLOSE and event.window == screen._window

@@ -1,13 +1,12 @@
-"""Writing pictures to files: one as PNG, many as GIF or MP4.
+"""Writes pictures to files: one as PNG, many as GIF or MP4.
 
-A file is written under a temporary name in the same folder and renamed when it is complete, so an
-interruption or a full disk leaves no partial file, and an existing file is unchanged.
+A file is written under a temporary name in the same folder and renamed when it is complete. After an
+interruption or on a full disk no partial file remains, and an existing file is unchanged.
 """
 
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, islice
 from pathlib import Path
@@ -18,8 +17,8 @@ from numpy.typing import NDArray
 
 from silverball.app.sound.mixdown import Soundtrack
 from silverball.errors import OutputError
-from silverball.export.mp4 import require_av, write_mp4
-from silverball.wholefile import is_special, write_whole
+from silverball.export.mp4 import write_mp4
+from silverball.wholefile import write_whole
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -28,39 +27,13 @@ Picture: TypeAlias = NDArray[np.uint8]
 """RGB, uint8 [row, column, 3]; H.264 needs an even number of rows and columns."""
 
 FILM_RATES = {".gif": 25, ".mp4": 60}
-"""Pictures per second by ending. A GIF counts in hundredths of a second; all viewers support 4 of them."""
+"""Pictures per second, by ending. GIF delays are in hundredths of a second; all viewers support 4 of them."""
 
-PALETTE_PICTURES = 50  # at the beginning of a GIF, from which its palette is chosen
-PALETTE_EVERY = 5  # only every fifth of them is used
-SHADE_BITS = 2  # lowest bits of a colour that are ignored when the palette is chosen
+PALETTE_PICTURES = 50  # first pictures of a GIF, from which its palette is chosen
+PALETTE_STRIDE = 5  # only every fifth of these is used
+SHADE_BITS = 2  # low bits of a colour that are ignored when the palette is chosen
 COLORS = 255  # one of 256 is reserved for "unchanged"
 DITHER = 5.0  # [level] amplitude of the dither
-
-
-def check_output(path: Path, endings: Iterable[str], *, force: bool = False) -> None:
-    """Check in advance that a file can be written.
-
-    Raises:
-        OutputError: The ending is unknown, the folder does not exist or is not writable, or the file exists.
-        MissingExtra: An MP4 needs PyAV, and it is not installed.
-    """
-    allowed = tuple(endings)
-    if path.suffix.lower() not in allowed:
-        raise OutputError(
-            f"{path}: the name must end in {' or '.join(allowed)}, got {path.suffix or 'no ending'!r}"
-        )
-    if not path.parent.is_dir():
-        raise OutputError(f"{path}: the folder {str(path.parent)!r} does not exist; create it first")
-    if path.is_dir():
-        raise OutputError(f"{path}: this is a folder; give the name of a file")
-    if is_special(path):
-        raise OutputError(f"{path}: this is not a regular file; give another name")
-    if path.exists() and not force:
-        raise OutputError(f"{path}: this file exists; choose another name, or overwrite it with --force")
-    if not os.access(path.parent, os.W_OK):
-        raise OutputError(f"{path}: no permission to write into the folder {str(path.parent)!r}")
-    if path.suffix.lower() == ".mp4":
-        require_av()
 
 
 def write_picture(path: Path, picture: Picture) -> None:
@@ -82,7 +55,7 @@ def write_film(
     """Write pictures as GIF or MP4, at the rate of `FILM_RATES`.
 
     Args:
-        path: Of the file, ending in .gif or .mp4.
+        path: Path of the file, ending in .gif or .mp4.
         pictures: All of the same size.
         sound: Called after the last picture, for an MP4; by default the film is silent.
 
@@ -105,7 +78,7 @@ def _write_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 def _write_gif(place: Path, pictures: Iterator[Picture]) -> None:
     beginning = list(islice(pictures, PALETTE_PICTURES))
-    palette = _palette(beginning[::PALETTE_EVERY])
+    palette = _palette(beginning[::PALETTE_STRIDE])
     pattern = _pattern(beginning[0].shape)
     images = (_with_palette(picture, palette, pattern) for picture in chain(beginning, pictures))
     first = next(images)
@@ -152,7 +125,7 @@ def _with_palette(picture: Picture, palette: Image, pattern: NDArray[np.int16]) 
 
 def _pattern(shape: tuple[int, ...]) -> NDArray[np.int16]:
     row, column = np.arange(shape[0])[:, None], np.arange(shape[1])[None, :]
-    # The same evenly spread points as in bake_table.to_bytes, here in whole levels around zero.
+    # Martin Roberts' R2 sequence, as in bake_table.to_bytes, here in whole levels around zero.
     even = (0.7548776662 * column + 0.5698402910 * row) % 1.0 - 0.5
     return np.rint(DITHER * even).astype(np.int16)[..., None]
 
@@ -160,7 +133,7 @@ def _pattern(shape: tuple[int, ...]) -> NDArray[np.int16]:
 class _Sink:
     """A file without a descriptor, so that Pillow writes through Python.
 
-    Writing to a descriptor itself, Pillow would not notice when only a part of the bytes is written.
+    If it wrote to a descriptor itself, Pillow would not notice partial writes.
     """
 
     def __init__(self, file: IO[bytes]) -> None:

@@ -18,7 +18,7 @@ from silverball.errors import MissingExtra
 VIDEO_OPTIONS = {"crf": "15"}
 SOUND_BIT_RATE = 160_000  # [bit/s]; a higher one makes no audible difference
 CONTAINER_OPTIONS = {
-    "movflags": "+faststart",  # the index comes first, so that a browser can play what it has loaded
+    "movflags": "+faststart",  # the index comes first, so that a browser can play a partial download
     # The sound is encoded after the last picture. Until then the muxer holds the encoded pictures (less than
     # 1 MB for a second of film), so that pictures and sound of the same time lie side by side in the file.
     "max_interleave_delta": "0",
@@ -29,7 +29,7 @@ def require_av() -> None:
     """Check that PyAV is installed.
 
     Raises:
-        MissingExtra: It is not.
+        MissingExtra: It is not installed.
     """
     try:
         import av  # noqa: F401
@@ -46,13 +46,13 @@ def write_mp4(
     """Write pictures as an MP4 that browsers play: H.264 in yuv420p, AAC.
 
     Args:
-        path: Of the file, whose folder exists.
+        path: Path of the file, whose folder exists.
         pictures: RGB, uint8 `[row, column, 3]`, all of one size, with an even number of rows and columns.
         rate: Pictures per second.
-        sound: Called after the last picture, so that it can return the sound of what happened in them.
+        sound: Called after the last picture, so that it can return the sound of all pictures.
 
     Raises:
-        OSError: The file cannot be written; it may be there in part.
+        OSError: The file cannot be written; a partial file may remain.
         MissingExtra: PyAV is not installed.
     """
     require_av()
@@ -60,7 +60,7 @@ def write_mp4(
 
     try:
         _encode(path, iter(pictures), rate, sound)
-    except av.FFmpegError as error:  # FFmpeg has errors of its own, which are not OSErrors
+    except av.FFmpegError as error:  # not always an OSError
         raise OSError(error.errno, error.strerror) from error
 
 
@@ -83,7 +83,7 @@ def _encode(
             audio.bit_rate = SOUND_BIT_RATE
         for number, picture in enumerate(chain([first], pictures)):
             shown = av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), "rgb24")
-            # The conversion that FFmpeg's own program would choose; the default of the library blurs colours.
+            # The conversion that the ffmpeg program uses; the default of the library blurs colours.
             shown = shown.reformat(format="yuv420p", interpolation="BICUBIC")
             shown.pts, shown.time_base = number, Fraction(1, rate)
             film.mux(video.encode(shown))

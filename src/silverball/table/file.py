@@ -110,7 +110,9 @@ def save_table(table: Table, path: str | os.PathLike[str]) -> None:
     if target.suffix != ".toml":
         raise OutputError(f"{os.fspath(path)}: a table file ends in .toml, for example {target.stem}.toml")
     if not target.parent.is_dir():
-        raise OutputError(f"{os.fspath(path)}: there is no folder {target.parent}: make it first")
+        raise OutputError(
+            f"{os.fspath(path)}: the folder {str(target.parent)!r} does not exist; create it first"
+        )
     text = dump_table(table)
     try:
         write_whole(target, lambda place: place.write_text(text, encoding="utf-8", newline="\n"))

@@ -23,7 +23,7 @@ from silverball.app.menus.commands import (
     WatchLast,
     WatchScore,
 )
-from silverball.app.menus.menus import IDLE, REPEAT_AFTER
+from silverball.app.menus.menus import ATTRACT_AFTER, REPEAT_AFTER
 from silverball.app.settings import PlayerSettings, Settings
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
@@ -222,7 +222,7 @@ def test_the_replay_page_asks_for_speed_hold_and_jumps():
     assert press(menus, RIGHT) == ReplaySpeed(1)
     assert press(menus, LEFT) == ReplaySpeed(-1)
     assert press(menus, START) == ReplayPause()
-    menus.update_replay(ReplayStatus(5.0, 30.0, is_held=True))
+    menus.update_replay(ReplayStatus(5.0, 30.0, is_paused=True))
     assert isinstance(press(menus, RIGHT), ReplayJump)
     assert press(menus, LEFT).seconds < 0.0
     menus.update_replay(ReplayStatus(30.0, 30.0))
@@ -323,10 +323,10 @@ def test_going_back_too_often_does_not_lose_the_program():
 def test_nobody_at_the_menu_for_a_while_starts_the_show_and_a_button_ends_it():
     menus = menus_with()
     menus.tick(5.0)
-    assert menus.tick(5.0 + 0.9 * IDLE) is None
+    assert menus.tick(5.0 + 0.9 * ATTRACT_AFTER) is None
     press(menus, RIGHT)
-    assert menus.tick(5.0 + 1.5 * IDLE) is None
-    assert menus.tick(5.0 + 2.0 * IDLE) == Attract(True)
+    assert menus.tick(5.0 + 1.5 * ATTRACT_AFTER) is None
+    assert menus.tick(5.0 + 2.0 * ATTRACT_AFTER) == Attract(True)
     assert menus.page == "attract"
     assert press(menus, START) == Attract(False)
     assert menus.page == "main"
@@ -345,9 +345,9 @@ def test_no_show_starts_at_the_end_of_a_long_game():
     menus.tick(1.0)
     press(menus, START)
     menus.open_over(1234)
-    assert menus.tick(1.0 + 10.0 * IDLE) is None
+    assert menus.tick(1.0 + 10.0 * ATTRACT_AFTER) is None
     assert menus.page == "over"
-    assert menus.tick(1.0 + 11.5 * IDLE) == Attract(True)
+    assert menus.tick(1.0 + 11.5 * ATTRACT_AFTER) == Attract(True)
 
 
 def test_a_long_message_stays_until_it_can_be_read_to_its_end():
@@ -456,7 +456,7 @@ def test_the_title_tells_which_of_many_choices_is_shown(count):
         page_layout.title(dots, "TABLE", index, count)
         pictures.add(dots.pixels.tobytes())
         assert reads(dots, "TABLE")
-        assert reads(dots, f"{index + 1}/{count}") == (count > page_layout.MAX_MARKS)
+        assert reads(dots, f"{index + 1}/{count}") == (count > page_layout.MAX_PAGE_DOTS)
     assert len(pictures) == count
 
 

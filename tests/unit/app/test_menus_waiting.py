@@ -5,8 +5,8 @@ import pytest
 from silverball.app.menus import Button, Menus, ReplayStatus, ScoreRow, TableEntry
 from silverball.app.menus.commands import Attract, Initials
 from silverball.app.menus.entry import SIGN_TIMEOUT
-from silverball.app.menus.menus import IDLE
-from silverball.app.menus.transport import HELD_EXTRA_TIME
+from silverball.app.menus.menus import ATTRACT_AFTER
+from silverball.app.menus.transport import PAUSED_EXTRA_TIME
 from silverball.app.settings import PlayerSettings, Settings
 from silverball.game.view import Mode
 
@@ -31,7 +31,7 @@ def menus_at(root: str, *labels: str) -> Menus:
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
         "replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
-        "held replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_held=True)),
+        "held replay": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_paused=True)),
         "ended replay": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     menus.tick(1.0)
@@ -85,9 +85,9 @@ def test_a_page_that_was_left_alone_gives_way_to_the_show(way):
     if way != ("main",):
         assert menus.page != "main" or way[-1] == "MODE"
     assert not wait(menus, 0.8 * SIGN_TIMEOUT)
-    assert wait(menus, IDLE)[-1] == Attract(True)
+    assert wait(menus, ATTRACT_AFTER)[-1] == Attract(True)
     assert menus.page == "attract"
-    assert not wait(menus, 20 * IDLE)
+    assert not wait(menus, 20 * ATTRACT_AFTER)
     press(menus, RIGHT)
     assert menus.page == "main"
 
@@ -108,16 +108,16 @@ PAUSED = [
 def test_a_paused_game_waits_for_its_player_on_whatever_page(way):
     menus = menus_at(*way)
     page = menus.page
-    assert not wait(menus, 100 * IDLE)
+    assert not wait(menus, 100 * ATTRACT_AFTER)
     assert menus.page == page
 
 
 def test_a_replay_waits_while_it_goes_on_and_for_minutes_while_it_is_held():
     menus = menus_at("replay")
-    assert not wait(menus, 100 * IDLE)
+    assert not wait(menus, 100 * ATTRACT_AFTER)
     menus = menus_at("held replay")
-    assert not wait(menus, HELD_EXTRA_TIME)
-    assert wait(menus, 2 * IDLE) == [Attract(True)]
+    assert not wait(menus, PAUSED_EXTRA_TIME)
+    assert wait(menus, 2 * ATTRACT_AFTER) == [Attract(True)]
 
 
 @pytest.mark.parametrize(
@@ -139,9 +139,9 @@ def test_initials_that_nobody_finishes_are_taken_as_they_stand_and_the_score_is_
     for letter in letters:
         menus.type(letter, letter, is_button=False)
     assert not wait(menus, 0.9 * SIGN_TIMEOUT)
-    assert wait(menus, IDLE) == [Initials(signed), Attract(True)]
+    assert wait(menus, ATTRACT_AFTER) == [Initials(signed), Attract(True)]
     assert menus.context.settings.current.initials == signed
-    assert not wait(menus, 3 * IDLE)
+    assert not wait(menus, 3 * ATTRACT_AFTER)
 
 
 @pytest.mark.parametrize("touch", [lambda menus: press(menus, RIGHT), lambda menus: type_x(menus)])

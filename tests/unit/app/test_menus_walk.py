@@ -51,7 +51,7 @@ def fresh(root: str, with_scores: bool = True) -> Menus:
         "over": lambda: menus.open_over(4321),
         "initials": lambda: menus.open_over(4321, 3),
         "transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0)),
-        "held transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_held=True)),
+        "held transport": lambda: menus.open_transport(ReplayStatus(3.0, 60.0, is_paused=True)),
         "ended transport": lambda: menus.open_transport(ReplayStatus(60.0, 60.0)),
     }[root]()
     return menus

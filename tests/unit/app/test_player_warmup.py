@@ -7,7 +7,7 @@ import time
 import pytest
 
 from silverball.app import player_warmup as warmup_module
-from silverball.app.demo_players import BEST_PLAYER, DEMO_PLAYERS, STAND_IN, DemoPlayerSelector
+from silverball.app.demo_players import BEST_PLAYER, DEMO_PLAYERS, FALLBACK_PLAYER, DemoPlayerSelector
 from silverball.app.player_warmup import PlayerWarmup
 from silverball.app.sessions import DemoSession
 from silverball.players import make_player
@@ -19,7 +19,7 @@ PATIENCE = 300.0  # [s], which only a fault takes
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch) -> None:
-    monkeypatch.setattr(warmup_module, "HEAD_START", 0.0)
+    monkeypatch.setattr(warmup_module, "START_DELAY", 0.0)
 
 
 class Compiler:
@@ -33,7 +33,7 @@ class Compiler:
         return self.ends_well
 
 
-def test_every_performer_gets_ready():
+def test_every_demo_player_gets_ready():
     warmup_module.compile_all()
     player_warmup = PlayerWarmup(TABLE)
     player_warmup.wait(PATIENCE)
@@ -43,8 +43,8 @@ def test_every_performer_gets_ready():
     assert not player_warmup.is_ready("nobody")
 
 
-def test_who_closes_the_window_at_once_waits_for_nobody(monkeypatch):
-    monkeypatch.setattr(warmup_module, "HEAD_START", PATIENCE)
+def test_closing_the_window_right_after_the_start_does_not_wait(monkeypatch):
+    monkeypatch.setattr(warmup_module, "START_DELAY", PATIENCE)
     player_warmup = PlayerWarmup(TABLE)
     player_warmup.close()
     start = time.monotonic()
@@ -54,7 +54,7 @@ def test_who_closes_the_window_at_once_waits_for_nobody(monkeypatch):
 
 
 @pytest.mark.parametrize("ends_well", [False, True])
-def test_without_compiled_code_the_stand_in_goes_on(monkeypatch, ends_well):
+def test_without_compiled_code_the_fallback_player_goes_on(monkeypatch, ends_well):
     compiler = Compiler(ends_well)
     monkeypatch.setattr(warmup_module, "_compiler", compiler)
     monkeypatch.setattr(warmup_module, "is_compiled_on_disk", lambda demo_player: not demo_player.kernel)
@@ -67,7 +67,7 @@ def test_without_compiled_code_the_stand_in_goes_on(monkeypatch, ends_well):
     assert compiler.calls == 1
     assert BEST_PLAYER not in pressed  # that would compile in this process
     assert not player_warmup.is_ready(BEST_PLAYER.name)
-    assert player_warmup.is_ready(STAND_IN.name)
+    assert player_warmup.is_ready(FALLBACK_PLAYER.name)
 
 
 def test_a_player_that_fails_does_not_get_ready_and_stops_no_other(monkeypatch, unregistered):
@@ -86,11 +86,11 @@ def test_a_player_that_fails_does_not_get_ready_and_stops_no_other(monkeypatch, 
     assert not player_warmup.is_ready(BEST_PLAYER.name)
 
 
-def test_the_one_who_was_asked_for_takes_over_once():
-    ready = {STAND_IN.name}
+def test_the_requested_player_takes_over_once():
+    ready = {FALLBACK_PLAYER.name}
     selector = DemoPlayerSelector(ready.__contains__)
     session = DemoSession(TABLE, 1, selector.select(BEST_PLAYER.name))
-    assert (session.player.name, selector.playing) == ("reflex", STAND_IN)
+    assert (session.player.name, selector.playing) == ("reflex", FALLBACK_PLAYER)
     assert not selector.switch_when_ready(session)
     ready.add(BEST_PLAYER.name)
     assert selector.switch_when_ready(session)
@@ -100,6 +100,6 @@ def test_the_one_who_was_asked_for_takes_over_once():
     assert session.player is planner  # it keeps its plan
 
 
-def test_every_performer_is_a_player():
+def test_every_demo_player_is_a_player():
     names = [one.name for one in DEMO_PLAYERS]
     assert [make_player(name).name for name in names] == names

@@ -6,7 +6,7 @@ import pytest
 
 from evenings import NOTHING, Evening
 from reading import reads
-from silverball.app.command_handlers import watch_text
+from silverball.app.command_handlers import watch_replay_text
 from silverball.app.controls import Action
 from silverball.app.program import GAME_OVER_SECONDS, SPEEDS
 from silverball.app.sessions import DemoSession
@@ -110,7 +110,7 @@ def test_a_replay_that_was_tampered_with_is_refused_in_one_sentence_and_the_menu
     evening.play_to_the_end()
     (row,) = evening.store.scores()
     text = evening.store.replay(row.id).replace("seed = 3", "seed = 4")
-    watch_text(evening.program, text, "score 1")
+    watch_replay_text(evening.program, text, "score 1")
     assert "changed or damaged" in evening.said[-1]
     assert evening.program.menus.is_open
 
@@ -254,7 +254,7 @@ def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(eveni
     if move == "jump":
         evening.program.jump(5.0)
     elif move == "tick":
-        evening.program.is_held = True
+        evening.program.is_replay_paused = True
         evening.program.single_tick(NOTHING)
     else:
         evening.go(0.1)
@@ -326,10 +326,10 @@ def test_a_seed_that_is_chosen_is_seen_at_once_and_played(tmp_path):
 
 @pytest.mark.parametrize(
     ("state", "words"),
-    [("menu", "paused"), ("game", "paused"), ("over", "game is over"), ("replay", "held"),
+    [("menu", "paused"), ("game", "paused"), ("over", "game is over"), ("replay", "replay is paused"),
      ("ended replay", "replay has ended"), ("show", "paused")],
 )  # fmt: skip
-def test_a_single_tick_where_none_is_to_be_had_says_why(evening, state, words):
+def test_a_single_tick_that_is_not_possible_gives_the_reason(evening, state, words):
     program = evening.program
     if state in ("over", "replay", "ended replay"):
         program.play(Mode.ARCADE, "Leaky", 3)

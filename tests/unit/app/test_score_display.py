@@ -112,7 +112,7 @@ def test_ball_save_blinks_while_it_lasts():
         (news(GameEventKind.WARNING, 1), "WARNING!"),
         (news(GameEventKind.BALL_LOST, 2), "BALL 2 LOST"),
         (news(GameEventKind.SCORED, 250), "+250"),
-        (news(GameEventKind.UNSTUCK), "A SHOVE FOR A STILL BALL"),
+        (news(GameEventKind.UNSTUCK), "STUCK BALL SHOVED"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

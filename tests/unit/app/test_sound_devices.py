@@ -366,7 +366,7 @@ def test_a_device_that_goes_away_in_the_middle_ends_the_sounds_and_nothing_else(
     dummy.set_rolling([(1, 0.0, 0.0, 10.0)], 0.1, WIDTH)
     pygame.mixer.quit()
     dummy.play_events([hit()], TICKS, WIDTH)
-    assert dummy.warning.startswith("no sound any more: the audio device is gone (")
+    assert dummy.warning.startswith("no sound: the audio device has disappeared (")
     use_all(dummy)
 
 

@@ -7,7 +7,7 @@ import pytest
 from evenings import Evening
 from own_players import LEFTY, Swatter, install
 from silverball.app import player_warmup
-from silverball.app.demo_players import DEMO_PLAYERS, HINT, demo_players
+from silverball.app.demo_players import DEMO_PLAYERS, REGISTERED_HINT, demo_players
 from silverball.app.player_warmup import PlayerWarmup
 from silverball.players import player_names, register
 from silverball.table import load_table
@@ -36,7 +36,7 @@ def test_registered_players_are_offered_after_the_built_in_ones() -> None:
     register("swatter", Swatter)
     *first, last = demo_players()
     assert tuple(first) == DEMO_PLAYERS
-    assert (last.name, last.label, last.hint) == ("swatter", "SWATTER", HINT)
+    assert (last.name, last.label, last.hint) == ("swatter", "SWATTER", REGISTERED_HINT)
 
 
 def test_a_registered_player_is_watched_once_it_is_ready(evening, site) -> None:
@@ -59,7 +59,7 @@ def test_a_watched_player_that_fails_brings_the_menu_back_and_its_sentence(eveni
 
 
 def test_the_window_gets_registered_players_ready_and_tells_of_one_that_fails(monkeypatch, site) -> None:
-    monkeypatch.setattr(player_warmup, "HEAD_START", 0.0)
+    monkeypatch.setattr(player_warmup, "START_DELAY", 0.0)
     monkeypatch.setattr(player_warmup, "is_compiled_on_disk", lambda player: not player.kernel)
     monkeypatch.setattr(PlayerWarmup, "_compile", lambda self: False)
     install(site, "left-hand", "lefty = left_hand:Lefty", LEFTY)
@@ -70,7 +70,7 @@ def test_the_window_gets_registered_players_ready_and_tells_of_one_that_fails(mo
         rehearsal.wait(300.0)
         return rehearsal
 
-    with pytest.warns(UserWarning, match=r"'mine': press\(\) raised .*; the player 'reflex' stands in"):
+    with pytest.warns(UserWarning, match=r"'mine': press\(\) raised .*; the player 'reflex' plays instead"):
         rehearsal = rehearsed()
     assert rehearsal.is_ready("lefty")
     assert not rehearsal.is_ready("mine")

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from silverball.cli.shared_options import check_output
 from silverball.errors import MissingExtra, OutputError
-from silverball.export.film import FILM_RATES, check_output, write_film, write_picture
+from silverball.export.film import FILM_RATES, write_film, write_picture
 
 PICTURES = [np.random.default_rng(seed).integers(0, 256, (120, 80, 3), np.uint8) for seed in range(5)]
 ENDINGS = ["png", "gif", "mp4"]
@@ -90,7 +91,7 @@ def test_an_mp4_without_pyav_names_the_extra_before_any_work(tmp_path, monkeypat
     monkeypatch.setitem(sys.modules, "av", None)
     for attempt in (check_output, lambda path, _: write_film(path, PICTURES)):
         with pytest.raises(MissingExtra, match=r"pip install 'silverball\[video\]'"):
-            attempt(tmp_path / "out.mp4", [".mp4"])
+            attempt(tmp_path / "out.mp4", (".mp4",))
     assert not list(tmp_path.iterdir())
 
 

@@ -159,7 +159,7 @@ def test_saving_says_what_is_wrong_with_the_path(tmp_path):
     table = load_table("classic")
     with pytest.raises(OutputError, match=r"ends in \.toml"):
         save_table(table, tmp_path / "mine.txt")
-    with pytest.raises(OutputError, match="no folder"):
+    with pytest.raises(OutputError, match="does not exist; create it first"):
         save_table(table, tmp_path / "nowhere" / "mine.toml")
 
 

@@ -1,4 +1,4 @@
-"""The attract mode: title, best scores, how to begin, and tips take turns while nobody is active."""
+"""The attract mode: while no button is pressed, the title, the best scores and tips alternate."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from silverball.app.bindings import keys_for
 from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Attract, Button, Command
 from silverball.app.menus.context import MenuContext, Page
-from silverball.app.menus.high_scores import MODES
+from silverball.app.menus.high_scores import MODE_LABELS
 from silverball.drawing.dotmatrix.animations import draw_ball
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, scroll, wipe
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
@@ -17,10 +17,11 @@ from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 PAGE_TIME = 4.0  # [s]
 CHANGE_TIME = 0.5  # [s] of it for the transition to the next page
 NAME = "SILVERBALL"
+SHINE = 90  # brightness of the letters under the light that sweeps over them
 
 
 class AttractPage(Page):
-    """Pages that take turns; any button leads to the main menu."""
+    """Alternating pages; any button leads to the main menu."""
 
     name = "attract"
     repeats = False
@@ -68,8 +69,8 @@ def title_picture(context: MenuContext, at: float) -> Dots:
     if 0 <= shine < WIDTH + 12:
         for row in range(8, 19):
             edge = shine - (row - 8) // 2
-            here = dots.pixels[row, max(edge - 6, 0) : max(edge, 0)]
-            here[here > 0] = 90
+            shine_pixels = dots.pixels[row, max(edge - 6, 0) : max(edge, 0)]
+            shine_pixels[shine_pixels > 0] = SHINE
     dots.line(left, 22, left + min(max(ball - left, 0), width), 22, page_layout.HALF)
     if at > 1.6:
         dots.text("A PINBALL TABLE", WIDTH // 2, 25, NORMAL, "center", page_layout.HALF)
@@ -82,13 +83,13 @@ def _start_picture(context: MenuContext, at: float) -> Dots:
     if page_layout.is_blink_on(at, 1.0):
         dots.text(f"PRESS {key}", WIDTH // 2, 6, BOLD, "center")
     entry = context.table
-    text = f"{MODES[context.mode]} · {entry.title.upper()}"
+    text = f"{MODE_LABELS[context.mode]} · {entry.title.upper()}"
     page_layout.marquee(dots, text, 23, 0, WIDTH, NORMAL, at, brightness=page_layout.HALF)
     return dots
 
 
 def _demo_player_picture(context: MenuContext, at: float) -> Dots:
-    """Draw who plays the demo behind these pages."""
+    """Draw the name of the player of the current demo."""
     dots = Dots()
     assert context.demo_player is not None
     page_layout.title(dots, "NOW PLAYING", seconds=at)
@@ -102,7 +103,7 @@ def _best_picture(context: MenuContext, at: float, index: int) -> Dots:
     dots = Dots()
     score_lists = context.score_lists
     entry, mode, rows = score_lists[min(index, len(score_lists) - 1)]
-    page_layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", seconds=at)
+    page_layout.title(dots, f"{entry.title.upper()} · {MODE_LABELS[mode]}", seconds=at)
     place = min(int(at / PAGE_TIME * 3.0), min(len(rows), 3) - 1)
     row = rows[place]
     dots.text(f"{place + 1}", 6, 14, BOLD, "left", page_layout.HALF)

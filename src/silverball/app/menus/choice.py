@@ -1,7 +1,7 @@
 """Pages on which one item is chosen: the paddles turn through the items, and Space chooses.
 
-An item either performs an action (`Item.choose`) or holds a setting (`Item.value`). Space on a setting lets
-the paddles change it, Space again keeps the new value, and "back" restores the old one.
+An item either performs an action (`Item.choose`) or holds a setting (`Item.value`). Space on a setting makes
+the paddles change it, Space again confirms the new value, and "back" restores the old one.
 """
 
 from __future__ import annotations
@@ -50,12 +50,12 @@ class Item(NamedTuple):
     """An item of a page.
 
     Attributes:
-        label: Shown in the middle.
-        hint: A short description.
+        label: Text in the middle of the page.
+        hint: A short description at the bottom.
         choose: Called by Space; it may open or close pages.
         value: The setting that Space makes editable.
-        key: Identifies it on a page whose items change while it is open.
-        verb: What Space does, in a word or two.
+        key: Identifier of the item, on a page whose items change while it is open.
+        verb: Label of what Space does, in a word or two.
     """
 
     label: str
@@ -192,7 +192,10 @@ def _draw_value(dots: Dots, item: Item, context: MenuContext, elapsed: float) ->
     if value.wraps:
         page_layout.foot(
             dots,
-            (value.hints[index] if value.hints else "", f"◄ ►: CHANGE   {context.key_label('create')}: KEEP"),
+            (
+                value.hints[index] if value.hints else "",
+                f"◄ ►: CHANGE   {context.key_label('create')}: CONFIRM",
+            ),
             elapsed,
         )
     else:

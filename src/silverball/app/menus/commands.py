@@ -27,9 +27,9 @@ class Play:
     """Begin a game; the menu has closed itself.
 
     Attributes:
-        mode: Of the game.
-        table: As in the settings: a built-in name or a path.
-        seed: Of the board; None: a new one, or the table has no random parts.
+        mode: Mode of the game.
+        table: A built-in name or a path, as in the settings.
+        seed: Seed of the board; None: a new one, or the table has no random parts.
     """
 
     mode: Mode
@@ -69,7 +69,7 @@ class ShowBoard:
     """Show the board that a seed makes of the chosen table.
 
     Attributes:
-        seed: None draws one.
+        seed: Seed of the board; None draws one.
     """
 
     seed: int | None
@@ -77,11 +77,11 @@ class ShowBoard:
 
 @dataclass(frozen=True)
 class ShowTableProblem:
-    """Tell why a table cannot be played.
+    """Show why a table cannot be played.
 
     Attributes:
-        table: As in the settings: a path.
-        problem: The first reason.
+        table: A path, as in the settings.
+        problem: The first problem.
     """
 
     table: str
@@ -100,12 +100,12 @@ class Resume:
 
 @dataclass(frozen=True)
 class Restart:
-    """Give up the paused game and begin again on the same board; the menu has closed itself."""
+    """Abandon the paused game and restart on the same board; the menu has closed itself."""
 
 
 @dataclass(frozen=True)
 class EndGame:
-    """Give up the paused game, or remove one that is over. The main menu is open."""
+    """Abandon the paused game, or remove one that is over. The main menu is open."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ class SaveReplay:
 
 @dataclass(frozen=True)
 class Initials:
-    """Assign the latest score to these three characters, which are in the settings too."""
+    """Put these three initials, already saved in the settings, on the latest score."""
 
     text: str
 
@@ -129,7 +129,7 @@ class ReplaySpeed:
 
 @dataclass(frozen=True)
 class ReplayPause:
-    """Hold the replay, or continue it."""
+    """Pause the replay, or continue it."""
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class ReplayJump:
     """Jump back or ahead in the replay.
 
     Attributes:
-        seconds: How far; negative is back [s].
+        seconds: The distance [s]; negative jumps back.
     """
 
     seconds: float

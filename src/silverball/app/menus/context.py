@@ -1,4 +1,4 @@
-"""What all menu pages share: the settings, tables, scores, the time, and the stack of open pages."""
+"""Shared state of all menu pages: settings, tables, scores, time, and the stack of open pages."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ class TableEntry(NamedTuple):
     """A table in the list of tables.
 
     Attributes:
-        name: As in the settings: a built-in name or a path.
+        name: A built-in name or a path, as in the settings.
         title: Its displayed name.
-        about: A short description.
+        description: A short description.
         is_random: Whether it makes a different board for every seed.
         problem: Why it cannot be played; empty if it can.
     """
 
     name: str
     title: str
-    about: str = ""
+    description: str = ""
     is_random: bool = False
     problem: str = ""
 
@@ -40,10 +40,10 @@ class ScoreRow(NamedTuple):
     """A row of a high-score list.
 
     Attributes:
-        initials: Of the player.
+        initials: Initials of the player.
         score: Points.
-        date: As displayed.
-        key: Identifies its replay for `WatchScore`; empty if there is no replay.
+        date: The displayed date.
+        key: Identifier of its replay for `WatchScore`; empty if there is no replay.
     """
 
     initials: str
@@ -56,9 +56,9 @@ class JoystickEntry(NamedTuple):
     """A connected joystick.
 
     Attributes:
-        guid: Identifies its make; the settings store its bindings under it.
+        guid: Identifier of its model; the settings store its bindings under it.
         title: Its displayed name.
-        buttons: How many it has.
+        buttons: Its number of buttons.
     """
 
     guid: str
@@ -73,11 +73,11 @@ class Page(ABC):
     repeats = True
     """Whether a held paddle button repeats."""
     allows_attract = True
-    """Whether the attract mode may begin on this page, and on pages opened from it, when nobody is active."""
+    """Whether the attract mode may begin on this page, and on pages opened from it, after some idle time."""
     extra_idle_time = 0.0
-    """How much longer than on other pages that takes [s]."""
+    """Extra idle time before that [s], on top of what other pages allow."""
     shown_at = 0.0
-    """Since when the page is shown in its current state [s]: texts begin to scroll then."""
+    """Time [s] at which the page reached its current state; texts begin to scroll then."""
 
     @abstractmethod
     def press(self, button: Button, context: MenuContext) -> Command | None:
@@ -105,14 +105,14 @@ class MenuContext:
         scores: The scores of a table and a mode, best first.
         actions: All actions that have keys.
         themes: Names of all themes.
-        seed: Of the next random board; None draws one.
-        last_seed: Of the random board shown last; None if there was none.
+        seed: Seed of the next random board; None draws one.
+        last_seed: Seed of the random board shown last; None if there was none.
         has_last_game: Whether there is a last game to watch.
         demo_player: Who plays the demo; None before the first demo.
         joysticks: The connected joysticks.
         key_labels: Labels of keys on the current layout, by key name, where they differ from the name.
         now: The time of the last tick [s].
-        idle: How long no button had been pressed by then [s].
+        idle: Time without a button up to `now` [s].
         pages: The open pages, the visible one last; none while a game is running.
     """
 
@@ -161,7 +161,7 @@ class MenuContext:
             for mode in (Mode.ARCADE, Mode.FREE)
             if (rows := self.scores(entry.name, mode))
         ]
-        lists.sort(key=lambda one: (one[0].name, one[1]) != (settings.table, settings.mode))
+        lists.sort(key=lambda item: (item[0].name, item[1]) != (settings.table, settings.mode))
         return lists
 
     def open(self, page: Page) -> None:
@@ -191,7 +191,7 @@ class MenuContext:
         return bool(self.pages)
 
     def show_message(self, text: str) -> None:
-        """Show a message on whatever page is open."""
+        """Show a message on the open page, whichever it is."""
         self._message = (text, self.now)
 
     def message(self, seconds: float) -> tuple[str, float]:

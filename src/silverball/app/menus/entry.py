@@ -1,4 +1,4 @@
-"""Pages for initials and numbers: the paddles turn a letter and Space takes it, or a keyboard types it.
+"""Pages for initials and numbers: turn letters with the paddles and take them with Space, or type them.
 
 END follows the last letter; "◄" among the letters deletes one. Keys that are paddle buttons and also letters,
 A and D, turn letters until another letter or backspace is typed; then they type like all others, until a
@@ -30,13 +30,13 @@ class LettersPage(Page):
     """A page on which a text is entered letter by letter.
 
     Args:
-        name: Identifies it.
-        title: Shown above the letters.
+        name: Identifier of the page.
+        title: Text above the letters.
         letters: The letters to choose from.
-        max_length: Of the text.
-        done: Called with the text.
-        min_length: Of the text; None: the greatest length.
-        offered: A text that is offered letter by letter.
+        max_length: Greatest length of the text.
+        done: Callback that receives the text.
+        min_length: Least length of the text; None: `max_length`.
+        offered: Text whose letters are preselected.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class LettersPage(Page):
 
     @property
     def choices(self) -> tuple[str, ...]:
-        """What the paddles turn through at the current place."""
+        """The letters and commands that the paddles cycle through at the current place."""
         letters = tuple(self._letters) if len(self.text) < self._max_length else ()
         end = (END,) if len(self.text) >= self._min_length else ()
         return (*letters, *end, *((DELETE,) if self.text else ()))
@@ -125,8 +125,8 @@ class LettersPage(Page):
             self._draw_places(dots, 4, 8, 2, seconds)
             ends = not self._is_typed and self.choices[self._turn] == END
             for line, y in zip(help_, (11, 22), strict=True):
-                room = WIDTH - HELP_X - (END_WIDTH if ends else 0)
-                left = WIDTH - min(NORMAL.width(line), room)
+                available = WIDTH - HELP_X - (END_WIDTH if ends else 0)
+                left = WIDTH - min(NORMAL.width(line), available)
                 page_layout.marquee(dots, line, y, left, WIDTH, NORMAL, seconds, "left", 190)
         else:
             self._draw_places(
@@ -150,9 +150,9 @@ class LettersPage(Page):
         count, step = len(self.text), scale * 9 + 2
         for place in range(self._max_length):
             x = left + place * step
-            here = choice if place == count and choice not in (END, DELETE) else ""
-            letter = self.text[place] if place < count else here
-            light = FULL if here or choice == END or self._is_typed else page_layout.HALF
+            current = choice if place == count and choice not in (END, DELETE) else ""
+            letter = self.text[place] if place < count else current
+            light = FULL if current or choice == END or self._is_typed else page_layout.HALF
             dots.text(letter, x + step // 2 - 1, y, BOLD, "center", light, scale)
             if place != count or not self._is_typed or page_layout.is_blink_on(seconds):
                 dots.box(x, y + 11 * scale + 1, step - 2, 1, FULL if place == count else page_layout.HALF)
@@ -163,11 +163,11 @@ class LettersPage(Page):
             dots.invert(x - 1, y, step, 11 * scale)
 
     def signature(self) -> Hashable:
-        """Return how many letters there are, and which one is offered."""
+        """Return the number of letters, the current choice, and whether keys type."""
         return len(self.text), self._turn, self._is_typed
 
     def _completed(self) -> str:
-        """Return the text as it is used if nothing more is entered."""
+        """Return the text that is used if nothing more is entered."""
         return self.text
 
     def _delete(self, context: MenuContext) -> Command | None:
@@ -195,11 +195,11 @@ class InitialsPage(LettersPage):
     Args:
         score: The score.
         rank: Its rank in the high scores, from 1.
-        offered: The initials that were entered last.
-        done: Called with the initials.
+        offered: The initials entered last, preselected.
+        done: Callback that receives the initials.
     """
 
-    allows_attract = False  # the score gets its initials first
+    allows_attract = False  # the score must get its initials first
 
     def __init__(self, score: int, rank: int, offered: str, done: Callable[[str], Command | None]) -> None:
         super().__init__("initials", f"NO. {rank} WITH {score:,}", LETTERS, 3, done, offered=offered)

@@ -16,7 +16,7 @@ ROW_HEIGHT = 12  # [dot]; two rows are visible
 SCROLL_SPEED = 9.0  # [dot/s] upwards, a row in 1.3 s
 WAIT = 2.0  # [s] before scrolling begins, and at its end
 TOP = 8  # [dot] where the rows begin
-MODES = {Mode.ARCADE: "ARCADE", Mode.FREE: "FREE PLAY"}
+MODE_LABELS = {Mode.ARCADE: "ARCADE", Mode.FREE: "FREE PLAY"}
 
 
 class ScoresPage(Page):
@@ -50,7 +50,9 @@ class ScoresPage(Page):
         index = min(self._index, len(score_lists) - 1)
         entry, mode, rows = score_lists[index]
         draw_scores(dots, entry, mode, rows[:ROWS], since)
-        page_layout.title(dots, f"{entry.title.upper()} · {MODES[mode]}", index, len(score_lists), since)
+        page_layout.title(
+            dots, f"{entry.title.upper()} · {MODE_LABELS[mode]}", index, len(score_lists), since
+        )
         return dots
 
     def signature(self) -> Hashable:
@@ -59,12 +61,12 @@ class ScoresPage(Page):
 
 
 def scroll_period(count: int) -> float:
-    """Return how long a list takes to scroll to its end [s]."""
+    """Return the time that a list takes to scroll to its end [s]."""
     return 2.0 * WAIT + max(count * ROW_HEIGHT - (HEIGHT - TOP), 0) / SCROLL_SPEED
 
 
 def draw_scores(dots: Dots, entry: TableEntry, mode: Mode, rows: Sequence[ScoreRow], seconds: float) -> None:
-    """Draw the scores of one table below a line that stays free for its name; they scroll repeatedly."""
+    """Draw the scores of one table, scrolling in a loop below a blank line for its name."""
     at = seconds % scroll_period(len(rows))
     most = max(len(rows) * ROW_HEIGHT - (HEIGHT - TOP), 0)
     moved = round(min(max(at - WAIT, 0.0) * SCROLL_SPEED, float(most)))

@@ -1,4 +1,4 @@
-"""The menus as the window uses them: buttons and time go in, dots and commands come out.
+"""The menus as the window uses them: buttons and time in; dots and commands out.
 
     menus = Menus(settings, tables, scores)            # the main menu is open
     menus.tick(seconds)                                # once a frame, by any monotonic clock
@@ -30,7 +30,7 @@ REPEAT_AFTER = 0.4  # [s] for which a paddle button is held before it repeats
 REPEAT_EVERY = 0.09  # [s]
 FAST_REPEAT_AFTER, FAST_REPEAT_EVERY = 4.0, 0.03  # [s] for long lists
 BACK_AFTER = 1.0  # [s] for which both paddle buttons are held to go back
-IDLE = 30.0  # [s] without a button, after which the attract mode begins
+ATTRACT_AFTER = 30.0  # [s] without a button
 
 
 class Menus:
@@ -39,8 +39,8 @@ class Menus:
     Args:
         settings: The player's settings.
         tables: All tables to choose from.
-        scores: The scores of a table and a mode, best first. It is called while pages are drawn, so it should
-            answer from memory.
+        scores: Returns the scores of a table and a mode, best first. It is called while pages are drawn, so
+            it must be fast.
         actions: All actions that have keys.
         themes: Names of all themes.
 
@@ -59,8 +59,8 @@ class Menus:
         self.context = MenuContext(settings, tables, scores, actions, themes)
         self._down: dict[Button, float] = {}  # since when the paddle buttons are held
         self._next_repeat = 0.0
-        self._is_spent = False  # both were held: they do nothing until both are released
-        self._active_at: float | None = None  # the last button, or the first tick of an opened page
+        self._is_spent = False  # both were held to go back, and are ignored until both are released
+        self._active_at: float | None = None  # time of the last button, or of the first tick of a page
         self.open_main()
 
     @property
@@ -111,7 +111,7 @@ class Menus:
             self._is_spent = False
 
     def release_all(self) -> None:
-        """Release all buttons: the window has lost the focus."""
+        """Release all buttons, because the window has lost the focus."""
         self._down.clear()
         self._is_spent = False
 
@@ -143,10 +143,10 @@ class Menus:
         return True
 
     def tick(self, seconds: float) -> Command | None:
-        """Repeat held buttons, let pages time out, and begin the attract mode when nobody is active.
+        """Repeat held buttons, let pages time out, and begin the attract mode after some idle time.
 
         Args:
-            seconds: Of a monotonic clock [s].
+            seconds: Time of a monotonic clock [s].
         """
         context = self.context
         context.now = max(seconds, context.now)
@@ -163,7 +163,10 @@ class Menus:
             return command
         if self._down:
             return self._repeat_held()
-        if all(one.allows_attract for one in context.pages) and context.idle >= IDLE + page.extra_idle_time:
+        if (
+            all(one.allows_attract for one in context.pages)
+            and context.idle >= ATTRACT_AFTER + page.extra_idle_time
+        ):
             return self.open_attract()
         return None
 
@@ -171,7 +174,7 @@ class Menus:
         """Draw the visible page.
 
         Args:
-            seconds: Of the clock of `tick` [s].
+            seconds: Time of the clock of `tick` [s].
             below: The display of the game; the transport line of a replay is drawn below it.
         """
         game = Dots() if below is None else below
@@ -235,7 +238,7 @@ class Menus:
         self.context.open(TransportPage(status))
 
     def update_replay(self, status: ReplayStatus) -> None:
-        """Tell the transport line where the replay is now."""
+        """Update the transport line with the state of the replay."""
         page = self.context.pages[-1] if self.context.pages else None
         if isinstance(page, TransportPage):
             page.status = status

@@ -9,7 +9,7 @@ from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, Font
 
 TITLE_Y, MIDDLE_Y, FOOT_Y = 0, 10, 24
 FAINT, HALF = 70, 145  # brightness of secondary text
-MAX_MARKS = 15  # more choices are numbered instead
+MAX_PAGE_DOTS = 15  # more choices are numbered instead
 MARGIN = 13  # [dot] on both sides, for the arrows
 
 SCROLL_SPEED = 40.0  # [dot/s] of texts that are too long, a letter in 0.15 s
@@ -19,17 +19,17 @@ FOOT_TURN = 3.0  # [s] for each help text
 
 
 def title(dots: Dots, text: str, index: int = 0, count: int = 0, seconds: float = 0.0) -> None:
-    """Draw the title, and the index of the visible choice: a mark for each choice, or numbers."""
-    place = f"{index + 1}/{count}" if count > MAX_MARKS else ""
-    marks = NORMAL.width(place) if place else 4 * count if count > 1 else 0
-    marquee(dots, text, TITLE_Y, 0, WIDTH - marks - 2, NORMAL, seconds, "left", HALF)
-    if place:
-        dots.text(place, WIDTH, TITLE_Y, NORMAL, "right", HALF)
-    if place or not marks:
+    """Draw the title, and the index of the visible choice as page dots, or as numbers if there are many."""
+    number = f"{index + 1}/{count}" if count > MAX_PAGE_DOTS else ""
+    width = NORMAL.width(number) if number else 4 * count if count > 1 else 0
+    marquee(dots, text, TITLE_Y, 0, WIDTH - width - 2, NORMAL, seconds, "left", HALF)
+    if number:
+        dots.text(number, WIDTH, TITLE_Y, NORMAL, "right", HALF)
+    if number or not width:
         return
-    for mark in range(count):
-        x = WIDTH - marks + mark * marks // count
-        if mark == index:
+    for page in range(count):
+        x = WIDTH - width + page * width // count
+        if page == index:
             dots.box(x, TITLE_Y + 2, 3, 3)
         else:
             dots.box(x + 1, TITLE_Y + 3, 1, 1, HALF)
@@ -42,8 +42,8 @@ def middle(dots: Dots, text: str, seconds: float, shift: int = 0, brightness: in
         dots: The display.
         text: The text.
         seconds: Since it appeared [s].
-        shift: To the right [dot].
-        brightness: Of its dots, 0 to 255.
+        shift: Shift to the right [dot].
+        brightness: Brightness of its dots, 0 to 255.
     """
     available = WIDTH - 2 * MARGIN
     if BOLD.width(text) <= available:
@@ -60,14 +60,14 @@ def middle(dots: Dots, text: str, seconds: float, shift: int = 0, brightness: in
 
 
 def arrows(dots: Dots, seconds: float, strong: bool = False) -> None:
-    """Draw arrows on both sides; strong ones say that the paddle buttons change the value between them."""
+    """Draw arrows on both sides; strong ones pulse while the paddle buttons change the value."""
     brightness = round(170 + 85 * math.cos(2.0 * math.pi * seconds)) if strong else HALF
     dots.text("◄", 0, MIDDLE_Y, BOLD, "left", brightness)
     dots.text("►", WIDTH, MIDDLE_Y, BOLD, "right", brightness)
 
 
 def foot(dots: Dots, texts: tuple[str, ...], seconds: float, brightness: int = 190) -> None:
-    """Draw the line of help: several texts take turns, and long ones scroll."""
+    """Draw the line of help: several texts alternate, and long ones scroll."""
     texts = tuple(text for text in texts if text)
     if not texts:
         return
@@ -125,5 +125,5 @@ def copy_above_foot(dots: Dots, below: Dots) -> None:
 
 
 def scroll_time(width: int, available: int = WIDTH) -> float:
-    """Return how long a text takes to scroll to its end [s]; the widths are in dots."""
+    """Return the time that a text takes to scroll to its end [s]; the widths are in dots."""
     return 2.0 * SCROLL_WAIT + max(width - available, 0) / SCROLL_SPEED

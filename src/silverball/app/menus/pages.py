@@ -26,7 +26,7 @@ from silverball.app.menus.high_scores import ScoresPage
 from silverball.app.menus.remap import remap_page
 
 SEED_DIGITS = 9
-BROKEN_MARK = "!"  # before the name of a table that cannot be played
+INVALID_PREFIX = "!"  # before the name of a table that cannot be played
 MAX_PROBLEM_LENGTH = 120  # letters of a problem in the list; choosing the table shows all of it
 
 MODE = Value(
@@ -52,7 +52,7 @@ def main_page(context: MenuContext) -> ChoicePage:
             Item("PLAY", f"{MODE.labels[MODE.current_index(context)]} · {title}", play),
             Item("MODE", MODE.hints[MODE.current_index(context)], value=MODE),
             Item("TABLE", f"IS {title}", lambda: context.open(table_page(context))),
-            Item("WATCH", "GAMES PLAYED BY YOU OR BY ME", lambda: context.open(watch_page(context))),
+            Item("WATCH", "YOUR GAMES, OR A DEMO", lambda: context.open(watch_page(context))),
             Item("SCORES", "THE BEST OF EVERY TABLE", lambda: context.open(ScoresPage())),
             Item("SETTINGS", "COLOURS, SOUND, KEYS", lambda: context.open(settings_page(context))),
             Item("QUIT", "GOOD BYE", Quit),
@@ -81,8 +81,8 @@ def table_page(context: MenuContext) -> ChoicePage:
         if entry.problem:
             hint = f"CANNOT BE PLAYED: {entry.problem[:MAX_PROBLEM_LENGTH].upper()}"
             show_problem = ShowTableProblem(entry.name, entry.problem)
-            return Item(_title(entry), hint, lambda: show_problem, key=entry.name, verb="SAY MORE")
-        hint = "THIS ONE IS CHOSEN" if entry.name == context.settings.current.table else entry.about.upper()
+            return Item(_title(entry), hint, lambda: show_problem, key=entry.name, verb="DETAILS")
+        hint = "CURRENT TABLE" if entry.name == context.settings.current.table else entry.description.upper()
         return Item(_title(entry), hint, lambda: choose(entry), key=entry.name)
 
     def items() -> list[Item]:
@@ -119,7 +119,7 @@ def seed_page(context: MenuContext) -> ChoicePage:
         if context.last_seed is not None:
             seed = context.last_seed
             all_items.append(Item("THE SAME", f"SEED {seed} AGAIN", lambda: choose(seed)))
-        return [*all_items, Item("NUMBER", "ENTER A SEED BY DIGITS", enter), _back_item(context)]
+        return [*all_items, Item("NUMBER", "ENTER A SEED", enter), _back_item(context)]
 
     return ChoicePage("board", lambda: f"BOARD: {_seed_text(context)}", items)
 
@@ -131,7 +131,7 @@ def watch_page(context: MenuContext) -> ChoicePage:
         context.suspend()
         return WatchLast()
 
-    def demo(player: str) -> Command:
+    def watch_demo(player: str) -> Command:
         context.suspend()
         return WatchDemo(player)
 
@@ -144,8 +144,8 @@ def watch_page(context: MenuContext) -> ChoicePage:
                 Item("HIGH SCORES", "HOW THEY WERE MADE", lambda: context.open(high_scores_page(context)))
             )
         for player, label, hint, *_ in demo_players():
-            place = f"{hint} ON {context.table.title.upper()}"
-            all_items.append(Item(label, place, lambda player=player: demo(player)))  # type: ignore[misc]
+            text = f"{hint} ON {context.table.title.upper()}"
+            all_items.append(Item(label, text, lambda player=player: watch_demo(player)))  # type: ignore[misc]
         return [*all_items, _back_item(context)]
 
     return ChoicePage("watch", "WATCH", items)
@@ -216,7 +216,7 @@ def settings_page(context: MenuContext) -> ChoicePage:
 def _title(entry: TableEntry) -> str:
     """Return the displayed name of a table."""
     title = entry.title.upper()
-    return f"{BROKEN_MARK} {title}" if entry.problem else title
+    return f"{INVALID_PREFIX} {title}" if entry.problem else title
 
 
 def _back_item(context: MenuContext) -> Item:
@@ -245,14 +245,16 @@ def pause_page(context: MenuContext) -> ChoicePage:
 
     def items() -> list[Item]:
         return [
-            Item("GO ON", "THE GAME IS PAUSED", resume),
+            Item("RESUME", "THE GAME IS PAUSED", resume),
             Item(
                 "RESTART",
                 "THE SAME BOARD FROM THE START",
-                lambda: context.open(_sure(context, "RESTART?", restart)),
+                lambda: context.open(_confirm_page(context, "RESTART?", restart)),
             ),
             Item("SETTINGS", "COLOURS, SOUND, KEYS", lambda: context.open(settings_page(context))),
-            Item("END GAME", "TO THE MAIN MENU", lambda: context.open(_sure(context, "END GAME?", end))),
+            Item(
+                "END GAME", "TO THE MAIN MENU", lambda: context.open(_confirm_page(context, "END GAME?", end))
+            ),
         ]
 
     return ChoicePage("pause", "PAUSE", items, back=resume, allows_attract=False)
@@ -293,10 +295,10 @@ def over_page(context: MenuContext, score: int) -> ChoicePage:
     return ChoicePage("over", "GAME OVER", items, back=menu)
 
 
-def _sure(context: MenuContext, title: str, do: Callable[[], Command]) -> ChoicePage:
-    """Ask for confirmation before a game is given up."""
+def _confirm_page(context: MenuContext, title: str, do: Callable[[], Command]) -> ChoicePage:
+    """Ask for confirmation before a game is abandoned."""
     items = [
         Item("NO", "GO BACK", context.back),
-        Item("YES", "THIS GAME IS LOST THEN", do),
+        Item("YES", "THIS GAME WILL BE LOST", do),
     ]
     return ChoicePage("sure", title, lambda: items, allows_attract=False)

@@ -1,9 +1,9 @@
 """Pages on which the player remaps keys, or buttons of gamepads and joysticks.
 
 The player chooses an action and presses the key. A button is bound for the kind of device on which it was
-pressed: for all gamepads, whose buttons have common names, or for all joysticks of one make. If a key already
-belongs to another action, the page says so and asks. The last key of an action that the menus need cannot be
-taken away.
+pressed: for all gamepads, whose buttons have common names, or for all joysticks of one make. If a key is
+already bound to another action, the page asks for confirmation. The last key of an action that the menus need
+cannot be removed.
 """
 
 from __future__ import annotations
@@ -26,20 +26,20 @@ from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.context import JoystickEntry, MenuContext, Page
 from silverball.drawing.dotmatrix.canvas import Dots
 
-CAPTURE_TIMEOUT = 8.0  # [s] to press the key; without a keyboard, waiting leads back
+CAPTURE_TIMEOUT = 8.0  # [s] to press the key; afterwards the page goes back, also without a keyboard
 
 PageKind: TypeAlias = Literal["keys", "pad"]
 """Whether a page is about keys, or about buttons of gamepads and joysticks."""
 
 TITLES = {"keys": "KEYS", "pad": "GAMEPAD"}
-THING = {"keys": "KEY", "pad": "BUTTON"}
+INPUT_NOUN = {"keys": "KEY", "pad": "BUTTON"}
 
 
 def remap_page(context: MenuContext, kind: PageKind) -> ChoicePage:
     """All actions with their keys, or with their buttons, and all connected joysticks."""
 
     def reset() -> None:
-        context.show_message("AS THEY WERE AT FIRST")
+        context.show_message("DEFAULTS RESTORED")
         settings = context.settings.current
         for one in _kinds(context, kind):
             settings = with_bindings(settings, one, {})
@@ -63,7 +63,7 @@ def remap_page(context: MenuContext, kind: PageKind) -> ChoicePage:
                 for binding in context.actions
                 if binding.defaults(kind) or kind == "keys"
             ),
-            Item("RESET ALL", "AS THEY WERE AT FIRST", reset),
+            Item("RESET ALL", "RESTORE ALL DEFAULTS", reset),
             Item("BACK", "ALSO: HOLD BOTH PADDLES", context.back),
         ]
 
@@ -86,14 +86,16 @@ def action_page(context: MenuContext, kind: PageKind, binding: ActionBinding) ->
                     context.show_message(f"{other.label} NEEDS {context.button_label(name)}")
                     return
             settings = with_assignment(settings, context.actions, one, binding.action, binding.defaults(one))
-        context.show_message("AS IT WAS AT FIRST")
+        context.show_message("DEFAULT RESTORED")
         context.settings.replace(settings)
 
     def items() -> list[Item]:
         hint = f"NOW {_binding_names(context, binding, kind)}"
         return [
-            Item(f"NEW {THING[kind]}", hint, lambda: context.open(CapturePage(kind, binding, "new"))),
-            Item("ONE MORE", hint, lambda: context.open(CapturePage(kind, binding, "more"))),
+            Item(
+                f"NEW {INPUT_NOUN[kind]}", hint, lambda: context.open(CapturePage(kind, binding, "replace"))
+            ),
+            Item("ONE MORE", hint, lambda: context.open(CapturePage(kind, binding, "add"))),
             Item("RESET", f"TO {_names(context, binding.defaults(kind)) or 'NONE'}", reset),
             Item("BACK", hint, context.back),
         ]
@@ -102,25 +104,25 @@ def action_page(context: MenuContext, kind: PageKind, binding: ActionBinding) ->
 
 
 class CapturePage(Page):
-    """A page that waits for the key.
+    """A page that waits for the key or button to bind.
 
     Args:
         kind: Whether to wait for a key or for a button.
-        binding: The action that gets it.
-        way: Whether it replaces the existing ones ("new") or is added ("more").
+        binding: The action to bind.
+        change: Whether the key replaces the existing ones ("replace") or is added to them ("add").
     """
 
     name = "capture"
     repeats = False
 
-    def __init__(self, kind: PageKind, binding: ActionBinding, way: Literal["new", "more"]) -> None:
+    def __init__(self, kind: PageKind, binding: ActionBinding, change: Literal["replace", "add"]) -> None:
         self.kind = kind
         self._binding = binding
-        self._way = way
+        self._change = change
         self._problem = ""
 
     def press(self, button: Button, context: MenuContext) -> Command | None:
-        """Go back: a button that arrives here is not one that can be captured."""
+        """Go back: buttons that can be captured do not reach this method."""
         context.back()
         return None
 
@@ -137,7 +139,7 @@ class CapturePage(Page):
             context.back()
             return None
         if not name:
-            self._problem = f"THAT {THING[self.kind]} HAS NO NAME"
+            self._problem = f"THAT {INPUT_NOUN[self.kind]} HAS NO NAME"
             return None
         other = find_owner(context.settings.current, context.actions, kind, name)
         if other is None or other.action == self._binding.action:
@@ -145,7 +147,9 @@ class CapturePage(Page):
             self._bind(context, name, kind)
             return None
         if _is_last(context, other, kind, name):
-            self._problem = f"{context.button_label(name)} IS THE ONLY {THING[self.kind]} OF {other.label}"
+            self._problem = (
+                f"{context.button_label(name)} IS THE ONLY {INPUT_NOUN[self.kind]} OF {other.label}"
+            )
             return None
         context.back()
         context.open(self._conflict(context, name, kind, other))
@@ -156,7 +160,7 @@ class CapturePage(Page):
         dots = Dots()
         page_layout.title(dots, self._binding.label)
         if page_layout.is_blink_on(seconds, 0.8):
-            page_layout.middle(dots, f"PRESS A {THING[self.kind]}", seconds)
+            page_layout.middle(dots, f"PRESS A {INPUT_NOUN[self.kind]}", seconds)
         if self._problem:
             page_layout.foot(dots, (self._problem,), seconds - self.shown_at, 255)
         else:
@@ -166,11 +170,11 @@ class CapturePage(Page):
         return dots
 
     def signature(self) -> Hashable:
-        """Return what the page waits for."""
-        return self.kind, self._binding.action, self._way
+        """Return the kind, the action and the change that the page waits for."""
+        return self.kind, self._binding.action, self._change
 
     def _bind(self, context: MenuContext, name: str, kind: DeviceKind) -> None:
-        before = names_for(context.settings.current, self._binding, kind) if self._way == "more" else ()
+        before = names_for(context.settings.current, self._binding, kind) if self._change == "add" else ()
         names = (*(one for one in before if one != name), name)
         context.show_message(f"{self._binding.label}: {_names(context, names)}")
         context.settings.replace(
@@ -186,12 +190,12 @@ class CapturePage(Page):
 
         def again() -> None:
             context.back()
-            context.open(CapturePage(self.kind, self._binding, self._way))
+            context.open(CapturePage(self.kind, self._binding, self._change))
 
         hint = f"{context.button_label(name)} IS {other.label} NOW"
         items = [
             Item("TAKE IT", hint, take),
-            Item(f"OTHER {THING[self.kind]}", hint, again),
+            Item(f"OTHER {INPUT_NOUN[self.kind]}", hint, again),
             Item("LEAVE IT", hint, context.back),
         ]
         title = f"{context.button_label(name)} FOR {self._binding.label}?"
@@ -221,4 +225,4 @@ def _binding_names(context: MenuContext, binding: ActionBinding, page_kind: Page
         _names(context, names_for(context.settings.current, binding, kind))
         for kind in _kinds(context, page_kind)
     )
-    return "; ".join(filter(None, listed)) or f"NO {THING[page_kind]}"
+    return "; ".join(filter(None, listed)) or f"NO {INPUT_NOUN[page_kind]}"

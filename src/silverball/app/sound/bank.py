@@ -1,8 +1,8 @@
-"""The bank of sounds: the table of all recipes, and every wave of them, made once at its right loudness.
+"""The sound bank: all recipes, and the waves made from them at their target loudness.
 
 A sound has layers (how hard the blow was, or which step of the scale) and in each layer some variations, so
-that no two blows in a row play the same wave. Waves are int16, shape `[sample]`, mono; playing pans
-them.
+that no two blows in a row play the same wave. Waves are int16, shape `[sample]`, mono; they are panned
+when they are played.
 """
 
 from __future__ import annotations
@@ -73,9 +73,9 @@ RECIPES: dict[str, Recipe] = {
 
 Samples: TypeAlias = NDArray[np.int16]
 
-FULL = 32767.0
+FULL = 32767.0  # the greatest int16 sample
 PEAK = 0.5
-"""Peak of all waves, so that two of the loudest add up without limiting."""
+"""Peak of every wave, so that two of the loudest can be added without limiting."""
 
 
 class Key(NamedTuple):
@@ -105,7 +105,7 @@ class Bank(NamedTuple):
 
 @lru_cache(maxsize=1)
 def make_bank() -> Bank:
-    """Make all sounds; the result is always the same."""
+    """Make all sounds, deterministically."""
     waves = {}
     for number, (name, recipe) in enumerate(RECIPES.items()):
         for layer in range(recipe.layers):

@@ -1,7 +1,7 @@
 """Recipes for the sounds of the board: one function each, from a layer to a wave.
 
-A layer is how hard the blow was (0 soft, 1 hard), or for a cylinder the step of the scale. The random
-generator makes no two blows alike.
+A layer is the strength of the blow (0 soft, 1 hard), or for a cylinder the step of the scale. The random
+generator makes every blow different.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from silverball.app.sound.synth import (
 
 
 def wall(layer: int, random: np.random.Generator) -> Wave:
-    """Wood, behind a strip of rubber: a low bar that is damped at once."""
+    """Wood, behind a strip of rubber: a low, strongly damped bar."""
     body = struck(
         208.0 + 14.0 * layer, BAR, 0.16, brightness=0.5 + 0.2 * layer, damping=0.8, detune=0.03, random=random
     )

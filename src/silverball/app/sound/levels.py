@@ -1,7 +1,8 @@
-"""Loudness: of a wave as the ear weighs it, of a hit by its speed, and in each ear by its place.
+"""Loudness of a wave as the ear weighs it, strength of a hit by its speed, and panning by its place.
 
-K-weighting is that of broadcast loudness: two filters, a shelf that lifts what lies above 2 kHz by 4 dB and a
-high-pass at 38 Hz. Source: Recommendation ITU-R BS.1770-5 (2023), annex 1; here as a factor for every pitch.
+K-weighting, as for broadcast loudness, has two filters: a shelf that raises pitches above 2 kHz by 4 dB, and
+a high-pass at 38 Hz. Source: Recommendation ITU-R BS.1770-5 (2023), annex 1; here as a factor for every
+pitch.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from silverball.app.sound.synth import RATE, Wave
 
 MOMENT = 0.1
-"""Length of a moment [s]: roughly what the ear integrates."""
+"""Window of the loudness measurement [s]: roughly the time over which the ear integrates."""
 
 _SHELF_PITCH, _SHELF_GAIN, _SHELF_Q = 1681.974450955533, 3.999843853973347, 0.7071752369554196
 _LOW_PITCH, _LOW_Q = 38.13547087602444, 0.5003270373238773

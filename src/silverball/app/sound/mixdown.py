@@ -1,7 +1,7 @@
-"""The sound of a film: all notes and loops of a game, added up at their exact times.
+"""The sound of a film: all notes and loops of a game, mixed at their exact times.
 
-The voices are those of the window, but every hit is at its exact sample, and rolling changes smoothly; the
-same frames always give the same samples.
+The voices are those of the window, but every hit starts at its exact sample, and rolling changes smoothly.
+The same frames always give the same samples.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from silverball.app.sound.bank import FULL, Bank, Samples, make_bank, to_samples
 from silverball.app.sound.rolling import LANES, Gains, Rolling, RollingBall
-from silverball.app.sound.synth import RATE, Wave, single, soft_limit
+from silverball.app.sound.synth import RATE, Wave, as_float32, soft_limit
 from silverball.app.sound.voices import Note, Voices
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ VOLUME = 0.8
 """Strength of a film's sound."""
 
 
-MAX_FADE = RATE // 2  # [sample] over which strengths change; in longer frames they then stay
+MAX_FADE = RATE // 2  # [sample] longest change of a strength; in longer frames it is constant afterwards
 
 
 class Soundtrack(NamedTuple):
@@ -49,10 +49,10 @@ class Frame(NamedTuple):
     Attributes:
         time: End of the frame in the film [s].
         world_time: Time of the world at that moment [s]; the film may be slower, or begin later.
-        events: Of the world, since the previous frame.
+        events: Events of the world since the previous frame.
         balls: All balls on the board.
         buttons: Whether the left and the right paddle button are down.
-        game_events: Since the previous frame.
+        game_events: Game events since the previous frame.
         menu: A menu sound, see `Sounds.play_menu`.
     """
 
@@ -127,7 +127,7 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
         tick_rate: Ticks per second of the world.
     """
     bank = make_bank()
-    loops = [single(np.concatenate([loop, loop[:MAX_FADE]]) / FULL) for loop in bank.loops]
+    loops = [as_float32(np.concatenate([loop, loop[:MAX_FADE]]) / FULL) for loop in bank.loops]
     total = np.zeros((2, max(round(seconds * RATE), 1)), np.float32)
     width = table.board.width
     voices, rolling = Voices(table), Rolling()

@@ -67,7 +67,7 @@ class Mixer:
 
     @property
     def is_loaded(self) -> bool:
-        """Whether there are sounds to play."""
+        """Whether the waves are loaded."""
         return bool(self._loops)
 
     @property

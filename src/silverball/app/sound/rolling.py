@@ -21,7 +21,7 @@ ROLL_SPEEDS = tuple(_RATIO**number for number in range(8))
 """Speeds [u/s] that have a loop, 1 to 21.5; between them two loops are blended."""
 
 ROLL_SECONDS = 1.5
-"""Length of a loop, long enough that repetition is not noticed."""
+"""Length of a loop [s], long enough to hide the repetition."""
 
 ROLL_LEVEL = -28.0
 """Loudness of a loop at full strength [dB]: well below a hit."""
@@ -60,12 +60,12 @@ def roll_wobble(speed: float) -> Wave:
 # --- blending of the loops ------------------------------------------------------------------------------
 
 LANES = 3
-"""Balls that are heard at once: two, and one that has just left and fades."""
+"""Balls heard at the same time: two, and one that has just left and fades."""
 
-_STILL = 0.15  # [u/s] up to which a ball is silent
-_FULL = 20.0  # [u/s] of a ball at full strength
+_STILL = 0.15  # [u/s] a ball at this speed or below is silent
+_FULL = 20.0  # [u/s] a ball at this speed has full strength
 _LOUDER, _SOFTER = 0.08, 0.12  # [s] time constants of the strength
-_MOST_SHARE = 0.25  # of a change per frame: the mixer sets strengths in steps, and large steps click
+_MAX_STEP = 0.25  # share of a change per frame: large steps of the mixer's strengths click
 _SILENT = 0.008  # strength below which a fading loop ends
 
 
@@ -83,22 +83,22 @@ Gains = dict[tuple[int, int], tuple[float, float]]
 
 
 class Rolling:
-    """Follows the balls, frame by frame."""
+    """Computes the gains of the loops from the balls, frame by frame."""
 
     def __init__(self) -> None:
         self._lanes = [_Lane() for _ in range(LANES)]
 
     def reset(self) -> None:
-        """Drop all balls."""
+        """Stop all loops."""
         self._lanes = [_Lane() for _ in range(LANES)]
 
     def update(self, balls: Iterable[tuple[int, float, float, float]], seconds: float, width: float) -> Gains:
         """Return the gains after more time [s]; balls as `RollingBall`, the width of the table in [u]."""
-        there = {ball[0]: ball for ball in balls}
-        followed = [(lane, there.pop(lane.ball, None)) for lane in self._lanes]
+        unassigned = {ball[0]: ball for ball in balls}
+        followed = [(lane, unassigned.pop(lane.ball, None)) for lane in self._lanes]
         for number, (lane, ball) in enumerate(followed):
-            if ball is None and there and not lane.gains:
-                lane.ball, found = there.popitem()
+            if ball is None and unassigned and not lane.gains:
+                lane.ball, found = unassigned.popitem()
                 followed[number] = (lane, found)
         for lane, ball in followed:
             lane.follow({} if ball is None else _steady_gains(ball[3], pan(ball[2], width)), seconds)
@@ -117,7 +117,7 @@ class _Lane:
         self.gains: dict[int, tuple[float, float]] = {}
 
     def follow(self, target: dict[int, tuple[float, float]], seconds: float) -> None:
-        louder, softer = (min(1.0 - math.exp(-seconds / time), _MOST_SHARE) for time in (_LOUDER, _SOFTER))
+        louder, softer = (min(1.0 - math.exp(-seconds / time), _MAX_STEP) for time in (_LOUDER, _SOFTER))
         gains = {}
         for loop in self.gains.keys() | target.keys():
             left, right = self.gains.get(loop, (0.0, 0.0))

@@ -1,4 +1,4 @@
-"""The sounds of a window: `Sounds` opens the device, plays what happens, and never fails."""
+"""The sounds of a window: `Sounds` opens the device, plays events, and never raises an error."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Sounds:
     In each frame call `play_game_events`, `play_events`, `set_buttons`, then `set_rolling`.
 
     Args:
-        settings: With volume and mute.
+        settings: Settings with the volume and mute.
 
     Attributes:
         warning: Why there is no sound, in one sentence; empty if there is.
@@ -87,7 +87,7 @@ class Sounds:
         return 0 if self._mixer is None else self._mixer.voices
 
     def apply_settings(self, settings: Settings) -> None:
-        """Set the volume; muting fades out everything at once."""
+        """Set the volume; muting fades out all sounds."""
         self._volume = master_volume(settings)
         if self._volume == 0.0:
             self._try(lambda mixer: mixer.fade_all())
@@ -95,7 +95,7 @@ class Sounds:
     # --- events ---------------------------------------------------------------------------------------
 
     def begin_game(self, table: Table) -> None:
-        """Begin another game on a table, whose paddles determine when they reach their stops."""
+        """Begin another game on a table; the timing of the paddles' stops depends on it."""
         self._voices.begin_game(table)
         self._end_rolling()
 
@@ -120,9 +120,9 @@ class Sounds:
         gains = self._rolling.update(balls, dt, width)
         self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, self._volume))
 
-    def play_menu(self, what: str) -> None:
+    def play_menu(self, name: str) -> None:
         """Play a menu sound: "move", "choose", "back", "refuse", "high_score" or "attract"."""
-        self._play(self._voices.menu(what))
+        self._play(self._voices.menu(name))
 
     def pause(self) -> None:
         """Pause: rolling fades, hits ring out, menus stay audible."""
@@ -146,11 +146,11 @@ class Sounds:
             self._try(play)
 
     def _try(self, action: Callable[[Mixer], None]) -> None:
-        """Run an action of the mixer; if its device is gone, the game continues in silence."""
+        """Run an action of the mixer; if its device has disappeared, the game continues in silence."""
         if self._mixer is None:
             return
         try:
             action(self._mixer)
         except Exception as error:
             self._mixer = None
-            self.warning = f"no sound any more: the audio device is gone ({error})"
+            self.warning = f"no sound: the audio device has disappeared ({error})"

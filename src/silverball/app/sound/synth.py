@@ -3,8 +3,8 @@
 A wave is float32, shape `[sample]`, mono, at `RATE` samples a second. Times are in seconds, pitches in Hz.
 Randomness comes only from the generator that is passed in, so the same seed makes the same wave.
 
-The scale is G major pentatonic (G A B D E), in which no two notes clash: hits that coincide by chance still
-sound like a chord.
+The scale is G major pentatonic (G A B D E), in which no two notes clash: hits that coincide sound like a
+chord.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ Wave: TypeAlias = NDArray[np.floating[Any]]
 
 FADE_IN = 0.0004  # [s] at the start of every sound: shorter clicks, longer takes the edge off a hit
 FADE_OUT = 0.012  # [s] at its end
-NATURAL = -80.0  # [dB] at which a decay is cut off
+DECAY_FLOOR = -80.0  # [dB] below which a decay is cut off
 _BLOCK = 256  # samples of decaying tones computed at once
 _EDGE = 480  # samples in which a layer of a mix fades out
 _FALL = (0.5 - 0.5 * np.cos(np.pi * np.arange(1, _EDGE + 1) / _EDGE)).astype(np.float32)
@@ -68,8 +68,8 @@ class Partial(NamedTuple):
     decay: float
 
 
-def single(values: Any) -> Wave:
-    """Convert to float32: twice as fast to add, and far more precise than 16 bits."""
+def as_float32(values: Any) -> Wave:
+    """Convert to float32, which is twice as fast to add as float64 and precise enough."""
     wave: Wave = values.astype(np.float32, copy=False)
     return wave
 
@@ -92,7 +92,7 @@ def ring(partials: Sequence[Partial], seconds: float) -> Wave:
         if pitch >= 0.45 * RATE:
             continue
         exponent = complex(-math.log(1000.0) / decay, 2.0 * math.pi * pitch) / RATE
-        audible = min(blocks, math.ceil(sample_count(-NATURAL / 60.0 * decay) / _BLOCK))
+        audible = min(blocks, math.ceil(sample_count(-DECAY_FLOOR / 60.0 * decay) / _BLOCK))
         coarse = strength * np.exp(exponent * _BLOCK * np.arange(audible))
         fine = np.exp(exponent * np.arange(_BLOCK))
         wave[:audible] += np.outer(coarse.real.astype(np.float32), fine.imag.astype(np.float32))
@@ -113,11 +113,11 @@ def struck(
     """Return the partials of a struck object.
 
     Args:
-        pitch: Of the lowest partial [Hz].
-        ratios: Of the pitches to the lowest.
-        decay: Of the lowest partial [s].
+        pitch: Pitch of the lowest partial [Hz].
+        ratios: Ratios of the pitches to the lowest.
+        decay: Decay of the lowest partial [s].
         brightness: Strength of each partial relative to the one below; a harder blow is brighter.
-        damping: How much faster high partials decay: in `decay` · ratio^−damping. Wood 0.9, metal 0.6.
+        damping: Exponent of the decay of high partials, `decay` · ratio^−damping. Wood 0.9, metal 0.6.
         detune: Greatest relative detuning of a partial; makes no two blows alike.
         random: Draws the detuning and small differences of strength.
     """
@@ -137,7 +137,7 @@ def noise(
     pitches = np.fft.rfftfreq(count, 1.0 / RATE)
     spectrum = np.fft.rfft(random.standard_normal(count, np.float32)) * _band(pitches, low, high, slope)
     wave = np.fft.irfft(spectrum, count)
-    return single(wave[: sample_count(seconds)] / np.sqrt(np.mean(wave**2)))
+    return as_float32(wave[: sample_count(seconds)] / np.sqrt(np.mean(wave**2)))
 
 
 def puff(
@@ -206,8 +206,8 @@ def looped(spectrum: Callable[[Wave], Wave], seconds: float, seed: int) -> Wave:
 
     Args:
         spectrum: Returns the strength at a pitch [Hz].
-        seconds: Of the loop.
-        seed: Of the phases.
+        seconds: Length of the loop.
+        seed: Seed of the phases.
     """
     count = sample_count(seconds)
     pitches = np.fft.rfftfreq(count, 1.0 / RATE)
@@ -215,7 +215,7 @@ def looped(spectrum: Callable[[Wave], Wave], seconds: float, seed: int) -> Wave:
     drawn = random.standard_normal(len(pitches)) + 1j * random.standard_normal(len(pitches))
     drawn[0] = 0.0
     wave = np.fft.irfft(drawn * spectrum(pitches), count)
-    return single(wave / np.sqrt(np.mean(wave**2)))
+    return as_float32(wave / np.sqrt(np.mean(wave**2)))
 
 
 def soft_limit(wave: Wave, knee: float = 0.7) -> Wave:
@@ -230,7 +230,7 @@ def soft_limit(wave: Wave, knee: float = 0.7) -> Wave:
 
 
 def _fall(time: Wave, decay: float) -> Wave:
-    return single(np.exp(-math.log(1000.0) / decay * time))
+    return as_float32(np.exp(-math.log(1000.0) / decay * time))
 
 
 def _band(pitches: Wave, low: float, high: float, slope: float) -> Wave:
@@ -238,7 +238,7 @@ def _band(pitches: Wave, low: float, high: float, slope: float) -> Wave:
     with np.errstate(divide="ignore"):
         below = np.minimum(pitches / low, 1.0) ** power
         above = np.minimum(high / pitches, 1.0) ** power
-    return single(below * above)
+    return as_float32(below * above)
 
 
 def _good_length(count: int) -> int:

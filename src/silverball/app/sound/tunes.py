@@ -10,12 +10,12 @@ from silverball.app.sound.synth import (
     RATE,
     TUNED_BAR,
     Wave,
+    as_float32,
     envelope,
     glide,
     mix,
     pitch_of,
     ring,
-    single,
     struck,
 )
 
@@ -46,7 +46,7 @@ def _reed(step: int, seconds: float, release: float = 0.12) -> Wave:
     edge = min(release, 0.5 * seconds)
     time = np.arange(len(tone)) / RATE
     shape = np.minimum(np.minimum(time / 0.02, 1.0), np.maximum(seconds - time, 0.0) / edge)
-    return single(tone * np.sin(0.5 * np.pi * np.minimum(shape, 1.0)) ** 2)
+    return as_float32(tone * np.sin(0.5 * np.pi * np.minimum(shape, 1.0)) ** 2)
 
 
 def ball_saved(layer: int, random: np.random.Generator) -> Wave:

@@ -1,6 +1,7 @@
-"""The voices: which sounds events, game events and buttons trigger, as notes to play.
+"""The voices: notes for the sounds that events, game events and buttons trigger.
 
-No sound device and no clock: the window plays the notes at once, a film places them at their times.
+This module has no sound device and no clock: the window plays the notes immediately, a film places them at
+their times.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ MAX_NEW = 4
 """Hits that begin to sound in one frame; the loudest are chosen."""
 
 MAX_AT_ONCE = 1.6
-"""Limit for the sum of strengths in one frame; more are scaled down, so that nothing clips."""
+"""Limit for the sum of strengths in one frame; a greater sum is scaled down to it, to prevent clipping."""
 
 HARD = 6.0
 """Impact speed [u/s] from which a hit sounds hard."""
@@ -40,7 +41,7 @@ PADDLE_PLACE = 0.25  # of the width, left and right of the middle
 _RATTLE_DECAY = 0.25  # [s] time constant of a ball's hit count
 _RATTLE_LIMIT = 3.0  # decayed hit count above which a ball gets softer
 
-_HITS = {  # kind of part → sound, minimum strength (a cylinder kicks even at a soft touch)
+_HITS = {  # kind of part → sound, minimum strength (a cylinder kicks even on a soft touch)
     "board": ("wall", 0.0),
     "slant_wall": ("slant_wall", 0.0),
     "triangular_prism": ("prism", 0.15),
@@ -71,10 +72,10 @@ class Note(NamedTuple):
     """A sound to play.
 
     Attributes:
-        key: Which wave.
+        key: Key of the wave.
         left: Strength in the left ear, 0 to 1.
         right: Strength in the right ear.
-        ago: How long before the end of the frame it is due [s].
+        ago: Time from the note to the end of the frame [s].
     """
 
     key: Key
@@ -84,7 +85,7 @@ class Note(NamedTuple):
 
 
 class Voices:
-    """Turns events into notes; its memory keeps them varied, musical and few."""
+    """Turns events into notes, and remembers recent ones to vary them and to limit repetition."""
 
     def __init__(self, table: Table | None = None) -> None:
         self._next_variation: Counter[tuple[str, int]] = Counter()
@@ -114,9 +115,9 @@ class Voices:
         """Return the notes of a frame's events.
 
         Args:
-            events: In order of time.
+            events: Events in order of time.
             tick_rate: Ticks per second.
-            width: Of the table [u].
+            width: Width of the table [u].
             now: Time of the world at the end of the frame [s]; None: that of the last event.
         """
         if not events:
@@ -148,11 +149,11 @@ class Voices:
             return None if self._is_repeat(0, "jitter", time, 0.8) else ("shove", 0, 0.8)
         if event.kind == "gutter":
             return "drain", 0, 0.9
-        name, least = _HITS.get(self._kinds.get(event.part, ""), ("", 0.0))
+        name, min_strength = _HITS.get(self._kinds.get(event.part, ""), ("", 0.0))
         if not name or event.kind == "jam":
             return None
         is_hit = event.kind in ("hit", "ball_hit")
-        strength = max(strength_of(event.speed), least if is_hit else 0.0) * self._rattle_factor(
+        strength = max(strength_of(event.speed), min_strength if is_hit else 0.0) * self._rattle_factor(
             event.ball, time
         )
         if strength < SOFTEST or self._is_repeat(event.ball, event.part, time, strength):
@@ -179,8 +180,8 @@ class Voices:
         return min(1.0, (_RATTLE_LIMIT / load) ** 2)
 
     def _climb(self, tick: int, time: float) -> None:
-        goes_on = 0.0 <= time - self._run_time < RUN_SECONDS
-        self._run = self._combos.get(tick, self._run + 1 if goes_on else 1)
+        continues = 0.0 <= time - self._run_time < RUN_SECONDS
+        self._run = self._combos.get(tick, self._run + 1 if continues else 1)
         self._run_time = time
 
     # --- events of the game and the menus -----------------------------------------------------------
@@ -235,7 +236,7 @@ class Voices:
 
 
 class _Paddle:
-    """The position of a paddle between its stops, 0 to 1, accurate enough for sound."""
+    """The position of a paddle between its stops, 0 to 1, accurate enough for sounds."""
 
     def __init__(self) -> None:
         self.exists = True

@@ -1,8 +1,8 @@
 """The candidates of the benchmark: Silverball's environments in several configurations, and others.
 
-Others are measured where their packages are installed: Gymnasium's CartPole (its fastest), Atari's
-VideoPinball by ale-py and by EnvPool, and PufferLib's breakout in C. Those that use several threads get one
-for each core. Actions are random.
+Others are measured where their packages are installed: Gymnasium's CartPole (the fastest of Gymnasium),
+Atari's VideoPinball by ale-py and by EnvPool, and PufferLib's breakout in C. Vectors that use threads get one
+per core. Actions are random.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ ATARIS = 16
 BREAKOUTS = 1024
 BOARDS = 16
 SINGLE_STEPS = 1000  # of one environment in one call, so that the cost of the call is negligible
-ACTIONS = 16  # rows of random actions that are cycled through
+ACTIONS = 16  # rows of random actions, reused in turn
 
-Made = tuple[Callable[[], object], int]
-"""A callable, and the number of steps that one call makes."""
+Workload = tuple[Callable[[], object], int]
+"""A callable to time, and the number of steps that one call makes."""
 
 
 class Candidate(NamedTuple):
-    """Something whose speed is measured.
+    """A configuration of an environment to measure.
 
     Attributes:
-        name: As shown in the table.
-        make: Builds it and returns a callable and the steps of one call.
+        name: Name shown in the table.
+        make: Builds the environment and returns its workload.
         sees: The kind of observation: "state" or "pictures"; "" if nothing is observed.
         ours: Whether it is one of Silverball's.
         yardstick: Its name as a baseline, which gets a column of ratios; "" if it is not a baseline.
@@ -47,7 +47,7 @@ class Candidate(NamedTuple):
     """
 
     name: str
-    make: Callable[[], Made]
+    make: Callable[[], Workload]
     sees: str = "state"
     ours: bool = True
     yardstick: str = ""
@@ -142,7 +142,7 @@ def others() -> list[Candidate]:
     ]  # fmt: skip
 
 
-def _one(id_: str, **options: Any) -> Made:
+def _one(id_: str, **options: Any) -> Workload:
     import gymnasium
 
     import silverball.envs  # noqa: F401  (registers)
@@ -150,7 +150,7 @@ def _one(id_: str, **options: Any) -> Made:
     return _stepped(gymnasium.make(id_, **options))
 
 
-def _stepped(env: Any) -> Made:
+def _stepped(env: Any) -> Workload:
     env.reset(seed=0)
     actions = np.random.default_rng(0).integers(0, env.action_space.n, SINGLE_STEPS).tolist()
 
@@ -163,7 +163,7 @@ def _stepped(env: Any) -> Made:
     return step, len(actions)
 
 
-def _many(id_: str, count: int, **options: Any) -> Made:
+def _many(id_: str, count: int, **options: Any) -> Workload:
     import gymnasium
 
     import silverball.envs  # noqa: F401  (registers)
@@ -171,18 +171,18 @@ def _many(id_: str, count: int, **options: Any) -> Made:
     return _stepped_together(gymnasium.make_vec(id_, count, **options))
 
 
-def _stepped_together(envs: Any) -> Made:
+def _stepped_together(envs: Any) -> Workload:
     envs.reset(seed=0)
     return _cycled(envs.step, int(envs.single_action_space.n), int(envs.num_envs))
 
 
-def _cycled(step: Callable[[Any], object], choices: int, count: int, kind: Any = np.int64) -> Made:
+def _cycled(step: Callable[[Any], object], choices: int, count: int, kind: Any = np.int64) -> Workload:
     actions: NDArray[Any] = np.random.default_rng(0).integers(0, choices, (ACTIONS, count)).astype(kind)
     turn = iter(range(2**62))
     return lambda: step(actions[next(turn) % ACTIONS]), count
 
 
-def _saving() -> Made:
+def _saving() -> Workload:
     env = _unwrapped()
 
     def save() -> None:
@@ -192,7 +192,7 @@ def _saving() -> Made:
     return save, SINGLE_STEPS
 
 
-def _restoring() -> Made:
+def _restoring() -> Workload:
     env = _unwrapped()
     state = env.save_state()
 
@@ -213,26 +213,26 @@ def _unwrapped() -> Any:
     return env
 
 
-def _breakout() -> Made:
+def _breakout() -> Workload:
     module = importlib.import_module("pufferlib.ocean.breakout.breakout")
     envs = module.Breakout(num_envs=BREAKOUTS)
     envs.reset()
     return _cycled(envs.step, int(envs.single_action_space.n), BREAKOUTS)
 
 
-def _atari_one() -> Made:
+def _atari_one() -> Workload:
     import gymnasium
 
     gymnasium.register_envs(importlib.import_module("ale_py"))
     return _stepped(gymnasium.make("ALE/VideoPinball-v5"))
 
 
-def _atari_many() -> Made:
+def _atari_many() -> Workload:
     vector = importlib.import_module("ale_py.vector_env")
     return _stepped_together(vector.AtariVectorEnv("video_pinball", ATARIS, num_threads=cores()))
 
 
-def _envpool() -> Made:
+def _envpool() -> Workload:
     envpool = importlib.import_module("envpool")
     envs = envpool.make_gymnasium("VideoPinball-v5", num_envs=ATARIS, num_threads=cores())
     envs.reset()

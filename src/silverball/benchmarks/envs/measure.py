@@ -16,14 +16,14 @@ from silverball.benchmarks.speed import machine
 from silverball.errors import MissingExtra
 
 WARM_UP = 60  # calls
-ROUND = 0.3  # [s] least duration of a round
+MIN_ROUND_TIME = 0.3  # [s], approximately
 
 
 class Rate(NamedTuple):
     """A measured rate.
 
     Attributes:
-        name: Of the candidate.
+        name: Name of the candidate.
         value: Steps per second of all environments together, or for the unit "µs" the time of one call.
         slowest: The value of the slowest round.
         unit: "steps/s" or "µs".
@@ -45,11 +45,11 @@ class Result(NamedTuple):
     """The result of a run.
 
     Attributes:
-        rates: Of all candidates that were measured.
-        rounds: Of each candidate.
+        rates: Rates of all measured candidates.
+        rounds: Rounds of each candidate.
         missing: Packages that are not installed, so that their candidates were left out.
         machine: A description of the machine.
-        versions: Of Python and of the packages.
+        versions: Versions of Python and of the packages.
     """
 
     rates: list[Rate]
@@ -90,7 +90,7 @@ def _seconds(step: Callable[[], object], rounds: int) -> list[float]:
     for _ in range(WARM_UP):
         step()
     calls = 1
-    while _seconds_of(step, calls) < ROUND / 2:
+    while _seconds_of(step, calls) < MIN_ROUND_TIME / 2:
         calls *= 2
     return [_seconds_of(step, calls) / calls for _ in range(rounds)]
 

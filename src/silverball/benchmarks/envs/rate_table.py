@@ -18,7 +18,7 @@ def yardsticks(result: Result) -> list[Rate]:
 
 
 def ratio(rate: Rate, yardstick: Rate) -> float | None:
-    """The ratio of two rates; None where a comparison makes no sense."""
+    """The ratio of two rates; None if they are not comparable."""
     if not (rate.ours or rate is yardstick) or not rate.sees:
         return None
     if yardstick.sees == "state" and rate.sees != "state":

@@ -1,9 +1,9 @@
 """Accuracy of an engine: position errors after 0, 1, 3 and 5 bounces, and the drift of energy.
 
-A scene is a ball released on a random board, with the paddles at rest. Scenes are not chosen by hand: a fixed
-seed draws drops, and those are scenes whose first six contacts are plain bounces (fast enough to bounce in
-every engine, not grazing, and not in quick succession). All engines are compared at the same times, whole
-frames halfway between two bounces, with the reference of 50 digits.
+A scene is a ball released on a random board, with the paddles at rest. Scenes are drawn with a fixed seed: a
+random drop becomes a scene if its first six contacts are plain bounces (fast enough to bounce in every
+engine, not grazing, and not in quick succession). All engines are compared with the reference of 50 digits at
+the same times, whole frames halfway between two bounces.
 
 For the drift, a ball bounces with restitution 1 on a closed random board, under gravity. Its energy at the
 end is the mean over the last ten seconds of ½v² + g·(x − floor), sampled once per second; the true value is
@@ -37,7 +37,7 @@ MAX_DROPS = 100  # per scene; on the built-in tables one drop in six is a scene
 MAX_START_SPEED = 6.0  # [u/s] of a drop, in each direction
 DRIFT_START = (3.0, 4.0)  # vx, vz [u/s]
 DRIFT_SECONDS = 1000
-AVERAGED_SECONDS = 10  # at the end
+AVERAGED_SECONDS = 10  # at the end of the drift
 ROUGH_DIGITS = 15  # enough to decide whether a drop is a scene
 
 
@@ -58,10 +58,10 @@ class Scene(NamedTuple):
 
 
 def scenes(recipe: Table, count: int = SCENES, seed: int = SEED) -> list[Scene]:
-    """The first drops of a seed that are scenes.
+    """The first random drops that are scenes.
 
     Args:
-        recipe: A table, or a recipe, of which every drop gets its own board.
+        recipe: A table, or a recipe that makes a board for every drop.
         count: Number of scenes.
         seed: Seed of the drops.
 
@@ -120,9 +120,9 @@ def errors(scene: Scene, field: Playfield) -> list[float]:
             for _ in range(field.stepping.steps):
                 field.step(False, False)
             frame += 1
-        here = field.balls()
+        balls = field.balls()
         with mpmath.workdps(DIGITS):
-            found.append(float(mpmath.hypot(here[0][0] - x, here[0][1] - z)) if here else math.inf)
+            found.append(float(mpmath.hypot(balls[0][0] - x, balls[0][1] - z)) if balls else math.inf)
     return found
 
 
@@ -139,7 +139,7 @@ def energy(table: Table, ball: tuple[float, float, float, float]) -> float:
 
 
 def drift_start(table: Table) -> tuple[float, float, float, float]:
-    """Start of the ball on the closed form of an open table: x, z [u], vx, vz [u/s]."""
+    """Start of the ball for the drift on a table: x, z [u], vx, vz [u/s]."""
     return (*free_places(table, 0, 1)[0], *DRIFT_START)
 
 

@@ -1,10 +1,10 @@
 """The table in Box2D 2.3 (package box2d), as an experienced user builds it.
 
-Balls are bullets, slant walls edges with a radius, paddles kinematic bodies. The skin of one centimetre that
-polygons have by default is removed, since a ball is thick enough for the swept test. The speed of 1 m/s below
-which nothing bounces cannot be set; a table unit is therefore two metres, which halves it and the engine's
-slop. Larger scales approach its limit of 2 m per step. Its manual recommends 1/60 s with 8 velocity and 3
-position iterations.
+Balls are bullets, slant walls edges with a radius, paddles kinematic bodies. Polygons lose their default skin
+of one centimetre, since a ball is thick enough for the swept test. Nothing bounces below 1 m/s, which cannot
+be changed; a table unit is therefore two metres, which halves this limit and the engine's slop. Larger scales
+approach the engine's limit of 2 m per step. The manual recommends 1/60 s with 8 velocity and 3 position
+iterations.
 """
 
 from __future__ import annotations

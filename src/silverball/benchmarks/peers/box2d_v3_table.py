@@ -2,7 +2,7 @@
 
 Balls are bullets, so they are swept against everything; slant walls are capsules, paddles kinematic bodies.
 The restitution threshold is zero, and the speed cap is that of the Box2D world. Contacts are as stiff as the
-step allows, which has an effect from 1/240 s on. Nothing falls asleep. Its manual recommends steps of 1/60 s
+step allows, which has an effect from 1/240 s on. Sleeping is off. The manual recommends steps of 1/60 s
 with four substeps.
 """
 
@@ -32,13 +32,13 @@ PUSH_SPEED = 3.0  # [u/s] at which an overlap is pushed apart; the default
 
 def rotation(angle: float) -> Any:
     """The rotation by an angle [rad]; the engine's own sine is accurate to 2e-3 only."""
-    made = pyb2d3.Rot()
-    made.s, made.c = math.sin(angle), math.cos(angle)
-    return made
+    result = pyb2d3.Rot()
+    result.s, result.c = math.sin(angle), math.cos(angle)
+    return result
 
 
 def angle_of(body: Any) -> float:
-    """The angle [rad] of a body, by the arc tangent of Python for the same reason."""
+    """The angle [rad] of a body, by Python's arc tangent, since the engine's is inaccurate."""
     turned = body.rotation
     return math.atan2(turned.s, turned.c)
 

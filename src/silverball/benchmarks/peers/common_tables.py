@@ -16,8 +16,8 @@ from silverball.table import Table, generate_table
 from silverball.table.parts import SlantWall
 
 FLOOR = -8.0  # [u] x of the floor of a closed table
-UNREACHED_SPEED = 200.0  # [u/s] a speed cap that nothing reaches
-MIN_HIT_SPEED = 0.01  # [u/s] so low that hardly any contact of the elastic table is a touch, which may hop
+UNREACHED_SPEED = 200.0  # [u/s] a speed cap that no ball reaches
+MIN_HIT_SPEED = 0.01  # [u/s] so low that almost every contact of the elastic table is a hit
 
 Model = TypeVar("Model", bound=BaseModel)
 

@@ -1,7 +1,7 @@
 """The comparison: every engine plays the same tables in one run.
 
 Speed is measured in rounds. In each round, all engines play the same board for a moment, one after the other,
-so that the noise of the machine affects all alike; ratios are taken within a round. A recipe gives another
+so noise of the machine affects all alike; ratios are computed within a round. A recipe gives another
 board in each round. Escapes, penetration, errors and drift do not depend on the clock and are measured
 afterwards.
 """
@@ -21,11 +21,11 @@ from silverball.benchmarks.peers.silverball_table import FRAMES_PER_CALL, batch_
 from silverball.benchmarks.speed import machine
 from silverball.table import Table
 
-PRESSES = 6000  # frames of random buttons in a round, repeated if more are played
+PRESSES = 6000  # frames of random buttons in a round, repeated if it is longer
 
 
 class Plan(NamedTuple):
-    """How much is measured.
+    """The extent of the measurements.
 
     Attributes:
         worlds: Worlds in Silverball's batch.
@@ -99,7 +99,7 @@ class Result(NamedTuple):
 
 
 def units(plan: Plan, engines: list[Engine]) -> int:
-    """How often `run` reports progress."""
+    """The number of progress reports of `run`."""
     entries = len(OWN) + sum(len(engine.entries()) for engine in engines)
     return plan.rounds * (entries + 1) + 1 + entries * (plan.boards + 2)
 
@@ -108,8 +108,8 @@ def run(recipe: Table, plan: Plan, engines: list[Engine], advance: Callable[[str
     """Measure everything.
 
     Args:
-        recipe: A table, or a recipe, of which every round gets its own board.
-        plan: How much is measured.
+        recipe: A table, or a recipe that makes a board for every round.
+        plan: The extent of the measurements.
         engines: The peers to compare with.
         advance: Called with the name of the next of `units` pieces of work.
     """
@@ -198,7 +198,7 @@ def measure_penetration(
     return Penetration(plan.boards * plan.frames, escapes, depth)
 
 
-def orders_ahead(result: Result) -> list[float]:
+def digits_ahead(result: Result) -> list[float]:
     """Powers of ten by which the best peer's error exceeds Silverball's, for each of `BOUNCES`."""
     own = result.rows[0].errors
     peer_errors = [row.errors for row in result.rows if row.engine not in (BATCH, SILVERBALL)]
@@ -211,7 +211,7 @@ def orders_ahead(result: Result) -> list[float]:
 
 
 def description(plan: Plan) -> str:
-    """What was measured, in sentences."""
+    """A description of the measurement, in sentences."""
     return (
         f"A frame is 1/{FRAME_RATE} s of one table with two balls and random paddles, on one core; speeds "
         f"are medians of {plan.rounds} rounds, ratios are taken within a round. "

@@ -21,7 +21,7 @@ class Engine(NamedTuple):
     Attributes:
         name: Name in the report.
         package: Name of its package for pip.
-        imported: Name of its Python module.
+        imported: Name of the Python module to import.
         module: Our module that builds a table in it.
         playfield: Name of the class in that module.
         substeps: Substeps per step, where the engine takes them as an argument.
@@ -41,7 +41,7 @@ class Engine(NamedTuple):
 
     @property
     def install_hint(self) -> str:
-        """What is not installed, and how to install it."""
+        """How to install the missing package."""
         return f"{self.package} is not installed: pip install 'silverball[{EXTRA}]'"
 
     def entries(self) -> list[Entry]:
@@ -61,20 +61,20 @@ class Entry(NamedTuple):
 
     def build(self, table: Table) -> Playfield:
         """Build a table in this engine."""
-        made: Playfield = getattr(import_module(self.module), self.playfield)(table, self.stepping)
-        return made
+        playfield: Playfield = getattr(import_module(self.module), self.playfield)(table, self.stepping)
+        return playfield
 
 
-_HERE = "silverball.benchmarks.peers"
+_PACKAGE = "silverball.benchmarks.peers"
 PEERS = (
-    Engine("pymunk", "pymunk", "pymunk", f"{_HERE}.pymunk_table", "PymunkPlayfield"),
-    Engine("Box2D v3", "pyb2d3", "pyb2d3", f"{_HERE}.box2d_v3_table", "Box2DV3Playfield", 4),
-    Engine("Box2D 2.3", "box2d", "Box2D", f"{_HERE}.box2d_v2_table", "Box2DV2Playfield"),
+    Engine("pymunk", "pymunk", "pymunk", f"{_PACKAGE}.pymunk_table", "PymunkPlayfield"),
+    Engine("Box2D v3", "pyb2d3", "pyb2d3", f"{_PACKAGE}.box2d_v3_table", "Box2DV3Playfield", 4),
+    Engine("Box2D 2.3", "box2d", "Box2D", f"{_PACKAGE}.box2d_v2_table", "Box2DV2Playfield"),
 )
 SILVERBALL = "Silverball, one world"
 BATCH = "Silverball, a batch"
 OWN = tuple(
-    Entry(SILVERBALL, Stepping(steps), f"{_HERE}.silverball_table", "SilverballPlayfield")
+    Entry(SILVERBALL, Stepping(steps), f"{_PACKAGE}.silverball_table", "SilverballPlayfield")
     for steps in (1, MEDIUM)
 )
 

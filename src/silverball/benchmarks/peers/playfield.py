@@ -1,7 +1,7 @@
 """Interface of an engine in the comparison: build a table, step it, and read balls and paddles.
 
 Coordinates of the plane are (right, up) in the peers and (x up, z right) in Silverball: the modules of the
-peers swap them on the way in and out. Gravity points down. Their paddles are kinematic bodies, whose angular
+peers swap them on input and output. Gravity points down. Their paddles are kinematic bodies, whose angular
 velocity a `PaddleMotor` sets before every step.
 """
 
@@ -70,7 +70,7 @@ class Playfield(ABC):
 
     @abstractmethod
     def angles(self) -> tuple[float, float]:
-        """Angles of the left and the right paddle [rad], both measured as of a left one."""
+        """Angles of the left and the right paddle [rad], both measured like that of a left one."""
 
     @property
     @abstractmethod
@@ -107,7 +107,7 @@ class PaddleMotor:
 
     @property
     def angle(self) -> float:
-        """Angle of the paddle [rad], measured as of a left one."""
+        """Angle of the paddle [rad], measured like that of a left one."""
         return self.side * self.read()
 
     def aim(self, raised: bool) -> None:
@@ -159,7 +159,7 @@ class BodyPlayfield(Playfield):
         self.finish_frame()
 
     def angles(self) -> tuple[float, float]:
-        """Angles of the left and the right paddle [rad], measured as of a left one; 0 where there is none."""
+        """Angles of the left and the right paddle [rad], measured like those of a left one; 0 if missing."""
         left, right = self.motors.get("left"), self.motors.get("right")
         return left.angle if left else 0.0, right.angle if right else 0.0
 

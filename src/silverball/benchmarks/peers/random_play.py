@@ -74,6 +74,6 @@ def speed(game: Game, seconds: float) -> float:
     while True:
         game.run(FRAMES_PER_CLOCK)
         frames += FRAMES_PER_CLOCK
-        taken = time.perf_counter() - started
-        if taken >= seconds:
-            return frames / taken
+        elapsed = time.perf_counter() - started
+        if elapsed >= seconds:
+            return frames / elapsed

@@ -129,14 +129,14 @@ def contacts(
             gravity * gravity / 4,
         ]
     for h in positive_roots(polynomial):
-        here = (x + vx * h - gravity * h * h / 2, z + vz * h)
+        center = (x + vx * h - gravity * h * h / 2, z + vz * h)
         if isinstance(piece, Piece):
-            foot = piece.u[0] * (here[0] - piece.q[0]) + piece.u[1] * (here[1] - piece.q[1])
+            foot = piece.u[0] * (center[0] - piece.q[0]) + piece.u[1] * (center[1] - piece.q[1])
             if piece.length is not None and not 0 <= foot <= piece.length:
                 continue
             normal = piece.n
         else:
-            normal = ((here[0] - piece.c[0]) / piece.radius, (here[1] - piece.c[1]) / piece.radius)
+            normal = ((center[0] - piece.c[0]) / piece.radius, (center[1] - piece.c[1]) / piece.radius)
         if normal[0] * (vx - gravity * h) + normal[1] * vz < 0:
             yield h, normal
 

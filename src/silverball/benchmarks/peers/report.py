@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from silverball.benchmarks.peers.accuracy import BOUNCES
-from silverball.benchmarks.peers.comparison import Result, Row, description, orders_ahead
+from silverball.benchmarks.peers.comparison import Result, Row, description, digits_ahead
 from silverball.benchmarks.peers.engines import BATCH, EXTRA, SILVERBALL
 from silverball.errors import MissingExtra
 
@@ -40,7 +40,7 @@ def cells(row: Row, radius: float) -> list[str]:
 
 
 def speed(frames: float) -> str:
-    """Frames per second with three digits, such as 258 k or 8.21 M."""
+    """Frames per second with three digits, like 258 k or 8.21 M."""
     return f"{frames / 1e6:.3g} M" if frames >= 1e6 else f"{frames / 1e3:.3g} k"
 
 
@@ -60,7 +60,7 @@ def conclusions(result: Result) -> list[str]:
             f"Against {name}, a batch is faster by {batch}; one world stepped from Python by {world}."
         )
     orders = ", ".join(
-        f"{order:.1f} after {count}" for order, count in zip(orders_ahead(result), BOUNCES, strict=True)
+        f"{order:.1f} after {count}" for order, count in zip(digits_ahead(result), BOUNCES, strict=True)
     )
     lines.append(f"Accuracy, powers of ten ahead of the best peer at any step: {orders} bounces.")
     return lines
@@ -106,7 +106,7 @@ def as_json(result: Result) -> str:
         {
             "rows": [row._asdict() for row in result.rows],
             "bounces": BOUNCES,
-            "orders_ahead": orders_ahead(result),
+            "orders_ahead": digits_ahead(result),
             "plan": result.plan._asdict(),
             "balls_in_the_batch": result.balls,
             "machine": result.machine,

@@ -49,8 +49,8 @@ class SilverballPlayfield(Playfield):
     def balls(self) -> list[tuple[float, float, float, float]]:
         """x, z, vx, vz of every ball."""
         record = self.world.records[0]["ball"]
-        here = record[record["id"] != 0]
-        found: list[tuple[float, float, float, float]] = here[["x", "z", "vx", "vz"]].tolist()
+        alive = record[record["id"] != 0]
+        found: list[tuple[float, float, float, float]] = alive[["x", "z", "vx", "vz"]].tolist()
         return found
 
     def angles(self) -> tuple[float, float]:

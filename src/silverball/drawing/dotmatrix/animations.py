@@ -1,6 +1,7 @@
 """Animations of the score display, each a function of the time since it began.
 
-Each draws over the dots given, `at` seconds after its beginning. Nothing is random, so films are equal.
+Each draws over the given dots, `at` seconds after its beginning. Nothing is random, so films are
+reproducible.
 """
 
 from __future__ import annotations
@@ -155,13 +156,13 @@ def _stripes() -> Levels:
     return dots.pixels
 
 
-def shaken(dots: Dots, at: float, text: str, y: int) -> None:
+def shaking_text(dots: Dots, at: float, text: str, y: int) -> None:
     """Draw a trembling word in large letters."""
     shift = round(2.0 * math.sin(55.0 * at) * max(1.0 - at, 0.0))
     dots.text(text, WIDTH // 2 + shift, y, BOLD, "center")
 
 
-def grown(dots: Dots, at: float, text: str, y: int) -> None:
+def growing_text(dots: Dots, at: float, text: str, y: int) -> None:
     """Draw a word in large letters that opens from its middle and flashes."""
     half = round(min(at / 0.15, 1.0) * WIDTH / 2)
     light = FULL if at % 0.2 < 0.12 or at > 0.6 else 120

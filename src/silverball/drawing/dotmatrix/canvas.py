@@ -53,7 +53,7 @@ class Dots:
         scale: int = 1,
         window: tuple[int, int] = (0, WIDTH),
     ) -> int:
-        """Write one line; the dots between its strokes stay as they are.
+        """Write one line; the dots between its strokes are unchanged.
 
         Args:
             text: The line. A character that no font has becomes a box.
@@ -61,7 +61,7 @@ class Dots:
             y: The top of its capitals.
             font: Its font.
             align: The meaning of `x`.
-            brightness: Of its dots; 0 writes dark letters on a bright background.
+            brightness: Brightness of its dots; 0 writes dark letters on a bright background.
             scale: Width and height of each dot of the font [dot].
             window: The columns to write in: the first, and the one after the last.
 
@@ -93,12 +93,12 @@ class Dots:
 
         Args:
             value: The number.
-            x: As for `text`.
+            x: See `text`.
             y: The top of the space for it, which is as high as the first font; smaller fonts are centred.
             width: Space for it [dot].
             fonts: The fonts to try; the last one is used even if the number does not fit.
-            align: What `x` means.
-            brightness: Of its dots.
+            align: Meaning of `x`.
+            brightness: Brightness of its dots.
 
         Returns:
             The font used.
@@ -135,8 +135,8 @@ class Dots:
         count = max(abs(x1 - x0), abs(y1 - y0)) + 1
         x = np.rint(np.linspace(x0, x1, count)).astype(np.int64)
         y = np.rint(np.linspace(y0, y1, count)).astype(np.int64)
-        is_inside = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
-        self.pixels[y[is_inside], x[is_inside]] = brightness
+        visible = (x >= 0) & (x < WIDTH) & (y >= 0) & (y < HEIGHT)
+        self.pixels[y[visible], x[visible]] = brightness
 
     def box(self, x: int, y: int, width: int, height: int, brightness: int = FULL) -> None:
         """Fill a rectangle."""

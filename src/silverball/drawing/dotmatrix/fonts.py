@@ -1,7 +1,7 @@
 """The fonts of the score display, and how a text is fitted into a width.
 
 The glyphs are drawn dot by dot in `fonts.txt`. A character that a font lacks is shown as its capital if there
-is one, else rasterized from the font of all other texts, else as a box.
+is one, else rasterized from the font that other texts use, else as a box.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Glyph: TypeAlias = NDArray[np.bool_]
 RASTER_SIZE = 200  # [pixel] size of the letters that are rasterized
 FULL_COVER = 255  # alpha of a pixel that a letter covers
 LIT_COVER = 0.5  # share of a dot that a letter must cover to light it
-BELOW = 0.3  # how far a rasterized letter may reach below the baseline, in heights of a capital
+MAX_DESCENT = 0.3  # of a rasterized letter below the baseline, in heights of a capital
 
 
 class Font(NamedTuple):
@@ -28,10 +28,10 @@ class Font(NamedTuple):
 
     Attributes:
         name: "tiny", "normal", "bold" or "huge".
-        height: Of a capital [dot].
-        gap: Between two glyphs [dot].
-        glyphs: By character; rows beyond `height` reach below the baseline.
-        box: Shown for characters that are missing.
+        height: Height of a capital [dot].
+        gap: Gap between two glyphs [dot].
+        glyphs: Glyphs by character; rows beyond `height` reach below the baseline.
+        box: Glyph shown for missing characters.
     """
 
     name: str
@@ -79,12 +79,12 @@ def rasterize(character: str, height: int) -> Glyph | None:
 
     Args:
         character: The letter.
-        height: Of a capital [dot].
+        height: Height of a capital [dot].
 
     Returns:
         The dots, at least one column; None if no font has the letter.
     """
-    import pygame  # slow to load, and seldom needed here
+    import pygame  # slow to load, and rarely needed
 
     from silverball.drawing.text import font_of
 
@@ -97,7 +97,7 @@ def rasterize(character: str, height: int) -> Glyph | None:
         return None
     top = min(box.top, line.top)  # a capital with an accent is squeezed to make space for the accent
     pitch = (line.bottom - top) / height  # [pixel] of a dot
-    below = min(max(math.ceil((box.bottom - line.bottom) / pitch), 0), round(BELOW * height))
+    below = min(max(math.ceil((box.bottom - line.bottom) / pitch), 0), round(MAX_DESCENT * height))
     sheet = pygame.Surface((box.width, round(pitch * (height + below))), pygame.SRCALPHA)
     sheet.blit(letter, (-box.left, -top))
     width = max(round(box.width * height / line.height), 1)
@@ -135,7 +135,7 @@ def _box(width: int, height: int, thickness: int) -> Glyph:
 
 _fonts = _load(Path(__file__).with_name("fonts.txt"))
 TINY = _fonts["tiny"]
-"""3 × 5 dots, capitals only: for minor texts."""
+"""3 × 5 dots, capitals only: for unimportant text."""
 NORMAL = _fonts["normal"]
 """5 × 7 dots, with small letters: for all texts."""
 BOLD = _fonts["bold"]

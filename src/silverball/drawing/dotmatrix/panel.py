@@ -34,9 +34,9 @@ class DotPanel:
 
     Args:
         area: Its area in the picture [pixel], bezel included.
-        color: Of the brightest dots.
-        background: Of the glass between the dots.
-        frame: Of the bezel around it; None for no bezel.
+        color: Colour of the brightest dots.
+        background: Colour of the glass between the dots.
+        frame: Colour of the bezel around it; None for no bezel.
     """
 
     def __init__(
@@ -138,7 +138,7 @@ def _colors(color: Color, background: Color, small: bool) -> NDArray[np.uint32]:
     lit = (UNLIT + (1.0 - UNLIT) * level) * tint
     lit = lit + (1.0 - lit) * HOT * (level * mask) ** 3 * (0.35 + 0.65 * tint)
     ground = glass + BLOOM * glow * tint
-    # A dot adds its light to what glows around it.
+    # A dot adds its light to the glow around it.
     rgb = np.rint(255.0 * np.clip(np.maximum(ground, 0.0) * (1.0 - 0.5 * mask) + lit * mask, 0.0, 1.0))
     packed = rgb.astype(np.uint32)
     argb = 0xFF000000 | packed[..., 0] << 16 | packed[..., 1] << 8 | packed[..., 2]
