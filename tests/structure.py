@@ -15,7 +15,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).parents[1] / "src" / "silverball"
 SHORT = 40  # lines; a shorter file had better be part of another one
 MOST_PARAMETERS = 8
-DECORATORS = {"kernel", "internal", "inlined", "pasted"}
+DECORATORS = {"kernel", "internal", "inlined", "ir_inlined"}
 
 
 def sources(package: Path = PACKAGE) -> dict[str, Path]:

@@ -13,8 +13,8 @@
     └── OutputError       a file cannot be written (unknown ending, no such folder, no permission)
 
 A message says where, what was expected, what was given and what to do. The command line prints the message
-alone and exits with code 2; it leaves no half-written files. Control characters in whatever a message repeats
-of a file, a name or an argument are escaped: every line goes through `plain`.
+alone and exits with code 2; it leaves no partial files. Control characters of files, names and
+arguments that a message repeats are escaped: every line goes through `plain`.
 """
 
 from __future__ import annotations

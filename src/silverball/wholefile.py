@@ -1,8 +1,8 @@
 """Reading and writing files as a whole, or not at all.
 
 Only regular files of a limited size are read: a pipe without a writer would block forever, a device may
-never end. A file is written under another name in the same folder and then renamed in one step. Whatever goes
-wrong, an interruption included, the old file stays as it was and no half-written file is left.
+never end. A file is written under another name in the same folder and then renamed in one step. After an
+error or an interruption the old file is unchanged, and no partial file is left.
 """
 
 from __future__ import annotations
