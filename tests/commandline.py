@@ -12,8 +12,9 @@ from typing import Any
 
 
 def hear_ctrl_c() -> None:
-    """Handle SIGINT in a new process as in a terminal; a shell ignores it for background processes."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    """Handle signals in a new process as in a terminal; a shell ignores some for background processes."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
 
 
 def started(*arguments: str, **options: Any) -> subprocess.Popen[str]:
