@@ -190,7 +190,7 @@ def hot_cells(feel: PlayerFeel, table: Table, count: int = 3) -> list[tuple[floa
 
 
 def shots_as_dict(shots: Shots) -> dict[str, Any]:
-    """The figures of a paddle's shots, as JSON holds them."""
+    """The figures of a paddle's shots, in the form printed as JSON."""
     directions, aimed = shots.directions(), shots.shot["direction"][shots.aim != Aim.NOWHERE]
     windows = {aim.name.lower(): shots.window(aim) for aim in (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)}
     struck = shots.shot[shots.shot["launched"] == 1]

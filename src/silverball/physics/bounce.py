@@ -35,7 +35,7 @@ def restitution_at(e0: float, falloff: float, speed: float) -> float:
 
 @inlined
 def hop_speed(acceleration: float, hit_speed: float) -> float:
-    """Compute the least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
+    """Compute the smallest speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
 
     A hop must come back as a touch, or a ball at rest would score. So it stays below the speed of a hit.
     Without acceleration it is MIN_HOP_SPEED.

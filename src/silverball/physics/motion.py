@@ -206,7 +206,7 @@ def advance_ticks(ball: BallRecord, board: BoardRecord, tick: float, count: int)
 
 @inlined
 def is_on_flight(ball: BallRecord, tick: float) -> bool:
-    """Whether the flight in a ball's record leads to its state; after a change from outside it does not."""
+    """Whether the flight in a ball's record leads to its state; after an external change it does not."""
     at = state_at(ball, ball.age)
     return (
         ball.x == at.x

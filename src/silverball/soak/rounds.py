@@ -96,7 +96,7 @@ class Totals:
         created: Balls created.
         drained: Balls that left through the gutter.
         hits: Of balls on parts and on each other.
-        jams: How often a pinched ball was held.
+        jams: Number of times a jammed ball was frozen.
         deepest: The greatest depth of any ball inside anything [u].
         found: Findings of each kind; a world ends at its first.
     """

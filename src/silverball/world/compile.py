@@ -79,7 +79,7 @@ class Boards(NamedTuple):
 
 
 def compile_tables(tables: Sequence[Table]) -> Boards:
-    """Compile finished tables (without a `[random]` section) into arrays.
+    """Compile concrete tables (random parts already generated) into arrays.
 
     Raises:
         TableError: A part has no extent, or two paddles are on one side.
