@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import corner_behind
 from silverball.drawing.effects import Effects
-from silverball.drawing.kernels.stage import Art
+from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art
 from silverball.drawing.moment import Moment
 from silverball.drawing.themes import Color, Theme, cycled_color
 from silverball.table import Paddle, SlantWall, Table
@@ -26,7 +26,6 @@ SUPERSAMPLE = 2  # antialiasing: the picture is drawn larger by this factor and 
 MAX_SUPERSAMPLED_PIXELS = 2_000_000  # larger pictures are not supersampled
 FARTHEST = math.inf  # [u] x of what is drawn first
 CIRCLE = 28  # corners of a circle
-RAYS, EMBLEM_AT, EMBLEM_SIZE, RING_AT = 22, -0.05, 0.105, 0.27  # as in kernels/art.py and kernels/shade.py
 
 
 def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:

@@ -67,7 +67,7 @@ REMEMBERED_TICKS = 128  # ticks of remembered decisions: more than its slowest r
 
 
 class GameEnd(IntEnum):
-    """Whether a game is over."""
+    """How a game has ended, if it has."""
 
     RUNNING = 0
     DRAINED = 1  # the ball is in the gutter

@@ -15,7 +15,7 @@ from silverball.metrics.game_traces import (
     REACTION,
     REACTION_JITTER,
     REMEMBERED_TICKS,
-    STAY,
+    STAY_RADIUS,
     TICK_RATE,
     GameEnd,
     beginner_presses,
@@ -66,7 +66,7 @@ def watched(seed: int, player: str) -> dict[str, float]:
             gap_to_triangle(place(ball), paddle.corners(math.degrees(now.angle))) for paddle, now in turned
         )
         seen["on_paddle"] += min(near) - TABLE.board.ball_radius < ON_PADDLE
-        if math.dist(place(ball), anchor) > STAY:
+        if math.dist(place(ball), anchor) > STAY_RADIUS:
             anchor, stay = place(ball), 0
         stay += 1
         seen["longest_stay"] = max(seen["longest_stay"], stay)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, cos, exp, pi, sin, sqrt
 from typing import NamedTuple
 
-from silverball.drawing.kernels.stage import Art, Ink, Inks, StageRecord
+from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, Art, Ink, Inks, StageRecord
 from silverball.drawing.kernels.tones import (
     RGB,
     add_scaled,
@@ -23,10 +23,6 @@ from silverball.drawing.kernels.tones import (
     value_noise,
 )
 from silverball.physics.kernel import inlined, internal
-
-RAYS = 22
-EMBLEM_AT = -0.05  # x where the rays meet, as a fraction of the board's length
-EMBLEM_SIZE = 0.105  # radius of the emblem, as a fraction of the board's width
 
 
 class Planet(NamedTuple):
