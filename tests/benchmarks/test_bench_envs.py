@@ -90,7 +90,7 @@ def test_who_is_not_installed_is_named_and_left_out(clock):
     assert len(result.rates) == 1
     assert result.missing == ["elsewhere"]
     assert heard == [one.name for one in (clock.sleeper(1e-4, 1), *strangers)]
-    assert "Not installed: elsewhere." in rate_table.footing(result)
+    assert "Not installed: elsewhere." in rate_table.footer(result)
     assert rate_table.headers(rate_table.yardsticks(result)) == ["environment", "steps/s"]
 
 

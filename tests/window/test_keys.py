@@ -182,7 +182,7 @@ def test_the_help_stops_the_time_while_it_is_shown(player):
     player.seconds(0.2)
     assert player.world.tick == tick
     player.tap(pygame.K_SPACE)
-    assert "F1 continues" in player.says
+    assert "press F1 to continue" in player.says
     player.tap(pygame.K_F1)
     player.seconds(0.2)
     assert player.world.tick > tick

@@ -14,23 +14,23 @@ if TYPE_CHECKING:
     from silverball.app.program import Program
 
 
-def press(program: Program, action: Action, *, again: bool = False) -> None:
+def press(program: Program, action: Action, *, same_board: bool = False) -> None:
     """Handle a key or gamepad button that went down.
 
     Args:
         program: The program.
         action: The action of the button; the window handles full screen, help, debug view and mute.
-        again: Whether Shift is held, which asks for the same board instead of a new one.
+        same_board: Whether Shift is held, which asks for the same board instead of a new one.
     """
     session = program.session
     if action is Action.SLOWER or action is Action.FASTER:
         program.change_speed(-1 if action is Action.SLOWER else 1)
     elif program.menus.is_open:
-        _press_in_menu(program, action, again)
+        _press_in_menu(program, action, same_board)
     elif session is None:
         _press_while_loading(program, action)
     elif isinstance(session, GameSession):
-        _press_in_game(program, session, action, again)
+        _press_in_game(program, session, action, same_board)
     else:
         program.stop_watching()  # any button ends a demo
 
@@ -41,13 +41,13 @@ def release(program: Program, action: Action) -> None:
         program.menus.release(MENU_BUTTONS[action])
 
 
-def _press_in_menu(program: Program, action: Action, again: bool) -> None:
+def _press_in_menu(program: Program, action: Action, same_board: bool) -> None:
     if action in MENU_BUTTONS:
         program.press_menu(MENU_BUTTONS[action])
     elif program.menus.page == "attract":
         program.press_menu(Button.BACK)  # any button ends the attract mode
     elif action is Action.NEW_BOARD and isinstance(program.session, GameSession):
-        program.start_new_board(again)
+        program.start_new_board(same_board)
     elif action is Action.JITTER and program.is_paused:
         program.show_message("the game is paused")
 
@@ -60,7 +60,7 @@ def _press_while_loading(program: Program, action: Action) -> None:
         program.show_loading_message()
 
 
-def _press_in_game(program: Program, session: GameSession, action: Action, again: bool) -> None:
+def _press_in_game(program: Program, session: GameSession, action: Action, same_board: bool) -> None:
     if session.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
         program.skip_game_over()
     elif action is Action.CREATE:
@@ -70,7 +70,7 @@ def _press_in_game(program: Program, session: GameSession, action: Action, again
     elif action is Action.PAUSE or action is Action.BACK:
         program.menus.open_pause()
     elif action is Action.NEW_BOARD:
-        program.start_new_board(again)
+        program.start_new_board(same_board)
     elif action in PADDLES and all(paddle.side != str(action) for paddle in program.board.table.paddle):
         program.show_message(f"this table has no {action} paddle")
 

@@ -65,7 +65,7 @@ def _(command: commands.ShowTableProblem, program: Program) -> None:
 
 @execute.register(commands.Quit)
 def _(command: commands.Quit, program: Program) -> None:
-    program.is_over = True
+    program.should_quit = True
 
 
 @execute.register(commands.Resume)

@@ -1,7 +1,7 @@
 """Handles the events of the window: keys, gamepad buttons, and changes of focus, layout and devices.
 
-Help, debug view, full screen and mute are handled here. Paddle buttons are stored until the next input
-poll; all other actions are passed on to the program. A key that comes up ends the action that it began, even
+Help, debug view, full screen and mute are handled here. Paddle buttons are stored until the next input poll;
+all other actions are passed on to the program. Releasing a key ends the action that pressing it started, even
 if the layout or the bindings have changed since.
 """
 
@@ -103,7 +103,7 @@ class InputHandler:
             self.buttons.release_all()
             self._program.lose_focus()
         elif event.type in (pygame.QUIT, pygame.WINDOWCLOSE):
-            self._program.is_over = True
+            self._program.should_quit = True
         for button in self.gamepads.read(event):
             self._gamepad_button(button)
         if event.type in REMOVED or event.type == pygame.JOYDEVICEADDED:
@@ -128,7 +128,7 @@ class InputHandler:
             self._keys[scancode] = _PressedKey(name, action)
             if action in PADDLES:
                 self._gamepads_in_use.clear()
-            self._press(f"key {scancode}", action, again=bool(event.mod & pygame.KMOD_SHIFT))
+            self._press(f"key {scancode}", action, same_board=bool(event.mod & pygame.KMOD_SHIFT))
         elif name in MENU_KEYS and self.shows_help:
             self._turn_help()
         elif name in MENU_KEYS and menus.is_open:
@@ -153,7 +153,7 @@ class InputHandler:
         return upper_label(labels[0]) if labels else default
 
     def _type(self, event: pygame.Event, action: Action | None) -> bool:
-        """Pass a key to the page on which a text is entered; return whether the text used it."""
+        """Pass a key to the page with text input; return whether the page consumed the key."""
         if self.shows_help or is_shortcut(event.mod):
             return False
         is_button = action in (*PADDLES, Action.CREATE)
@@ -180,7 +180,7 @@ class InputHandler:
             self._gamepads_in_use.discard(event.instance_id)
             self._program.lose_gamepad("the gamepad")
 
-    def _press(self, source: str, action: Action, *, again: bool = False) -> None:
+    def _press(self, source: str, action: Action, *, same_board: bool = False) -> None:
         program = self._program
         if action is Action.HELP or (self.shows_help and action is Action.BACK):
             self.shows_help = not self.shows_help
@@ -200,15 +200,15 @@ class InputHandler:
             else:
                 self.buttons.forget_taps()
             self._press_in_program(action)
-        elif action is Action.NEW_BOARD and again:
+        elif action is Action.NEW_BOARD and same_board:
             for scancode, pressed in self._keys.items():
                 if pressed.name in _SHIFT_KEYS:  # part of this shortcut, not a paddle button
                     self.buttons.release(f"key {scancode}")
-            self._press_in_program(action, again=True)
+            self._press_in_program(action, same_board=True)
         else:
             self._press_in_program(action)
 
-    def _press_in_program(self, action: Action, *, again: bool = False) -> None:
+    def _press_in_program(self, action: Action, *, same_board: bool = False) -> None:
         """Pass a button on to the game or the menus, unless the help is shown."""
         program = self._program
         if self.shows_help:
@@ -217,21 +217,21 @@ class InputHandler:
             program.single_tick(self.buttons.poll())
         else:
             was_open, before = program.menus.is_open, program.menus.signature
-            button_handlers.press(program, action, again=again)
+            button_handlers.press(program, action, same_board=same_board)
             if was_open and program.menus.signature != before:
                 self._sounds.play_menu(
                     "move" if action in PADDLES else "back" if action is Action.BACK else "choose"
                 )
 
     def _press_in_help(self, action: Action) -> None:
-        """Turn the pages with the paddles and Space; for other buttons, show how to leave the help."""
+        """Turn the pages with the paddles and Space; for other buttons, show how to close the help."""
         if action in (*PADDLES, Action.CREATE):
             self._turn_help()
         key = self._help_key("Esc")
         if self._program.has_game and action not in PADDLES:
-            self._messages.show(f"the game is paused while the help is shown; {key} continues")
+            self._messages.show(f"game paused while help is open; press {key} to continue")
         elif action not in (*PADDLES, Action.CREATE):
-            self._messages.show(f"{key} leaves the help")
+            self._messages.show(f"press {key} to close the help")
 
     def _turn_help(self) -> None:
         self.help_page = (self.help_page + 1) % HELP_PAGES

@@ -58,7 +58,7 @@ class Program:
         menus: The pages on the score display.
         is_ready: Whether the physics is loaded.
         progress: Progress of the compilation; None while nothing is compiled.
-        is_over: Whether the program should end.
+        should_quit: Whether the program should end.
         is_replay_paused: Whether the replay is paused.
         store: Scores, settings and the last game.
         archive: Saves games in the store.
@@ -79,7 +79,7 @@ class Program:
         self.settings = PlayerSettings(settings, store)
         self.settings.subscribe(self._apply_settings)
         self.session: Session | None = None
-        self.is_ready = self.is_over = False
+        self.is_ready = self.should_quit = False
         self.progress: Progress | None = None
         self.is_replay_paused = False
         catalog.watch_file(settings.table)
@@ -331,10 +331,10 @@ class Program:
         self._score_key = self._catalog.score_key(self.board.recipe)
         self._start(GameSession(Game(self.board.table, self.board.seed, mode)))
 
-    def start_new_board(self, again: bool) -> None:
+    def start_new_board(self, same_board: bool) -> None:
         """Begin a game on a new board, or on the same one again; a changed table file is read again."""
         mode = self.mode if self.session is None else self.session.game.mode
-        text = self.board.renew(self.board.seed if again else None, self._key_label(Action.NEW_BOARD))
+        text = self.board.renew(self.board.seed if same_board else None, self._key_label(Action.NEW_BOARD))
         if text is not None:
             self.menus.close()
             self._when_ready(lambda: self.begin(mode))

@@ -115,7 +115,7 @@ class ScoreDisplay:
         Returns:
             A new picture.
         """
-        self._count(view.score, seconds)
+        self._start_counting(view.score, seconds)
         self._best = high_score
         if view.phase is not self._phase_since[0]:
             self._phase_since = (view.phase, seconds)
@@ -163,7 +163,7 @@ class ScoreDisplay:
             self._draw_ready(dots, view, headline if is_lit else "", seconds)
         else:
             dots.text(headline, WIDTH // 2, 1, NORMAL, "center", FULL if is_lit else HALF)
-            dots.number(self._score(seconds), WIDTH // 2, 10)
+            dots.number(self._displayed_score(seconds), WIDTH // 2, 10)
         return dots
 
     def _headline(self, view: GameView, seconds: float) -> tuple[str, bool]:
@@ -178,7 +178,7 @@ class ScoreDisplay:
 
     def _draw_score(self, dots: Dots, y: int, seconds: float) -> None:
         """Draw the score below a headline."""
-        dots.number(self._score(seconds), WIDTH // 2, y, WIDTH, (BOLD, NORMAL, TINY))
+        dots.number(self._displayed_score(seconds), WIDTH // 2, y, WIDTH, (BOLD, NORMAL, TINY))
 
     def _scene(self, seconds: float) -> Callable[[Dots], None] | None:
         """Return the animation that should fill the display now; None if there is none."""
@@ -208,7 +208,7 @@ class ScoreDisplay:
         return True
 
     def _draw_play(self, dots: Dots, view: GameView, seconds: float) -> None:
-        dots.number(self._score(seconds), WIDTH // 2, 1, WIDTH - 12)
+        dots.number(self._displayed_score(seconds), WIDTH // 2, 1, WIDTH - 12)
         _draw_combo_meters(dots, view.combo, seconds)
         _draw_balls(dots, view)
         if self.player_label:
@@ -241,19 +241,19 @@ class ScoreDisplay:
             text = f"BEST {self._best:,}"
         dots.text(text, 1, STATUS_Y, NORMAL, "left", HALF)
         available = WIDTH - NORMAL.width(text) - 8
-        dots.number(self._score(seconds), WIDTH - 1, 20, available, (BOLD, NORMAL, TINY), "right")
+        dots.number(self._displayed_score(seconds), WIDTH - 1, 20, available, (BOLD, NORMAL, TINY), "right")
 
-    def _count(self, score: int, seconds: float) -> None:
+    def _start_counting(self, score: int, seconds: float) -> None:
         """Start counting up to a new score; a lower score belongs to another game and is shown directly."""
         if score == self._score_to:
             return
-        now = self._score(seconds)
+        now = self._displayed_score(seconds)
         self._score_from = now if 0 <= now < score and self._score_to >= 0 else score
         self._score_to, self._score_changed = score, seconds
         if score == 0:
             self._beats_high_score = False
 
-    def _score(self, seconds: float) -> int:
+    def _displayed_score(self, seconds: float) -> int:
         """Return the displayed score, which counts up."""
         fraction = min(max((seconds - self._score_changed) / COUNT_TIME, 0.0), 1.0)
         return self._score_from + round(fraction * (self._score_to - self._score_from))
@@ -330,27 +330,50 @@ def _high_scene(dots: Dots, at: float) -> None:
     animations.growing_text(dots, at, "HIGH SCORE!", 11)
 
 
-_HIGH_SCORE = Announcement("high", 6, "HIGH SCORE!", 3.2, _high_scene, 0.8)
-_SAVED = Announcement("saved", 5, "BALL SAVED", 2.2, animations.saved_ball, 0.85)
-_DOUBLE = Announcement("double", 3, "DOUBLE POINTS", 2.2, animations.two_balls, 0.8)
+MILESTONE_HITS = 5  # a combo of every so many hits is announced with an animation
+_HIGH_SCORE = Announcement("high", rank=6, text="HIGH SCORE!", length=3.2, full=_high_scene, full_time=0.8)
+_SAVED = Announcement(
+    "saved", rank=5, text="BALL SAVED", length=2.2, full=animations.saved_ball, full_time=0.85
+)
+_DOUBLE = Announcement(
+    "double", rank=3, text="DOUBLE POINTS", length=2.2, full=animations.two_balls, full_time=0.8
+)
 
 
 def _announcement_of(event: GameEvent) -> Announcement | None:
     """Return how an event is announced; None if it is not."""
     if event.kind is GameEventKind.COMBO and event.value >= MIN_COMBO_SHOWN:
-        is_great = event.value % 5 == 0
-        scene = _combo_scene(event.value) if is_great else None
-        return Announcement("combo", 2, f"COMBO {event.value}", 1.2 if is_great else 0.8, scene, 0.55)
+        is_milestone = event.value % MILESTONE_HITS == 0
+        scene = _combo_scene(event.value) if is_milestone else None
+        return Announcement(
+            "combo",
+            rank=2,
+            text=f"COMBO {event.value}",
+            length=1.2 if is_milestone else 0.8,
+            full=scene,
+            full_time=0.55,
+        )
     if event.kind is GameEventKind.BALL_SAVED:
         return _SAVED
     if event.kind is GameEventKind.DOUBLE_ON:
         return _DOUBLE
     if event.kind is GameEventKind.WARNING:
         return Announcement(
-            "warning", 4, "WARNING" + "!" * min(event.value, 3), 1.2, draw_text=animations.shaking_text
+            "warning",
+            rank=4,
+            text="WARNING" + "!" * min(event.value, 3),
+            length=1.2,
+            draw_text=animations.shaking_text,
         )
     if event.kind is GameEventKind.BALL_LOST and event.value:
-        return Announcement("lost", 1, f"BALL {event.value} LOST", 1.4, animations.falling_ball, 0.45)
+        return Announcement(
+            "lost",
+            rank=1,
+            text=f"BALL {event.value} LOST",
+            length=1.4,
+            full=animations.falling_ball,
+            full_time=0.45,
+        )
     return None
 
 
@@ -366,7 +389,7 @@ def _draw_combo_meters(dots: Dots, combo: int, seconds: float) -> None:
 
 
 def _draw_balls(dots: Dots, view: GameView) -> None:
-    """Draw the number of the ball; in free play the balls on the board."""
+    """Draw the current ball's number, or in free play one dot for each ball."""
     if view.mode is Mode.ARCADE and view.balls:
         dots.text(f"BALL {view.ball}/{view.balls}", 0, STATUS_Y, NORMAL, brightness=HALF)
         return

@@ -235,7 +235,7 @@ class Window:
     @property
     def is_over(self) -> bool:
         """Whether the player has quit."""
-        return self.program.is_over
+        return self.program.should_quit
 
     @property
     def is_ready(self) -> bool:

@@ -33,7 +33,7 @@ def measure_replays(minutes: float, advance: Callable[[str], None] = lambda _: N
     """Measure replays.
 
     Args:
-        minutes: Length of the replay that is searched by seeking [min].
+        minutes: Length of the replay used to time seeks [min].
         advance: Called with the name of what is measured next.
     """
     make_player("reflex").press(Game("classic").world)  # compile before the measurement

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 MAX_ACTIONS = 300_000_000  # of three bytes each
 
-bench = typer.Typer(help="Measure how fast and how exact Silverball is on this machine.")
+bench = typer.Typer(help="Measure how fast and how accurate Silverball is on this machine.")
 
 Rounds = Annotated[
     int, typer.Option("--rounds", min=1, max=1000, help="Timed rounds; their median is printed.")
@@ -41,7 +41,7 @@ def step(
     table: TableName = "random",
     as_json: AsJson = False,
 ) -> None:
-    """Measure the step: frames of 1/60 s per second, two balls, random paddles.
+    """Measure simulation speed in frames (of 1/60 s) per second, with two balls and random paddles.
 
     Example: `silverball bench step --threads 2 --json`
     """
@@ -76,7 +76,7 @@ def step(
 
 @bench.command()
 def marks(rounds: Rounds = 9, as_json: AsJson = False) -> None:
-    """Measure the step in each situation that could be slow, single calls, and the start (1 to 2 minutes).
+    """Measure speed in each situation that could be slow, single calls, and the start (1 to 2 minutes).
 
     Example: `silverball bench marks`
     """
@@ -122,7 +122,7 @@ def planner(
 def replays(
     minutes: Annotated[
         float,
-        typer.Option(min=0.1, max=1440.0, help="Length of the replay that is searched by seeking [min]."),
+        typer.Option(min=0.1, max=1440.0, help="Length of the replay used to time seeks [min]."),
     ] = 60.0,
     as_json: AsJson = False,
 ) -> None:
@@ -163,7 +163,7 @@ def thresholds(
     ] = 2000,
     as_json: AsJson = False,
 ) -> None:
-    """Measure the return above which each environment counts as solved: that of the trained player.
+    """Measure the return of the trained player: the threshold for counting an environment as solved.
 
     Example: `silverball bench thresholds --episodes 2000`
     """
@@ -184,7 +184,7 @@ def envs(
 
     Example: `silverball bench envs --rounds 5 --out envs.md`
     """
-    from silverball.benchmarks.envs import measure, rate_table as report
+    from silverball.benchmarks.envs import measure, rate_table
     from silverball.wholefile import write_whole
 
     paths = [output_path(text, (".md",)) for text in out]
@@ -192,12 +192,14 @@ def envs(
         task = bar.add_task("compiling …", total=None)
         result = measure.run(rounds, lambda doing: bar.update(task, description=doing))
     if as_json:
-        print_lines(*report.as_json(result).splitlines())
+        print_lines(*rate_table.as_json(result).splitlines())
     else:
-        print_table(report.terminal_table(result))
-        print_lines(*report.footing(result))
+        print_table(rate_table.terminal_table(result))
+        print_lines(*rate_table.footer(result))
     for path in paths:
-        write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
+        write_whole(
+            path, lambda temporary: temporary.write_text(rate_table.markdown(result), encoding="utf-8")
+        )
         print_lines(f"wrote {path}", err=True)
 
 
@@ -250,12 +252,14 @@ def peers(
         print_lines(*report.as_json(result).splitlines())
     else:
         print_table(report.terminal_table(result))
-        print_lines(*report.conclusions(result), *report.footing(result))
+        print_lines(*report.conclusions(result), *report.footer(result))
     for path in paths:
         if path.suffix.lower() == ".png":
-            write_whole(path, lambda place: report.draw_plot(result, place))
+            write_whole(path, lambda temporary: report.draw_plot(result, temporary))
         else:
-            write_whole(path, lambda place: place.write_text(report.markdown(result), encoding="utf-8"))
+            write_whole(
+                path, lambda temporary: temporary.write_text(report.markdown(result), encoding="utf-8")
+            )
         print_lines(f"wrote {path}", err=True)
 
 
@@ -274,12 +278,12 @@ def show_figures(measure: Callable[[Callable[[str], None]], list[Figure]], as_js
     print_lines(machine())
 
 
-def output_path(text: str, endings: tuple[str, ...]) -> Path:
-    """The path of a report, checked for its ending, which selects the format.
+def output_path(text: str, suffixes: tuple[str, ...]) -> Path:
+    """The path of a report, checked for its suffix, which selects the format.
 
     Raises:
-        OutputError: The ending is not one of `endings`, or the folder does not exist.
+        OutputError: The suffix is not one of `suffixes`, or the folder does not exist.
     """
     path = file_name(text)
-    check_output(path, endings, force=True)
+    check_output(path, suffixes, force=True)
     return path

@@ -5,7 +5,7 @@ Only files that Silverball made are counted and removed, recognised by their pla
     CACHE/compiled/HASH/PACKAGE/*.nbi, *.nbc     compiled code, a HASH for each version of the sources
     CACHE/pictures/KEY.picture                   baked pictures
 
-and their temporary files. Links are not followed. Programs that run meanwhile go on: code that they have
+and their temporary files. Links are not followed. Running programs are not affected: code that they have
 loaded stays in memory, and what they miss they compile or bake again.
 """
 
@@ -41,7 +41,7 @@ VERSION_FOLDER = re.compile("[0-9a-f]{16}")
 PACKAGE_FOLDER = re.compile("[a-z_.]+")
 CODE_FILE = re.compile(r".+\.nb[ic]|\.[0-9a-f]{16}\.tmp")
 PICTURE_FILE = re.compile(r"[0-9a-f]{32}\.picture|\.silverball-[0-9a-f]{16}\.picture")
-INDEX_ENDING = ".nbi"
+INDEX_SUFFIX = ".nbi"
 SHOWN_PROBLEMS = 10
 
 
@@ -104,7 +104,7 @@ def cache(
             }
         )
     else:
-        print_lines(f"removed {counted(len(removed))}, {megabytes(total)}, from {folder}")
+        print_lines(f"removed {file_count_text(len(removed))}, {megabytes(total)}, from {folder}")
     if problems:
         raise OutputError(*shortened(problems))
 
@@ -130,8 +130,8 @@ def find_files(base: Path) -> Listing:
                 found.folders.append(package.path)
         found.folders.append(version.path)
     add_files(base / "pictures", PICTURES, PICTURE_FILE, found)
-    # Without its index, code is not looked for: no process finds an index without its code.
-    found.files.sort(key=lambda one: not one.path.endswith(INDEX_ENDING))
+    # Indexes are deleted first, so that no process ever finds an index whose code is missing.
+    found.files.sort(key=lambda one: not one.path.endswith(INDEX_SUFFIX))
     return found
 
 
@@ -174,12 +174,12 @@ def add_files(folder: str | Path, kind: str, pattern: re.Pattern[str], found: Li
 
 def is_folder(entry: os.DirEntry[str], pattern: re.Pattern[str]) -> bool:
     """Whether an entry is a folder with a matching name, and not a link to one."""
-    is_junction = getattr(entry, "is_junction", bool)  # links of Windows, from Python 3.12
+    is_junction = getattr(entry, "is_junction", bool)  # Windows directory junctions, from Python 3.12
     return bool(pattern.fullmatch(entry.name)) and entry.is_dir(follow_symlinks=False) and not is_junction()
 
 
 def remove_files(listing: Listing) -> tuple[list[CachedFile], list[str]]:
-    """Remove all files of a listing, and the folders that are empty then.
+    """Remove all files of a listing, and the folders this leaves empty.
 
     Returns:
         The files that were removed, and a sentence for each problem.
@@ -210,7 +210,7 @@ def sizes(listing: Listing) -> dict[str, tuple[int, int]]:
 
 
 def sizes_json(listing: Listing) -> dict[str, dict[str, int]]:
-    """The sizes as JSON holds them."""
+    """The sizes, in the form printed as JSON."""
     return {
         kind.replace(" ", "_"): {"files": files, "bytes": size}
         for kind, (files, size) in sizes(listing).items()
@@ -249,7 +249,7 @@ def megabytes(size: int) -> str:
     return f"{size / 1e6:,.1f} MB"
 
 
-def counted(files: int) -> str:
+def file_count_text(files: int) -> str:
     """A number of files as text."""
     return f"{files:,} file{'' if files == 1 else 's'}"
 

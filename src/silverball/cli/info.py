@@ -12,7 +12,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from silverball.cli.cache import cache_base, counted, find_files, megabytes, shortened, sizes_json
+from silverball.cli.cache import cache_base, file_count_text, find_files, megabytes, shortened, sizes_json
 from silverball.cli.console import print_json, print_table
 from silverball.cli.shared_options import AsJson
 from silverball.plain import plain
@@ -253,7 +253,10 @@ def compiled_rows(part: dict[str, bool]) -> Iterator[tuple[str, str]]:
 def cache_rows(part: dict[str, Any]) -> Iterator[tuple[str, str]]:
     """The sizes of the caches, and what cannot be read."""
     for name, size in part["sizes"].items():
-        yield f"cache: {name.replace('_', ' ')}", f"{counted(size['files'])}, {megabytes(size['bytes'])}"
+        yield (
+            f"cache: {name.replace('_', ' ')}",
+            f"{file_count_text(size['files'])}, {megabytes(size['bytes'])}",
+        )
     for problem in shortened(part["problems"]):
         yield "cache", problem
 

@@ -16,22 +16,22 @@ from numpy.typing import NDArray
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import corner_behind
 from silverball.drawing.effects import Effects
-from silverball.drawing.kernels.stage import Art
+from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art
 from silverball.drawing.moment import Moment
 from silverball.drawing.themes import Color, Theme, cycled_color
 from silverball.table import Paddle, SlantWall, Table
 
 Point = tuple[float, float]
-ENLARGED = 2  # the picture is drawn larger by this factor and shrunk, to smooth its edges,
-MAX_PIXELS = 2_000_000  # unless it is larger than this
+SUPERSAMPLE = 2  # antialiasing: the picture is drawn larger by this factor and scaled down
+MAX_SUPERSAMPLED_PIXELS = 2_000_000  # larger pictures are not supersampled
+FARTHEST = math.inf  # [u] x of what is drawn first
 CIRCLE = 28  # corners of a circle
-RAYS, EMBLEM_AT, EMBLEM_SIZE, RING_AT = 22, -0.05, 0.105, 0.27  # as in kernels/art.py and kernels/shade.py
 
 
 def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
     """The table without paddles and balls: RGB, uint8 [row, column, 3]."""
     width, height = camera.size
-    enlarged = ENLARGED if width * height <= MAX_PIXELS else 1
+    enlarged = SUPERSAMPLE if width * height <= MAX_SUPERSAMPLED_PIXELS else 1
     surface = pygame.Surface((max(width * enlarged, 1), max(height * enlarged, 1)), 0, 24)
     surface.fill(theme.room)
     pen = Pen(surface, camera, enlarged)
@@ -52,7 +52,7 @@ class Pen:
     Args:
         surface: The target.
         camera: The view of the board.
-        enlarged: Size of the surface by that of the camera's picture.
+        enlarged: Ratio of the surface's size to the camera's picture size.
     """
 
     def __init__(self, surface: pygame.Surface, camera: Camera, enlarged: int = 1) -> None:
@@ -192,7 +192,7 @@ def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callab
     for wall in table.slant_wall:
         corner = corner_behind(table.board, wall)
         if corner is not None:
-            yield 1e9, partial(pen.block, corner, 0.8 * dimensions.wall_height, dim(theme.apron, 0.8))
+            yield FARTHEST, partial(pen.block, corner, 0.8 * dimensions.wall_height, dim(theme.apron, 0.8))
         middle = 0.5 * (wall.start[0] + wall.end[0])
         yield middle, partial(pen.block, _bar(wall), dimensions.wall_height, theme.wall)
     for index, prism in enumerate(table.triangular_prism):
@@ -255,7 +255,7 @@ class SketchPainter:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
         self._surface.blit(self._baked, (0, 0))
         for _ in effects.trails(moment):
-            pass  # recorded for the better picture that follows
+            pass  # advances the trails, so that they are complete when the baked picture takes over
         balls = [*moment.balls, *effects.sinking_balls(moment.time)]
         angles = dict(zip(("left", "right"), moment.angles, strict=True))
         for ball in balls:

@@ -4,7 +4,7 @@
     → for each environment: reward, next ball, end of the episode, reset if due
     → observations and counts are written
 
-A ball is *stalled* when no hit has scored for too long; otherwise an agent could hold a
+An episode ends when no hit has scored for too long (*stalled*); without this rule an agent could cradle a
 ball on raised paddles forever. The remaining time is part of the observation.
 """
 
@@ -54,7 +54,7 @@ def run_task(addresses: Any, first: int, end: int, task: int) -> tuple[float, in
     else:
         if task >= 0:
             if views.episodes(ptr)[0].over != 0:
-                return 0.0, StepFlag.WAS_OVER + 0
+                return 0.0, StepFlag.WAS_OVER + 0  # + 0 makes a plain integer of the member
             views.actions(ptr)[0] = task
         return step_envs(ptr, first, end)
     return 0.0, 0
@@ -182,13 +182,13 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
 
 @ir_inlined
 def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> float:
-    """Write the terms of the stall and of the growth of the counts; returns their weighted sum."""
+    """Write the terms for stalling and for the increases of the counters; returns their weighted sum."""
     stalled = views.episodes(ptr)[index].stalled
     views.terms(ptr)[index, STALLED] = stalled
     reward = rules.weights[STALLED] * stalled
     counts = array_at(ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
     for term in range(FIRST_COUNT, len(TERMS)):
-        count = term - FIRST_COUNT + 1
+        count = term - FIRST_COUNT + 1  # counts[0] is the score, which has a term of its own
         grown = counts[count] - views.counts_before(ptr)[before, count]
         views.terms(ptr)[index, term] = grown
         reward += rules.weights[term] * grown

@@ -1,14 +1,14 @@
 """Pictures of worlds, drawn in the compiled step: a million a second.
 
 The background of each board is drawn once. A picture is a copy of it, then the lit parts (hit in this step),
-the paddles and the balls as sprites. Sprites are blended by the brighter value, so that their order does not
-matter. The board fills the picture: its top is the first row, its left border the first column.
+the paddles and the balls as sprites. Sprites are blended with a per-byte maximum, so that their order does
+not matter. The board fills the picture: its top is the first row, its left border the first column.
 
 The last pictures of an environment are stored in a ring of frames, and a window of the newest ones moves
-along it. If the window itself is the observation, the ring is longer than the window, which is redrawn at its
-start when it reaches the end; if the window is copied, both have one length and the window wraps. If only the
-kernels write to the ring, an old picture is turned into a new one by repairing its dirty rectangles: balls
-and lights are erased and drawn again, paddles only if they have moved.
+along it. If the window itself is the observation, the ring is longer than the window; when the window reaches
+the end of the ring, it is redrawn at the ring's start. If the window is copied, both have the same length and
+the window wraps. If only the kernels write to the ring, an old picture is turned into a new one by repairing
+its dirty rectangles: balls and lights are erased and drawn again, paddles only if they have moved.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def repair_dirty_rects(
     background = ptr.backgrounds_at + state.board * ptr.pixels
     lowest = 0  # one past the lowest erased row, which may have cut a paddle
     if drawn.lit != 0:
-        lowest = unlight(ptr, raster, drawn, picture, background)
+        lowest = erase_lit_parts(ptr, raster, drawn, picture, background)
     for slot in range(BALL_COUNT):
         if drawn.alive[slot] != 0:
             top, left = ball_corner(raster, drawn.x[slot], drawn.z[slot])
@@ -289,7 +289,7 @@ def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, add
 
 
 @internal
-def unlight(
+def erase_lit_parts(
     ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int, background: int
 ) -> int:
     """Restore the background of the lit parts; returns one past the lowest changed row."""

@@ -1,4 +1,4 @@
-"""A game without its recording: a world and the rules, moved by buttons, new balls and shoves.
+"""A game without its recording: a world and the rules, driven by button presses, new balls and shoves.
 
 The same table, seed, rules and inputs give the same game bit for bit, whether its ticks are played one by one
 or many at once. Ticks in which no ball can leave the board are played in one call of the world; where a ball
@@ -62,7 +62,7 @@ class GameCore:
 
     Raises:
         TableError: The table cannot be used.
-        ValueError: A mode, seed or tick rate that does not exist, or rules with a name that they cannot have.
+        ValueError: The mode, seed or tick rate is invalid, or the rules have a reserved name.
     """
 
     def __init__(
@@ -87,14 +87,14 @@ class GameCore:
         self.mode = Mode(mode)
         self.world = World(table, seed, tick_rate)
         self.fault: str | None = None
-        self._own_rules = "" if rules is None else rules.name
+        self._custom_rules_name = "" if rules is None else rules.name
         self._rules = BUILTIN[self.mode] if rules is None else rules
         self._config = self._rules.configure(self.world.table, self.world.tick_rate)
         self._state = RuleState()
         self._has_waiting = False  # whether a ball waits to return to the board; read in every tick
         self._stuck = stuck.StuckTracker()
         self._left = self._right = False
-        self._shove = self._auto_shove = False  # a shove of the player or of the machine in the next tick
+        self._shove = self._auto_shove = False  # a player's or an automatic shove in the next tick
         self._was_stopped = False
 
         self._board = GameWorld(self.world)
@@ -107,18 +107,18 @@ class GameCore:
         self._next_second = self.world.tick_rate
         self._world_queue: deque[Event] = deque(maxlen=QUEUE_LIMIT)
         self._game_queue: deque[GameEvent] = deque(maxlen=QUEUE_LIMIT)
-        self._recent: list[GameEvent] = []
-        self._recent_old = 0  # how many of them had happened when the last step ended
+        self._step_events: list[GameEvent] = []
+        self._stale_event_count = 0  # how many of them had happened when the last step ended
         self._emit((GameEvent(GameEventKind.BALL_READY, 0, 1),))
 
     def __repr__(self) -> str:
-        rules = self._own_rules or self.mode
+        rules = self._custom_rules_name or self.mode
         return f"<Game {rules} on {self.world.table.name!r}: {self.phase}, score {self.score}>"
 
     # --- actions -------------------------------------------------------------------------------------------
 
     def step(self, left: bool = False, right: bool = False, ticks: int = 1) -> None:
-        """Advance the game with the paddle buttons held or released; after its end nothing moves.
+        """Advance the game with the buttons held or released; does nothing once the game is over.
 
         A fault of the world ends the game; `fault` names it.
 
@@ -130,19 +130,19 @@ class GameCore:
         Raises:
             ValueError: The number of ticks is not an integer ≥ 0.
         """
-        if self._recent_old:
-            del self._recent[: self._recent_old]
+        if self._stale_event_count:
+            del self._step_events[: self._stale_event_count]
         if ticks < 0:
             raise ValueError(f"ticks must be an integer ≥ 0, got {ticks}")
         if ticks and not self._state.over:
             self._play_ticks(left, right, ticks)
-        self._recent_old = len(self._recent)
+        self._stale_event_count = len(self._step_events)
 
     def create_ball(self) -> None:
         """Start a ball: the first one, the next one, or a second one while a ball is in play.
 
         Raises:
-            BoardFull, NoRoom: The board has no place for a ball now; nothing has changed.
+            BoardFull, NoRoom: The board has no place for a ball now; nothing is changed.
             SilverballError: No ball is left, the table is tilted, or the game is over.
         """
         reason = self._rules.refusal(self._config, self._state)
@@ -265,7 +265,7 @@ class GameCore:
         A loop that calls `create_ball` or `jitter`, then `step`, and then reads `events` sees every event
         once. At most the last 4,096 are kept. For what happens to balls see `take_world_events`.
         """
-        return tuple(self._recent[-QUEUE_LIMIT:])
+        return tuple(self._step_events[-QUEUE_LIMIT:])
 
     def take_game_events(self) -> list[GameEvent]:
         """All events of the game since the last call, in order; at most the last 4,096."""
@@ -292,7 +292,13 @@ class GameCore:
     def rules_text(self) -> str:
         """The state of the game without that of the world, as JSON."""
         return GameState(
-            self._state, self._stuck, self._left, self._right, self._shove, self._auto_shove, self._own_rules
+            self._state,
+            self._stuck,
+            self._left,
+            self._right,
+            self._shove,
+            self._auto_shove,
+            self._custom_rules_name,
         ).to_json()
 
     @property
@@ -312,14 +318,14 @@ class GameCore:
         """Go back or ahead to a saved moment, bit for bit; events that were not taken are dropped.
 
         Raises:
-            StateError: The bytes are damaged, or of another table, tick rate, mode or rules; nothing has
+            StateError: The bytes are damaged, or of another table, tick rate, mode or rules; nothing is
                 changed.
         """
         mode, how_ended, world, saved = unpack_game(state)
         if mode != self.mode:
             raise StateError(f"the state is of {mode} play, this game is {self.mode}")
-        if saved.own_rules != self._own_rules:
-            expected, got = (name or f"of {mode} play" for name in (self._own_rules, saved.own_rules))
+        if saved.own_rules != self._custom_rules_name:
+            expected, got = (name or f"of {mode} play" for name in (self._custom_rules_name, saved.own_rules))
             raise StateError(
                 f"the state is of a game with the rules {got!r}, this game has the rules {expected!r}; "
                 "restore it in a game with the same rules"
@@ -338,8 +344,8 @@ class GameCore:
         self._next_second = (tick // self.tick_rate + 1) * self.tick_rate
         self._world_queue.clear()
         self._game_queue.clear()
-        self._recent.clear()
-        self._recent_old = 0
+        self._step_events.clear()
+        self._stale_event_count = 0
 
     # --- hooks for a recording -----------------------------------------------------------------------------
 
@@ -467,7 +473,7 @@ class GameCore:
         self._board.mark_read()
 
     def _check_stuck(self, tick: int) -> None:
-        """Check whether the machine must shove."""
+        """Check whether the automatic shove is due."""
         self._next_check = tick + self._check_ticks
         self._stuck = stuck.updated(self._stuck, self._board.places, tick)
         if not self._config.auto_shove:
@@ -496,4 +502,4 @@ class GameCore:
 
     def _emit(self, events: tuple[GameEvent, ...]) -> None:
         self._game_queue.extend(events)
-        self._recent.extend(events)
+        self._step_events.extend(events)

@@ -81,7 +81,7 @@ class Game(GameCore):
             score=self.score,
             ended=self.ended,
             digest=self.digest(),
-            rules=self._own_rules,
+            rules=self._custom_rules_name,
         )
 
     def restore(self, state: bytes) -> None:

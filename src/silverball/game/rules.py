@@ -40,9 +40,9 @@ class RuleConfig(NamedTuple):
         tilt_warning: Swing that causes a warning.
         tilt_limit: Swing that causes a tilt.
         warnings: Warnings per ball.
-        unstick_ticks: The machine shoves a ball that has lain still for this time [ticks].
-        stall_ticks: The machine shoves if nothing has scored for this time [ticks].
-        auto_shove: Whether the machine shoves at all.
+        unstick_ticks: An automatic shove moves a ball that has lain still for this time [ticks].
+        stall_ticks: There is an automatic shove if nothing has scored for this time [ticks].
+        auto_shove: Whether there are automatic shoves.
 
     Examples:
         >>> import silverball as sb
@@ -128,8 +128,8 @@ class RuleState(NamedTuple):
         swing: Swing of the tilt bob after the last shove.
         swing_tick: The tick of that shove.
         tilted: Whether the paddles are dead.
-        quiet_since: The tick of the last hit that scored or of the last new ball: the machine shoves if this
-            was too long ago.
+        quiet_since: The tick of the last hit that scored or of the last new ball: there is an automatic shove
+            if this was too long ago.
         over: Whether the game has ended.
         memory: State of custom rules, a JSON value; never change it in place.
 
@@ -206,7 +206,7 @@ class Rules(Protocol):
         """A ball has hit a part.
 
         Args:
-            config: The numbers of the game.
+            config: The rule settings of this game.
             state: The state before.
             tick: The tick of the hit.
             points: The points of the part in the table.

@@ -1,9 +1,9 @@
-"""Stuck balls: the machine shoves if a ball lies still or if nothing has scored for long.
+"""Stuck balls: an automatic shove if a ball lies still or if nothing has scored for a long time.
 
-The game checks four times a second, at ticks that depend on the tick rate alone. A ball that has
-not moved between two checks is still: it lies, or it hops on one spot. A ball within reach of the paddles
-belongs to the player while a button is held or was released a moment ago; but a player who holds it too long
-without scoring gets a shove too.
+The game checks four times a second, at ticks that depend on the tick rate alone. A ball that has not moved
+between two checks is at rest, or hopping in place. A ball within reach of the paddles belongs to the player
+while a button is held or was released a moment ago; but a player who holds it too long without scoring gets a
+shove too.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class StuckTracker(NamedTuple):
     Attributes:
         rests: One for each ball on the board.
         released: The tick in which a button was last released.
-        shoved: The tick in which the machine last shoved.
+        shoved: The tick of the last automatic shove.
     """
 
     rests: tuple[Rest, ...] = ()
@@ -68,11 +68,11 @@ def has_still_ball(tracker: StuckTracker, config: RuleConfig, tick: int) -> bool
 def needs_shove(
     tracker: StuckTracker, config: RuleConfig, tick: int, *, held: bool, reach: float, quiet_since: int | None
 ) -> bool:
-    """Whether the machine shoves now.
+    """Whether the automatic shove is due now.
 
     Args:
         tracker: After the check of this tick.
-        config: The numbers of the game.
+        config: The rule settings of this game.
         tick: The present tick.
         held: Whether a button is held and moves its paddle.
         reach: No paddle reaches a ball above this x [u].
@@ -91,5 +91,5 @@ def needs_shove(
 
 
 def shoved(tracker: StuckTracker, tick: int) -> StuckTracker:
-    """The tracker after a shove of the machine."""
+    """The tracker after an automatic shove."""
     return tracker._replace(rests=tuple(rest._replace(since=tick) for rest in tracker.rests), shoved=tick)

@@ -86,7 +86,7 @@ def time_balls(
         player: The name of the player.
         seconds: Longest time for which a ball is watched [s].
         progress: Called from time to time with the simulated seconds so far.
-        branches: Futures that the planner tries at a decision.
+        branches: Branches that the planner tries at a decision.
 
     Returns:
         Lives and points of the balls.

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.metrics.game_traces import CELLS, GAPS, TICK_RATE, Games, Over, play_games
+from silverball.metrics.game_traces import CELLS, INTERVAL_BINS, TICK_RATE, GameEnd, Games, play_games
 from silverball.metrics.shots import Aim, Shots, shots_of
 from silverball.metrics.statistics import Estimate, ratio, share
 from silverball.physics.records import Kind
@@ -120,7 +120,7 @@ def _player_feel(batch: WorldBatch, games: Games) -> PlayerFeel:
     state, game = games.state, games.game
     count = len(game)
     seconds = game["ticks"] / TICK_RATE
-    drained = game["over"] == Over.DRAINED
+    drained = game["over"] == GameEnd.DRAINED
     cylinder_hits = hits_of(batch, games.hits, Kind.CYLINDER)
     minutes = seconds / 60.0
     stay = game["longest_stay"] / TICK_RATE
@@ -157,7 +157,7 @@ def _player_feel(batch: WorldBatch, games: Games) -> PlayerFeel:
 def _quantile(gaps: NDArray[np.int64], part: float) -> float:
     """The quantile [s] of times between hits, from their tenths of a second; infinite beyond the last."""
     below = int(np.searchsorted(np.cumsum(gaps), part * gaps.sum()))
-    return (below + 1) / 10.0 if below < GAPS - 1 else float("inf")
+    return (below + 1) / 10.0 if below < INTERVAL_BINS - 1 else float("inf")
 
 
 def shares_of_cylinders(batch: WorldBatch, games: Games) -> dict[str, Estimate]:
@@ -190,7 +190,7 @@ def hot_cells(feel: PlayerFeel, table: Table, count: int = 3) -> list[tuple[floa
 
 
 def shots_as_dict(shots: Shots) -> dict[str, Any]:
-    """The figures of a paddle's shots, as JSON holds them."""
+    """The figures of a paddle's shots, in the form printed as JSON."""
     directions, aimed = shots.directions(), shots.shot["direction"][shots.aim != Aim.NOWHERE]
     windows = {aim.name.lower(): shots.window(aim) for aim in (Aim.LEFT, Aim.MIDDLE, Aim.RIGHT)}
     struck = shots.shot[shots.shot["launched"] == 1]

@@ -1,7 +1,7 @@
 """Traces of whole games: one ball each, followed in every tick from its creation to the gutter.
 
 A compiled loop plays thousands of them under one player. Besides the world's own counters it records how long
-the ball was fast, lay on a paddle, stayed in one place or made no points, and what a ball reached after a
+the ball was fast, lay on a paddle, stayed in one place or scored no points, and what a ball reached after a
 paddle had struck it.
 
 Lengths are [u], times are counted in ticks of 1/`TICK_RATE` s. Maps have one cell for each quarter of a unit.
@@ -48,34 +48,36 @@ CONTACTS = (int(EventKind.HIT), int(EventKind.TOUCH))  # with a part
 MAX_SECONDS = 600.0  # [s] a longer game is cut short
 CHUNK_TICKS = 1_000_000  # ticks of all worlds together between two calls of `progress`
 CELLS = 4  # cells of a map per unit of length
-GAPS = 200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
-STAY = 0.5  # [u] a ball within this distance of a place has stayed there
+INTERVAL_BINS = (
+    200  # bins of the times between two hits, a tenth of a second each; the last one holds all longer ones
+)
+STAY_RADIUS = 0.5  # [u] a ball within this distance of a place has stayed there
 ON_PADDLE = 0.02  # [u] gap below which a ball lies on a paddle or rolls along it; hops are 5e-4 u high
-STRUCK = 5.0  # [u/s] up the table, with which a ball leaves a paddle that has struck it
-CARRY = 0.2  # [s] for which a paddle may carry a ball: contacts within it are one strike
-TOP = 2.0  # [u] below the upper border, where the top of the table begins
+MIN_STRIKE_SPEED = 5.0  # [u/s] minimum upward speed after a paddle contact for it to count as a strike
+MAX_CARRY_TIME = 0.2  # [s] for which a paddle may carry a ball: contacts within it are one strike
+TOP_ZONE = 2.0  # [u] below the upper border, where the top of the table begins
 
 # The beginner decides like the reflex player, but presses after a reaction time that varies a little.
 # Source: the reaction to a seen event takes 150 to 250 ms; the jitter is chosen.
 BEGINNER = 3  # not a `PlayerKind`, so its number differs from all of theirs
 BEGINNER_KEY = 0xBE61  # makes its random numbers independent of the world's
-REACTION = (0.15, 0.25)  # [s] least and greatest, drawn once per game
+REACTION = (0.15, 0.25)  # [s] minimum and maximum; one value is drawn per game
 REACTION_JITTER = 0.03  # [s] greatest deviation of its reaction time, drawn for every half second
 REMEMBERED_TICKS = 128  # ticks of remembered decisions: more than its slowest reaction
 
 
-class Over(IntEnum):
-    """Whether a game is over."""
+class GameEnd(IntEnum):
+    """How a game has ended, if it has."""
 
-    NO = 0
+    RUNNING = 0
     DRAINED = 1  # the ball is in the gutter
     CUT_SHORT = 2  # by the time limit, or there is no ball
 
 
 GAME = np.dtype(
     [
-        ("over", "i8"),  # Over
-        ("ticks", "i8"), ("fast", "i8"), ("on_paddle", "i8"),  # alive; above half the cap; on a paddle
+        ("over", "i8"),  # GameEnd
+        ("ticks", "i8"), ("fast", "i8"), ("on_paddle", "i8"),  # alive; of these fast (> cap / 2), on a paddle
         ("quiet", "i8"),  # since the last hit
         ("dry", "i8"), ("longest_dry", "i8"),  # without points
         ("at_x", "f8"), ("at_z", "f8"), ("stay", "i8"),  # where it has stayed, and for how long
@@ -99,7 +101,7 @@ class Games(NamedTuple):
         game: GAME records [game].
         heat: Ticks that balls spent in each cell of the board, [x, z].
         stays: The longest stay that began in each cell [ticks], [x, z].
-        gaps: How many times between two hits fell into each tenth of a second, [GAPS].
+        gaps: How many times between two hits fell into each tenth of a second, [INTERVAL_BINS].
         reached: Of the struck balls, how many met each part before a paddle met them again, [game, part].
     """
 
@@ -181,17 +183,17 @@ def play_games(
     board = batch.tables[0].board
     shape = (int(CELLS * board.length) + 1, int(CELLS * board.width) + 1)
     heat, stays, gaps = _empty_maps(shape)
-    left = np.arange(count)
-    while len(left):
-        ticks = max(TICK_RATE, CHUNK_TICKS // len(left))
+    unfinished = np.arange(count)
+    while len(unfinished):
+        ticks = max(TICK_RATE, CHUNK_TICKS // len(unfinished))
         parts: list[Maps] = []
-        slice_of = partial(_play_slice, batch, traces, setup, parts, shape, left, ticks)
+        slice_of = partial(_play_slice, batch, traces, setup, parts, shape, unfinished, ticks)
         batch.on_threads(slice_of, count * ticks)
         for part in parts:
             heat, stays, gaps = heat + part.heat, np.maximum(stays, part.stays), gaps + part.gaps
-        left = np.nonzero(traces.game["over"] == Over.NO)[0]
+        unfinished = np.nonzero(traces.game["over"] == GameEnd.RUNNING)[0]
         if progress is not None:
-            progress(1.0 - len(left) / count)
+            progress(1.0 - len(unfinished) / count)
     end, hits = batch.state.copy(), batch.tallies.copy()
     batch.restore(beginning)
     batch.tallies[:] = tallies
@@ -199,16 +201,17 @@ def play_games(
 
 
 def _empty_maps(shape: tuple[int, int]) -> Maps:
-    return Maps(np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(GAPS, np.int64))
+    return Maps(np.zeros(shape, np.int64), np.zeros(shape, np.int64), np.zeros(INTERVAL_BINS, np.int64))
 
 
 def _play_slice(
     batch: WorldBatch, traces: Traces, setup: Setup, parts: list[Maps], shape: tuple[int, int],
-    left: NDArray[np.int64], ticks: int, first: int, end: int,
+    unfinished: NDArray[np.int64], ticks: int, first: int, end: int,
 ) -> None:  # fmt: skip
     """Play a slice of the unfinished games into separate maps, so that threads share none."""
     maps = _empty_maps(shape)
-    chosen = left[first * len(left) // batch.count : end * len(left) // batch.count]
+    count = len(unfinished)
+    chosen = unfinished[first * count // batch.count : end * count // batch.count]
     play_balls(batch.lanes, batch.geometries, traces, maps, setup, chosen, ticks)
     parts.append(maps)
 
@@ -227,7 +230,7 @@ def play_balls(
         geometry = BoardGeometry(board, colliders, geometries.grid)
         ball = world.ball[0]
         for _ in range(ticks):
-            if game.over != Over.NO:
+            if game.over != GameEnd.RUNNING:
                 break
             clear_log(log)
             if game.ticks == 0:
@@ -245,9 +248,9 @@ def play_balls(
             game.dry = game.dry + 1 if world.score == score else 0
             game.longest_dry = max(game.longest_dry, game.dry)
             if ball.id == 0:
-                game.over = as_int(Over.DRAINED)
+                game.over = as_int(GameEnd.DRAINED)
             elif game.ticks >= setup.limit or world.fault != Fault.NONE:
-                game.over = as_int(Over.CUT_SHORT)
+                game.over = as_int(GameEnd.CUT_SHORT)
             else:
                 follow_ball(game, world, board, colliders, maps)
 
@@ -288,8 +291,8 @@ def follow_hits(
             continue
         if event.part in PADDLES:
             # A paddle that carries a ball meets it again and again: that is one strike.
-            is_same_strike = 0 < game.struck <= int(CARRY * TICK_RATE) and game.reached_any == 0
-            if ball.vx > STRUCK:
+            is_same_strike = 0 < game.struck <= int(MAX_CARRY_TIME * TICK_RATE) and game.reached_any == 0
+            if ball.vx > MIN_STRIKE_SPEED:
                 game.struck = 1
                 if not is_same_strike:
                     game.strikes += 1
@@ -325,11 +328,11 @@ def follow_ball(
             if gap - board.ball_radius < ON_PADDLE:
                 game.on_paddle += 1
                 break
-    if game.struck > 0 and game.reached_top == 0 and ball.x > board.half_length - TOP:
+    if game.struck > 0 and game.reached_top == 0 and ball.x > board.half_length - TOP_ZONE:
         game.reached_top = 1
         game.to_top += 1
     away_x, away_z = ball.x - game.at_x, ball.z - game.at_z
-    if sqrt(away_x * away_x + away_z * away_z) > STAY:
+    if sqrt(away_x * away_x + away_z * away_z) > STAY_RADIUS:
         game.at_x, game.at_z, game.stay = ball.x, ball.z, 0
     game.stay += 1
     row, column = int(CELLS * (game.at_x + board.half_length)), int(CELLS * (game.at_z + board.half_width))

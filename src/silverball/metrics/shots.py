@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.metrics.game_traces import CONTACTS, PADDLES, STRUCK, TICK_RATE, TOP
+from silverball.metrics.game_traces import CONTACTS, MIN_STRIKE_SPEED, PADDLES, TICK_RATE, TOP_ZONE
 from silverball.physics.balls import put_ball
 from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import as_int, kernel
@@ -146,7 +146,7 @@ def shots_of(table: Table, side: str, held: bool) -> Shots | None:
     aim[good & (aim_z < -third)] = Aim.LEFT
     aim[good & (np.abs(aim_z) <= third)] = Aim.MIDDLE
     aim[good & (aim_z > third)] = Aim.RIGHT
-    return Shots(side, held, shot, aim, batch.boards.names[0], 0.5 * table.board.length - TOP)
+    return Shots(side, held, shot, aim, batch.boards.names[0], 0.5 * table.board.length - TOP_ZONE)
 
 
 class Approach(NamedTuple):
@@ -206,7 +206,7 @@ def shoot(
                         shot.clean, shot.aim_z = shot.launched, event.z
             if is_met_again:
                 break
-            if shot.launched == 0 and ball.x > board.paddle_top >= before and ball.vx > STRUCK:
+            if shot.launched == 0 and ball.x > board.paddle_top >= before and ball.vx > MIN_STRIKE_SPEED:
                 shot.launched = 1
                 shot.direction = DEGREES * atan2(ball.vz, ball.vx)
                 shot.speed = (ball.vx * ball.vx + ball.vz * ball.vz) ** 0.5

@@ -8,7 +8,7 @@ Read `step.py` first: it is the whole simulation on one screen. Then:
 * `bounce.py`, `friction.py`: the effect of a contact on a ball
 * `motion.py`: how a ball moves between contacts: sliding, slipping or rolling
 * `balls.py`: creating, shoving and separating balls
-* `validation.py`: checks of states that come from outside
+* `validation.py`: checks of states that were modified externally
 * `audit.py`: an independent check for balls inside parts; it shares no code with the solver
 * `kernel.py`, with `code_cache.py` and `compile_thread.py`: how kernels are compiled and cached
 

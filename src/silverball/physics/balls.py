@@ -153,7 +153,7 @@ def create_ball(
     """Create a ball at rest in a free place.
 
     Returns:
-        An `Outcome`: CREATED, or why not (then nothing has changed).
+        An `Outcome`: CREATED, or why not (then nothing is changed).
     """
     slot = empty_slot(world, board)
     if slot < 0:
@@ -188,7 +188,7 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
 def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> bool:
     """Move two overlapping balls apart, each by half of the overlap.
 
-    Only a state from outside can hold an overlap; an exact step never makes one.
+    Only a state that was modified externally can hold an overlap; an exact step never makes one.
 
     Returns:
         Whether the balls are apart now; False, with nothing changed, if that would push one into a part.

@@ -35,7 +35,7 @@ def restitution_at(e0: float, falloff: float, speed: float) -> float:
 
 @inlined
 def hop_speed(acceleration: float, hit_speed: float) -> float:
-    """Compute the least speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
+    """Compute the smallest speed [u/s] after a touch: a hop of height HOP under this acceleration [u/s²].
 
     A hop must come back as a touch, or a ball at rest would score. So it stays below the speed of a hit.
     Without acceleration it is MIN_HOP_SPEED.
@@ -87,7 +87,7 @@ def bounce(
     `acceleration` [u/s²] sets the hop: gravity, and what a turning surface adds.
 
     Returns:
-        The speed of the approach [u/s].
+        The approach speed [u/s].
     """
     nx, nz = contact.nx, contact.nz
     approach = -(nx * (ball.vx - ux) + nz * (ball.vz - uz))
@@ -115,7 +115,7 @@ def bounce_balls(a: BallRecord, b: BallRecord, board: BoardRecord, contact: Cont
     Along the line of centres, from b to a, each takes half of (1 + e)·w.
 
     Returns:
-        The speed w of the approach [u/s].
+        The approach speed w [u/s].
     """
     nx, nz = contact.nx, contact.nz
     approach = -(nx * (a.vx - b.vx) + nz * (a.vz - b.vz))
@@ -135,7 +135,7 @@ def bounce_off_held(ball: BallRecord, board: BoardRecord, nx: float, nz: float) 
     """Set a ball's velocity and spin after its contact with a held ball, from which (nx, nz) points away.
 
     Returns:
-        The speed of the approach [u/s].
+        The approach speed [u/s].
     """
     approach = -(nx * ball.vx + nz * ball.vz)
     rebound = approach * board.ball_restitution

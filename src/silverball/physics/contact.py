@@ -38,10 +38,10 @@ from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 @kernel
 def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None:
-    """Continue the search of a ball's flight from `contact_age`, for a travel of `skin` at most.
+    """Resume the search along a ball's flight at `contact_age`, covering a distance of at most `board.skin`.
 
     The flight of a slipping ball is searched to the end of the tick only, where it ends. At equal times the
-    part that comes first in the table wins, so that mirrored play stays mirrored.
+    part that comes first in the table wins, also on a mirrored table that lists its parts in the same order.
     """
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     start = ball.contact_age
@@ -50,14 +50,14 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     span = board.search_time
     if ball.motion == Motion.SLIPPING:
         span = min(span, max(ball.age + tick - start, 0.0))
-    mean = speed + 0.5 * board.max_accel * span  # upper bound of the mean speed
-    if mean * span > board.skin:
-        span = board.skin / mean
+    max_mean_speed = speed + 0.5 * board.max_accel * span
+    if max_mean_speed * span > board.skin:
+        span = board.skin / max_mean_speed
     time, part = start + span, NOTHING
     if ball.roll_age < time:
         time, part = max(ball.roll_age, start), ROLL_START
     sagitta = 0.5 * board.max_accel * span * span  # upper bound of the distance from the straight line
-    travel = mean * span
+    travel = max_mean_speed * span
 
     if state.z - travel < board.low_z:
         at = start + time_to_border(state.z - board.low_z, state.vz, ball.accel_z)

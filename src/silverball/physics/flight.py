@@ -33,6 +33,9 @@ from silverball.physics.records import (
 from silverball.physics.shapes import distance, point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, NEWTON_TIME
 
+# [u] a larger gap after a search means that it ran out of steps before the contact
+MAX_FOUND_GAP = CONTACT_GAP * 100.0
+
 
 @inlined
 def time_to_line(gap: float, rate: float, gap_accel: float) -> float:
@@ -43,15 +46,18 @@ def time_to_line(gap: float, rate: float, gap_accel: float) -> float:
     Of the two forms of the root it takes the one without cancellation:
     (−rate ∓ √Δ)/gap_accel = 2·gap/(√Δ − rate)  with  Δ = rate² − 2·gap_accel·gap.
     """
-    square = rate * rate - 2.0 * gap_accel * gap
+    discriminant = rate * rate - 2.0 * gap_accel * gap
     if rate < 0.0:
-        return NEVER if square < 0.0 else 2.0 * gap / (sqrt(square) - rate)
-    return (rate + sqrt(square)) / -gap_accel if gap_accel < 0.0 else NEVER
+        return NEVER if discriminant < 0.0 else 2.0 * gap / (sqrt(discriminant) - rate)
+    return (rate + sqrt(discriminant)) / -gap_accel if gap_accel < 0.0 else NEVER
 
 
 @inlined
 def stays_open(gap: float, rate: float, gap_accel: float, h: float) -> bool:
-    """Whether a gap certainly stays open for h [s], without a root: a concave parabola is least at an end."""
+    """Whether a gap certainly stays open for h [s], without a root.
+
+    A concave parabola takes its minimum at an endpoint.
+    """
     return gap + h * (rate + 0.5 * min(gap_accel, 0.0) * h) > 0.0
 
 
@@ -68,7 +74,10 @@ def state_at(ball: BallRecord, age: float) -> BallMotion:
 
 @inlined
 def newton_refined(time: float, gap: float, rate: float) -> float:
-    """Refine a time by one Newton step on the gap; a graze too flat for a short step is not changed."""
+    """Refine a time by one Newton step on the gap.
+
+    For a grazing contact, whose Newton step would be too long, the time is returned unchanged.
+    """
     if abs(gap) >= abs(rate) * NEWTON_TIME:  # also where both are 0
         return time
     return max(0.0, time - gap / rate)
@@ -125,7 +134,7 @@ def contact_with_ball(
     Args:
         a: The one ball now.
         b: The other ball now.
-        accel_x: Difference of their accelerations, a's less b's [u/s²].
+        accel_x: Difference of their accelerations, a's minus b's [u/s²].
         accel_z: The same in z.
         radius: Of a ball [u].
         limit: The end of the search [s].
@@ -139,7 +148,7 @@ def contact_with_ball(
         return Contact(limit, NOTHING, 0.0, 0.0)
     nx, nz = px + time * (vx + 0.5 * accel_x * time), pz + time * (vz + 0.5 * accel_z * time)
     apart, nx, nz = point_distance(nx, nz, 0.0, 0.0)
-    if apart > 2.0 * radius + CONTACT_GAP * 100.0:  # the search ran out of steps before the contact
+    if apart > 2.0 * radius + MAX_FOUND_GAP:  # the search ran out of steps before the contact
         return Contact(time, NULL_EVENT, 0.0, 0.0)
     return Contact(time, OTHER_BALL, nx, nz)
 
@@ -157,10 +166,10 @@ def _time_to_ball_uniform(px: float, pz: float, vx: float, vz: float, reach: flo
     c = px * px + pz * pz - reach * reach
     if c <= 0.0:
         return 0.0
-    square = toward * toward - (vx * vx + vz * vz) * c
-    if square < 0.0:
+    discriminant = toward * toward - (vx * vx + vz * vz) * c
+    if discriminant < 0.0:
         return limit
-    time = c / (toward + sqrt(square))
+    time = c / (toward + sqrt(discriminant))
     if not time < limit:
         return limit
     # Newton on the gap itself: c, a difference of squares, has lost the last digits of a long flight.
@@ -173,7 +182,10 @@ def _time_to_ball_uniform(px: float, pz: float, vx: float, vz: float, reach: flo
 def _time_to_ball_accelerated(
     px: float, pz: float, vx: float, vz: float, accel_x: float, accel_z: float, reach: float, limit: float
 ) -> float:
-    """Compute the same for different accelerations, by the safe steps of `time_to_shape` to a circle."""
+    """Compute the same for unequal accelerations, by conservative advancement towards a circle.
+
+    The steps are those of `time_to_shape`.
+    """
     time = 0.0
     for _ in range(FLIGHT_STEPS):
         x, z = px + time * (vx + 0.5 * accel_x * time), pz + time * (vz + 0.5 * accel_z * time)

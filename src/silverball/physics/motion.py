@@ -4,15 +4,15 @@ A ball of radius r with velocity v and spin ω touches the playfield with its lo
 
     u = v + ω × (−r·ŷ) = (vx + r·ω_z, vz − r·ω_x).
 
-While u ≠ 0 the ball *slips*: friction accelerates it by f = −μ·p·u/|u| (p: force onto the playfield by mass)
+While u ≠ 0 the ball *slips*: friction accelerates it by f = −μ·p·u/|u| (p: normal force per unit mass)
 and turns it, so that u changes by g + 7/2·f. Once u = 0 the ball *rolls*: friction f = −2/7·g
 maintains that, which leaves 5/7 of gravity. On a table without friction the ball *slides* with all of g.
 
-The direction of slip is held during a flight, at most for a tick. So the flight stays a parabola, and
-friction never pushes along the slip: the slip along the held direction does not reverse before the flight
-ends. The error: in a tick h gravity turns the slip by at most g·h/|u|, and friction by as much. Where a slip
-ends, its remaining transverse part, at most g·h, is removed at once and the ball rolls. Both errors go to
-zero with the tick.
+The slip direction is kept constant during a flight, which lasts at most one tick. So the flight stays a
+parabola, and friction never pushes along the slip: the slip along this direction does not reverse before the
+flight ends. The error: in a tick h gravity turns the slip by at most g·h/|u|, and friction by as much. Where
+a slip ends, its remaining transverse part, at most g·h, is removed at once and the ball rolls. Both errors go
+to zero with the tick.
 
 Source of 2/7 and 5/7: the moment of inertia 2/5·m·r² of a solid sphere; e.g. A. Sommerfeld, "Mechanics"
 (1952), § on the billiard ball. The spin about y acts on a point and does not change.
@@ -56,8 +56,8 @@ from silverball.physics.records import NOTHING, BallMotion, BallRecord, BoardRec
 from silverball.physics.tolerances import MIN_SLIP_SPEED, NEVER
 
 ROLLING_SHARE = 5.0 / 7.0  # acceleration of a rolling ball, as a share of that of a sliding one
-SLIP_SHARE = 3.5  # slip changes by this times friction: 1 by the ball's speed, 5/2 by its spin
-LONGER = 1.0 + 1e-9  # allows for the rounding of a time
+SLIP_DECAY_FACTOR = 3.5  # d(slip)/dt = 3.5 × friction: 1 from the ball's velocity, 5/2 from its spin
+TIME_TOLERANCE = 1.0 + 1e-9  # allows for the rounding of a time
 
 
 @inlined
@@ -74,7 +74,7 @@ def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
         ball.accel_x, ball.accel_z, ball.motion = board.accel_x, board.accel_z, as_int(Motion.SLIDING)
         ball.roll_age = NEVER
     else:
-        set_friction_motion(ball, board)
+        choose_motion(ball, board)
 
 
 @internal
@@ -97,7 +97,7 @@ def restart_slip(ball: BallRecord, board: BoardRecord) -> None:
     """Start a new flight with the present slip direction of a slipping ball, which is valid for one tick."""
     if ball.motion == Motion.SLIPPING and ball.id != 0:
         _set_start(ball, 0.0)
-        inline_friction_motion(ball, board)
+        choose_motion_inlined(ball, board)
 
 
 @inlined
@@ -115,13 +115,13 @@ def reset_search(ball: BallRecord) -> None:
 
 
 @internal
-def set_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
-    """Do what `inline_friction_motion` does, without being compiled into every caller."""
-    inline_friction_motion(ball, board)
+def choose_motion(ball: BallRecord, board: BoardRecord) -> None:
+    """Do what `choose_motion_inlined` does, without being compiled into every caller."""
+    choose_motion_inlined(ball, board)
 
 
 @inlined
-def inline_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
+def choose_motion_inlined(ball: BallRecord, board: BoardRecord) -> None:
     """Set whether a ball on a playfield with friction slips or rolls, and its acceleration.
 
     Along its direction the slip decreases from |u| at the rate  7/2·μ·p − g·u/|u|.
@@ -131,7 +131,7 @@ def inline_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
     grip = board.friction * board.normal_accel
     ball.roll_age = NEVER
     if speed <= MIN_SLIP_SPEED:
-        if board.gravity <= SLIP_SHARE * grip:
+        if board.gravity <= SLIP_DECAY_FACTOR * grip:
             ball.motion = as_int(Motion.ROLLING)
             ball.accel_x, ball.accel_z = ROLLING_SHARE * board.accel_x, ROLLING_SHARE * board.accel_z
             return
@@ -140,7 +140,7 @@ def inline_friction_motion(ball: BallRecord, board: BoardRecord) -> None:
     else:
         inverse = 1.0 / speed
         along_x, along_z = slip_x * inverse, slip_z * inverse
-        rate = SLIP_SHARE * grip - (board.accel_x * along_x + board.accel_z * along_z)
+        rate = SLIP_DECAY_FACTOR * grip - (board.accel_x * along_x + board.accel_z * along_z)
         if rate > 0.0:
             ball.roll_age = speed / rate
     ball.motion = as_int(Motion.SLIPPING)
@@ -185,8 +185,8 @@ def start_rolling(ball: BallRecord, board: BoardRecord) -> None:
     time = ball.contact_age - ball.age
     advance_to(ball, board, ball.contact_age)
     slip_x, slip_z = slip(ball, board)
-    ball.vx -= slip_x / SLIP_SHARE
-    ball.vz -= slip_z / SLIP_SHARE
+    ball.vx -= slip_x / SLIP_DECAY_FACTOR
+    ball.vz -= slip_z / SLIP_DECAY_FACTOR
     _set_rolling_spin(ball, board)
     start_flight(ball, board, time)
 
@@ -206,7 +206,7 @@ def advance_ticks(ball: BallRecord, board: BoardRecord, tick: float, count: int)
 
 @inlined
 def is_on_flight(ball: BallRecord, tick: float) -> bool:
-    """Whether the flight in a ball's record leads to its state; after a change from outside it does not."""
+    """Whether the flight in a ball's record leads to its state; after an external change it does not."""
     at = state_at(ball, ball.age)
     return (
         ball.x == at.x
@@ -220,7 +220,7 @@ def is_on_flight(ball: BallRecord, tick: float) -> bool:
 @internal
 def has_valid_motion(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball moves as its board allows, on a flight that began before this tick."""
-    if not (0.0 <= ball.offset <= tick * LONGER and ball.age >= tick - tick * LONGER):
+    if not (0.0 <= ball.offset <= tick * TIME_TOLERANCE and ball.age >= tick - tick * TIME_TOLERANCE):
         return False
     if ball.motion == Motion.SLIPPING:
         return board.normal_accel != 0.0

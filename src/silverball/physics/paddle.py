@@ -1,8 +1,9 @@
 """The paddles: how they turn, and when a ball touches one.
 
 Both paddles are computed as a left one. For the right paddle z is mirrored on the way in (side = −1) and on
-the way out, so that mirrored play gives mirrored bits. A paddle's own frame has its pivot at the origin, z′
-from the pivot to the tip and x′ to the side that lifts; its triangle is fixed in that frame. At angle θ
+the way out, so that mirrored inputs give bit-for-bit mirrored results. A paddle's own frame has its pivot at
+the origin, z′ from the pivot to the tip and x′ to the side that lifts; its triangle is fixed in that frame.
+At angle θ
 
     z′ = x·sin θ + z·cos θ,   x′ = x·cos θ − z·sin θ       (x, z from the pivot)
 
@@ -110,20 +111,20 @@ def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, flo
     """
     side = 1.0 if x >= 0.0 else -1.0
     x = abs(x)
-    outside = (z - c.z1) * c.along_x1 - x * c.along_z1
-    if outside < -z:
+    flank_distance = (z - c.z1) * c.along_x1 - x * c.along_z1
+    if flank_distance < -z:
         if x > c.x2:
             gap, nx, nz = point_distance(x, z, c.x2, 0.0)
         else:
             gap, nx, nz = -z, 0.0, -1.0
     else:
-        foot = x * c.along_x1 + (z - c.z1) * c.along_z1
-        if outside > 0.0 and foot < 0.0:
+        along_flank = x * c.along_x1 + (z - c.z1) * c.along_z1
+        if flank_distance > 0.0 and along_flank < 0.0:
             gap, nx, nz = point_distance(x, z, 0.0, c.z1)
-        elif outside > 0.0 and foot > c.length1:
+        elif flank_distance > 0.0 and along_flank > c.length1:
             gap, nx, nz = point_distance(x, z, c.x2, 0.0)
         else:
-            gap, nx, nz = outside, -c.along_z1, c.along_x1
+            gap, nx, nz = flank_distance, -c.along_z1, c.along_x1
     return gap, side * nx, nz
 
 
@@ -144,8 +145,8 @@ def contact_with_paddle(
 
         A = |a| + 2·|ω|·v + ω²·ρ,
 
-    with v a bound on the ball's speed before the limit, and ρ on its distance from the pivot while it can
-    touch. `speed` is the ball's at the start, where it is within reach of the paddle.
+    where v bounds the ball's speed up to the time limit, and ρ bounds its distance from the pivot while
+    contact is possible. `speed` is the ball's at the start, where it is within reach of the paddle.
     """
     omega, limit = paddle.omega, best.time
     bound, min_step, sine, cosine = 0.0, 0.0, 0.0, 1.0

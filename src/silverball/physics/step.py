@@ -1,4 +1,4 @@
-"""One tick of one world: the whole simulation on one screen.
+"""One tick of one world: the core of the simulation.
 
     set the paddles' motion
     → if nothing is near: advance balls and paddles to the end of the tick
@@ -161,7 +161,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right
             right, right_stop_time = end_at_stop(right), NEVER
 
         if counts.a >= jam_limit or counts.b >= jam_limit:
-            left, right, counts = hold_jam(lane, geometry, left, right, time, counts, jam_limit)
+            left, right, counts = stop_jammed_balls(lane, geometry, left, right, time, counts, jam_limit)
             left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
     release(a, board, tick)
     release(b, board, tick)
@@ -211,7 +211,7 @@ def resolve_ball_contact(world: WorldRecord, board: BoardRecord, log: LogRecord,
 
 
 @internal
-def hold_jam(
+def stop_jammed_balls(
     lane: Lane,
     geometry: BoardGeometry,
     left: PaddleSweep,
@@ -222,7 +222,7 @@ def hold_jam(
 ) -> tuple[PaddleSweep, PaddleSweep, EventCounts]:
     """Stop the balls that have reached `limit` events in this tick, and stall the paddles next to them.
 
-    Both balls are stopped if most of their events were contacts with each other.
+    Both balls are stopped if contacts between the two make up at least 1/JAM_SHARE of `limit`.
 
     Returns:
         The updated paddles and counts.
@@ -293,7 +293,7 @@ def stall_near(
 
 @inlined
 def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None:
-    """Store a paddle as it is at the end of the tick, with the stop that its button commands."""
+    """Store a paddle at the end of the tick, together with the stop angle its button drives it to."""
     angle, omega = paddle.angle, paddle.omega
     if omega != 0.0:
         angle = angle_at(paddle, tick)
@@ -304,7 +304,7 @@ def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None
 
 @internal
 def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: float) -> bool:
-    """Whether a world can be advanced. A state that was changed from outside is validated first."""
+    """Whether a world can be advanced. A state that was modified externally is validated first."""
     if world.fault != Fault.NONE:
         return False
     return is_unchanged(world, geometry.board, log, tick) or admit_state(world, geometry, tick)
@@ -349,24 +349,24 @@ def run_worlds(
             begin_step(log)
         if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
-        step = 0
-        while step < ticks and are_balls_on_board(world, board):
-            row = 0 if is_held else step
-            if actions[row, index, 2] and (not is_held or (step == 0 and not is_continued)):
+        tick_index = 0
+        while tick_index < ticks and are_balls_on_board(world, board):
+            row = 0 if is_held else tick_index
+            if actions[row, index, 2] and (not is_held or (tick_index == 0 and not is_continued)):
                 shove_balls(world, board, log)
-            free = event_free_ticks(geometry, world.ball[0], world.ball[1], tick, ticks - step)
+            free = event_free_ticks(geometry, world.ball[0], world.ball[1], tick, ticks - tick_index)
             if free == 0:
                 left, right = actions[row, index, 0], actions[row, index, 1]
                 play_tick(lane, geometry, left, right, tick)
-                step += 1
+                tick_index += 1
                 continue
             count = 0
-            while count < free and (count == 0 or is_held or not actions[step + count, index, 2]):
-                row = 0 if is_held else step + count
+            while count < free and (count == 0 or is_held or not actions[tick_index + count, index, 2]):
+                row = 0 if is_held else tick_index + count
                 advance_paddles(world, board, colliders, actions[row, index, 0], actions[row, index, 1], tick)
                 count += 1
             finish_ticks(world, board, tick, count)
-            step += count
+            tick_index += count
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # sets the fault
         store_checksum(world, log)

@@ -23,7 +23,7 @@ invisible. Smaller: more events for a ball at rest. Larger: a ball at rest visib
 chosen."""
 
 MIN_HOP_SPEED = 1e-9
-"""[u/s] The least speed after a touch: without gravity, a ball that has lost its speed towards a wall must
+"""[u/s] The smallest speed after a touch: without gravity, a ball that has lost its speed towards a wall must
 not keep a rounding error of it, or it would meet the wall forever. Rounding errors reach 1e-14 u/s.
 Smaller: that happens. Larger: each touch adds half its square to the energy."""
 
@@ -99,5 +99,5 @@ CELL_SHARE = 0.5
 """Where parts are close to each other, a cell's side is this share of that distance. Source: measured."""
 
 MAX_DEPTH = 1e-9
-"""[u] The guarantee: no ball is ever deeper inside anything. A state from outside that violates it is a
-fault."""
+"""[u] The guarantee: no ball is ever deeper inside anything. An externally modified state that violates it
+is a fault."""

@@ -1,4 +1,4 @@
-"""Validation of states from outside: whether a state is possible, and whether each ball is on its flight.
+"""Validation of externally modified states: whether each is possible, with every ball on its flight.
 
 A state that the last call left unchanged continues; the log holds a checksum to detect that. Any other state
 comes from outside: it was restored, copied, shoved, or its fields were written to. Then every ball must be in

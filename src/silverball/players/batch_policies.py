@@ -117,7 +117,7 @@ def batch_policy(player: str, batch: WorldBatch, branches: int = BRANCHES) -> Ba
     Args:
         player: The name of a player.
         batch: The worlds.
-        branches: Futures that the planner tries at a decision.
+        branches: Branches that the planner tries at a decision.
 
     Raises:
         PlayerError: No player has that name, or it cannot be created.

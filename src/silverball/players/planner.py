@@ -1,9 +1,9 @@
 """The planner: simulates copies of the world and presses what led to the best future.
 
-Sixty times a second the planner copies the world, tries plans on the copies with the same step that moves the
-world, keeps the best plan and presses its first buttons. It improves this plan at every decision until it
-has been carried out, so a shot at a ball on its way down has been tried in a thousand ways when the ball
-arrives.
+Sixty times a second the planner copies the world, tries plans on the copies with the same step function that
+advances the world, keeps the best plan and presses its first buttons. It improves this plan at every decision
+until it has been carried out, so a shot at a ball on its way down has been tried in a thousand ways when the
+ball arrives.
 
 It sees only what a copy of the world shows. Nothing random happens in a copy, because no ball is shoved or
 created in it. Its work is bounded by a number of branches and moves and not by a clock, so a game it plays
@@ -54,15 +54,18 @@ from silverball.world import World, WorldBatch
 DECISIONS = 60  # decisions per second
 BRANCHES = 60  # branches tried at one decision
 MOVES = 10_000  # upper limit for all branches of a decision; a skip over many steps counts as one move
-HORIZON = 10.0  # [s] upper limit of a branch: a shot may return after 7 s, down the middle
+HORIZON = 10.0  # [s] upper limit of a branch: a shot down the middle can take 7 s to come back
 LOW_HORIZON = 4.0  # [s] upper limit of its time with a ball in reach of the paddles
-RISES = 2  # a branch ends when every ball has risen from the paddles this often
+RISES = 2  # a branch ends when every ball has risen from the paddles this many times
 RISE = 1.0  # [u] above the reach of the paddles to which a ball must rise
 LEAD = 12  # steps before a ball is in reach of the paddles at which branches begin to differ
 LOSS_TIME = 2.0  # [s] a ball lost after this time counts half
 GAIN = 0.1  # upper limit of the value of points; a ball lost at once costs 1
-GAIN_HALF = 5.0  # hits of the most valuable part whose value is half of GAIN
-DRY_FROM, DRY_TO = 6.0, 14.0  # [s] without points that cost nothing, and as much as a lost ball
+GAIN_HALF = 5.0  # number of hits of the most valuable part that are worth GAIN / 2
+DRY_FROM = 6.0  # [s] up to this time without points costs nothing
+DRY_TO = 14.0  # [s] from this time on it costs as much as a ball lost at once
+
+NEVER_DECIDED = -2  # step of the last decision; a first decision continues no plan
 
 MEMORY = np.dtype(
     [
@@ -116,10 +119,10 @@ class PlannerState(NamedTuple):
         Args:
             count: Worlds.
             parts: Parts of the largest board.
-            branches: Futures to try at a decision.
+            branches: Branches to try at a decision.
         """
         memories = records(count, MEMORY)
-        memories["step"] = -2
+        memories["step"] = NEVER_DECIDED
         memories["branches"] = branches
         memories["move_limit"] = MOVES
         return cls(
@@ -144,7 +147,7 @@ class Planner:
     differently.
 
     Args:
-        branches: Futures to try at a decision, at most; it also ends after MOVES moves. Fewer are faster.
+        branches: Branches to try at a decision, at most; it also ends after MOVES moves. Fewer are faster.
 
     Attributes:
         state: Its memory and scratch space; made when it first sees a world.
@@ -158,15 +161,22 @@ class Planner:
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
-        every, tick = ticks_per_decision(world.tick_rate), world.tick
+        ticks_per_step, tick = ticks_per_decision(world.tick_rate), world.tick
         if world is not self._world:
             self._begin(world)
         step = int(self.state.memories["step"][0])
-        if tick % every == 0 or tick // every != step:
+        if tick % ticks_per_step == 0 or tick // ticks_per_step != step:
             self._copy[0] = world.records[0]
             geometries = BatchGeometry(self._board, world.records[2], world.grid)
             plan_worlds(
-                self._copy, self._board_of, geometries, self.state, 0, 1, every, 1.0 / world.tick_rate
+                self._copy,
+                self._board_of,
+                geometries,
+                self.state,
+                0,
+                1,
+                ticks_per_step,
+                1.0 / world.tick_rate,
             )
         left, right = self.state.buttons[0].tolist()
         return left, right
@@ -182,11 +192,11 @@ class Planner:
 
 def plan_batch(batch: WorldBatch, state: PlannerState) -> NDArray[np.bool_]:
     """The buttons (left, right) to hold until the next decision in every world, bool [world, 2]."""
-    every, tick = ticks_per_decision(batch.tick_rate), 1.0 / batch.tick_rate
+    ticks_per_step, tick = ticks_per_decision(batch.tick_rate), 1.0 / batch.tick_rate
     geometries = batch.geometries
     batch.on_threads(
         lambda first, end: plan_worlds(
-            batch.state, batch.board_of, geometries, state, first, end, every, tick
+            batch.state, batch.board_of, geometries, state, first, end, ticks_per_step, tick
         ),
         batch.count * MOVES,
     )
@@ -196,7 +206,7 @@ def plan_batch(batch: WorldBatch, state: PlannerState) -> NDArray[np.bool_]:
 @kernel
 def plan_worlds(
     worlds: Any, board_of: Any, geometries: BatchGeometry, state: PlannerState,
-    first: int, end: int, every: int, tick: float,
+    first: int, end: int, ticks_per_step: int, tick: float,
 ) -> None:  # fmt: skip
     """Decide what to press in the worlds first … end − 1 for a step.
 
@@ -207,20 +217,20 @@ def plan_worlds(
         state: Memories and scratch of the planners; its buttons are written.
         first: The first world of the slice.
         end: One past its last world.
-        every: Ticks in a step.
+        ticks_per_step: Ticks in a step.
         tick: Length of a tick [s].
     """
     for index in range(first, end):
         world, memory = worlds[index], state.memories[index]
         plans, copies = state.plans[index], state.copies[index]
-        step = world.tick // every
+        step = world.tick // ticks_per_step
         if memory.step != step - 1:  # another game, or another moment of it
             clear_plan(plans[BEST], step)
         if memory.step != step - 1 or world.score != memory.score:
             memory.score, memory.scored_tick = world.score, world.tick
         memory.step, memory.tried, memory.moves = step, 0, 0
         left = right = False
-        length = tick * every
+        length = tick * ticks_per_step
         log = state.logs[index]
         log.count = LOG_SIZE  # full, so that nothing is written to it
         copies[ROOT] = worlds[index]
@@ -295,13 +305,13 @@ def buttons_of(
     """The buttons that a plan holds in a step."""
     if step < plan.until:
         return is_held(plan, 0, step), is_held(plan, 1, step)
-    if is_above(world, board):
+    if has_no_ball_in_reach(world, board):
         return False, False
     return pressed(as_int(PlayerKind.REFLEX), world, board, colliders, length)
 
 
 @inlined
-def is_above(world: WorldRecord, board: BoardRecord) -> bool:
+def has_no_ball_in_reach(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether no ball is in reach of a paddle."""
     a, b = world.ball[0], world.ball[1]
     return not (a.id != 0 and a.x <= board.paddle_top) and not (b.id != 0 and b.x <= board.paddle_top)
@@ -324,13 +334,13 @@ def look_ahead(
     board, colliders = geometry.board, geometry.colliders
     lane = Lane(world, scratch.log, scratch.tally)
     value, played, scored_at, low = 0.0, 0, 0, 0
-    lowest = int(LOW_HORIZON / length)
+    max_low_steps = int(LOW_HORIZON / length)
     start, score, drained = world.score, world.score, world.drained
     line = board.paddle_top + RISE
     a, b = world.ball[0], world.ball[1]
     low_a, low_b, rises_a, rises_b = a.x < line, b.x < line, 0, 0
-    while played < horizon and low < lowest and are_balls_on_board(world, board):
-        if not is_above(world, board):
+    while played < horizon and low < max_low_steps and are_balls_on_board(world, board):
+        if not has_no_ball_in_reach(world, board):
             low += 1
             if is_scout:
                 break
@@ -361,8 +371,8 @@ def look_ahead(
             break
     dry += (played - scored_at) * length
     gain = (score - start) / most_points(board, colliders)
-    share = min(max((dry - DRY_FROM) / (DRY_TO - DRY_FROM), 0.0), 1.0)
-    return value + GAIN * gain / (gain + GAIN_HALF) - share, played
+    dry_penalty = min(max((dry - DRY_FROM) / (DRY_TO - DRY_FROM), 0.0), 1.0)
+    return value + GAIN * gain / (gain + GAIN_HALF) - dry_penalty, played
 
 
 @inlined

@@ -1,7 +1,7 @@
 """Rollouts: a player plays many worlds without a window, in one compiled loop.
 
-The loop keeps the wanted number of balls on every board, lets the player press, moves the world and, if
-asked, audits every tick for a ball inside anything. Players that decide in Python do so between its calls
+The loop keeps the wanted number of balls on every board, lets the player press buttons, steps the world and,
+if asked, audits every tick for a ball inside anything. Players that decide in Python do so between its calls
 (`batch_policies.py`).
 """
 
@@ -35,7 +35,7 @@ from silverball.world import WorldBatch
 CHUNK_TICKS = 2_000_000  # ticks of all worlds together between two calls of `progress`
 
 
-class Played(NamedTuple):
+class RolloutTotals(NamedTuple):
     """The totals over all worlds of a batch.
 
     Attributes:
@@ -44,10 +44,10 @@ class Played(NamedTuple):
         created: Balls created.
         drained: Balls that left through the gutter.
         score: Points.
-        hits: Hits by the path of the part; those of different boards are added by path.
+        hits: Hits by the name of the part; those of different boards are added by name.
         touches: Contacts below hit_speed.
         ball_hits: Hits of ball against ball.
-        jams: How often a pinched ball was held.
+        jams: Number of times a jammed ball was frozen.
         faults: Worlds that stopped at an impossible state.
         deepest: The greatest depth of any ball inside anything [u]; NaN if not audited.
     """
@@ -92,7 +92,7 @@ def play(
     balls: int = 1,
     audit: bool = False,
     progress: Callable[[float], None] | None = None,
-) -> Played:
+) -> RolloutTotals:
     """Let a player play all worlds of a batch.
 
     Args:
@@ -137,13 +137,13 @@ def _run(batch: WorldBatch, rollout: Rollout, ticks: int) -> None:
     )
 
 
-def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> Played:
+def _totals(batch: WorldBatch, seconds: float, wall: float, depth: float) -> RolloutTotals:
     state = batch.state
     hits: dict[str, int] = {}
     for row, board in zip(batch.tallies, batch.board_of, strict=True):
         for name, count in zip(batch.boards.names[board], row.tolist(), strict=False):
             hits[name] = hits.get(name, 0) + count
-    return Played(
+    return RolloutTotals(
         seconds,
         wall,
         int(state["created"].sum()),

@@ -28,7 +28,7 @@ from silverball.wholefile import STDIN, is_missing, write_whole
 FORMAT = 1
 MAX_FINDINGS = 100  # a soak ends after these: the solver is broken, more of them add nothing
 MAX_FILES = 20  # findings that are written to files, for the same reason
-SIZE_LIMIT = 2**20  # [bytes] of a log; chosen: a hundred times its usual size
+SIZE_LIMIT = 2**20  # [bytes] of a log: a hundred times its usual size
 DESCRIPTION = "a progress file of a soak"
 
 

@@ -1,4 +1,4 @@
-"""Checks of the soak after every tick: places, contacts, passages, faults, and balls that are stuck.
+"""Checks of the soak after every tick: places, contacts, tunnelling, faults, and balls that are stuck.
 
 They do not use the solver's geometry. A ball must be on the board and in the region it was created in
 (`regions.py`), inside nothing, and just at the surface at every contact (`audit.py`). It must not pass
@@ -51,13 +51,13 @@ from silverball.soak.regions import (
     region_of,
 )
 
-DEPTH = 1e-9  # [u] deeper is a penetration
+DEPTH = 1e-9  # [u] depth above which an overlap counts as a penetration
 STUCK_RADIUS = 0.3  # [u] a ball that does not get further than this from a place …
 STUCK_AFTER = 60.0  # [s] … for longer than this is stuck, unless it was counted as jammed meanwhile
 SAMPLE = 0.05  # [u] between two checked places of a path
-PASSAGE_DEPTH = 1e-6  # [u] deeper, on the path, is a passage
+PASSAGE_DEPTH = 1e-6  # [u] overlap along the path above which the ball counts as having tunnelled
 GUTTER_MARGIN = 1e-9  # [u] for the rounding of the moment at which a ball drains
-"""Source of all these: chosen."""
+"""All of these are judgement calls, not taken from a source."""
 
 
 class Found(IntEnum):
@@ -66,7 +66,7 @@ class Found(IntEnum):
     NOTHING = 0
     ESCAPE = 1  # a ball at a place that it cannot reach
     PENETRATION = 2  # a ball deeper than DEPTH inside something
-    PASSAGE = 3  # a ball that passed through something without a contact
+    PASSAGE = 3  # a ball that tunnelled: it passed through something without a contact
     PHANTOM = 4  # a contact with nothing
     FAULT = 5  # the solver has stopped the world with a fault
     STUCK = 6  # a ball in one place for too long
@@ -111,7 +111,7 @@ WATCH = np.dtype(
 WatchRecord: TypeAlias = Any  # a WATCH record
 
 
-class Truth(NamedTuple):
+class ReferenceBoard(NamedTuple):
     """A table as the checks know it, compiled for them alone, apart from the board that the solver reads.
 
     Attributes:
@@ -150,7 +150,7 @@ class Watches(NamedTuple):
 
 
 @kernel
-def register_new_balls(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
+def register_new_balls(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Record where new balls start. On a checked board, that can only be the region of the gutter."""
     for slot in range(BALL_COUNT):
         ball, tracker = world.ball[slot], watch.tracker[slot]
@@ -170,7 +170,7 @@ def report(world: WorldRecord, watch: WatchRecord, found: int, slot: int, since:
 
 
 @kernel
-def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
+def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Check that every ball is at a possible place and not inside anything."""
     board, colliders, now = truth.board, truth.colliders, world.tick
     for slot in range(BALL_COUNT):
@@ -199,7 +199,9 @@ def check_places(world: WorldRecord, truth: Truth, watch: WatchRecord) -> None:
 
 
 @kernel
-def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBefore, tick: float) -> None:
+def check_contacts(
+    lane: Lane, truth: ReferenceBoard, watch: WatchRecord, before: StateBefore, tick: float
+) -> None:
     """Check that every ball touched the surface of the part that it met."""
     world, log = lane.world, lane.log
     if log.lost > 0:
@@ -225,7 +227,7 @@ def check_contacts(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBe
 
 @kernel
 def is_untouched(log: LogRecord, ball: int) -> bool:
-    """Whether a ball met nothing in the last tick, by the log."""
+    """Whether a ball met nothing in the last tick, according to the log."""
     if log.lost > 0:
         return False
     for number in range(log.count):
@@ -239,7 +241,7 @@ def is_untouched(log: LogRecord, ball: int) -> bool:
 
 @kernel
 def max_sagitta(board: BoardRecord, tick: float) -> float:
-    """How far a flight can be from the straight line between its ends, a tick [s] apart [u].
+    """Upper bound [u] on how far a flight deviates from its chord over one tick [s].
 
     At most a quarter of the tick times everything that changes the velocity on the way: gravity, friction,
     and, where a slipping ball begins to roll, once more what gravity does in a tick.
@@ -251,7 +253,7 @@ def max_sagitta(board: BoardRecord, tick: float) -> float:
 
 @kernel
 def depth_along_path(
-    truth: Truth, previous: PreviousBall, ball: BallRecord, before: Any, after: Any, tick: float
+    truth: ReferenceBoard, previous: PreviousBall, ball: BallRecord, before: Any, after: Any, tick: float
 ) -> float:
     """How deep a ball was inside something on the straight path from `previous` to where it is now [u].
 
@@ -295,8 +297,10 @@ def depth_of_meeting(
 
 
 @kernel
-def check_passages(lane: Lane, truth: Truth, watch: WatchRecord, before: StateBefore, tick: float) -> None:
-    """Check that no ball passed through anything without a contact.
+def check_tunnelling(
+    lane: Lane, truth: ReferenceBoard, watch: WatchRecord, before: StateBefore, tick: float
+) -> None:
+    """Check that no ball tunnelled: passed through anything without a contact.
 
     The path is checked as a straight line, so a depth up to its sagitta is allowed.
     """
@@ -339,7 +343,7 @@ def watched_tick(
     lane: Lane,
     geometry: BoardGeometry,
     places: Places,
-    truth: Truth,
+    truth: ReferenceBoard,
     watch: WatchRecord,
     action: ActionRecord,
     tick: float,
@@ -372,7 +376,7 @@ def watched_tick(
     check_places(world, truth, watch)
     if watch.found == Found.NOTHING:
         check_contacts(lane, truth, watch, before, tick)
-        check_passages(lane, truth, watch, before, tick)
+        check_tunnelling(lane, truth, watch, before, tick)
     if not truth.hostile and truth.board.gravity > 0.0:  # without gravity a ball may stay forever
         check_stuck(world, watch, tick)
 
@@ -391,7 +395,7 @@ def soak_worlds(
         watch, action, number = watches.states[index], drivers.actions[index], lanes.board_of[index]
         board, driver, wild = geometries.boards[number], drivers.states[index], drivers.wild[index]
         lane, geometry = Lane(world, log, tally), BoardGeometry(board, geometries.colliders, geometries.grid)
-        truth = Truth(
+        truth = ReferenceBoard(
             watches.boards[number], watches.colliders, watches.headers[number], watches.labels,
             watches.hostile,
         )  # fmt: skip

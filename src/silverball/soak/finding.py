@@ -34,7 +34,7 @@ LEAD_SECONDS = 1.0  # [s] from the saved state to the finding
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
 DESCRIPTION = "a finding of a soak"
-MAX_KICK = 1e4  # [u/s] of a kick; chosen: far above every speed cap
+MAX_KICK = 1e4  # [u/s] of a kick: far above every speed cap
 
 
 def _action(values: list[Any]) -> list[Any]:

@@ -17,7 +17,7 @@ from pydantic import AfterValidator
 from pydantic.dataclasses import dataclass
 
 from silverball.physics.records import records
-from silverball.soak.checks import WATCH, Found, Truth, Watches, soak_worlds
+from silverball.soak.checks import WATCH, Found, ReferenceBoard, Watches, soak_worlds
 from silverball.soak.driver import Drivers
 from silverball.soak.hostile import hostile_table
 from silverball.soak.json_file import STRICT, Amount, Count
@@ -96,7 +96,7 @@ class Totals:
         created: Balls created.
         drained: Balls that left through the gutter.
         hits: Of balls on parts and on each other.
-        jams: How often a pinched ball was held.
+        jams: Number of times a jammed ball was frozen.
         deepest: The greatest depth of any ball inside anything [u].
         found: Findings of each kind; a world ends at its first.
     """
@@ -159,10 +159,10 @@ class SoakBatch:
             hostile,
         )
 
-    def truth(self, world: int) -> Truth:
+    def truth(self, world: int) -> ReferenceBoard:
         """What the checks know of the table of a world."""
         watches, board = self.watches, self.batch.board_of[world]
-        return Truth(
+        return ReferenceBoard(
             watches.boards[board], watches.colliders, watches.headers[board], watches.labels, watches.hostile
         )
 

@@ -37,7 +37,7 @@ from silverball.table.parts import (
     TriangularPrism,
 )
 from silverball.table.placement_rules import recipe_problems
-from silverball.table.reach import PASSAGE, Space, creation_floor, space
+from silverball.table.reach import PASSAGE_MARGIN, Space, creation_floor, space
 from silverball.table.sweep import CLEARANCE, touches_border, touches_paddle, touches_shape
 from silverball.table.traps import level_faces, pockets
 
@@ -257,7 +257,7 @@ def _pair_problems(
     shapes, parts, paths = stationary.shapes, stationary.parts, stationary.paths
     if not parts:
         return overlaps, tight
-    widest = (2.0 + PASSAGE) * board.ball_radius
+    widest = (2.0 + PASSAGE_MARGIN) * board.ball_radius
     first, second, gaps = near_pairs(shapes, widest)
     for one, other, gap in zip(first.tolist(), second.tolist(), gaps.tolist(), strict=True):
         path = f"{paths[other]}.{_place_key(parts[other])}"
@@ -293,7 +293,7 @@ def _gap_problem(path: str, gap: float, other: str, board: Board) -> Problem:
     ball = 2.0 * board.ball_radius
     message = (
         f"leaves {gap:.3f} u to {other}, which a ball of {ball:g} u barely fits: "
-        f"leave at least {ball + PASSAGE * board.ball_radius:.2f} u, or less than {ball:g} u"
+        f"leave at least {ball + PASSAGE_MARGIN * board.ball_radius:.2f} u, or less than {ball:g} u"
     )
     return Problem(path, message)
 

@@ -27,12 +27,12 @@ from silverball.table.meshfile import KINDS, MeshError, mesh_points
 if TYPE_CHECKING:
     from silverball.table.parts import Point, Triangle
 
-MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file; chosen: 300,000 triangles of binary STL
-CORNERS_LIMIT = 1000  # corners of a prism's footprint; chosen: the largest triangle is found in a second
-HULL_LIMIT = 2**16  # corners of a hull; chosen: the most that points in single precision can have
+MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file: 300,000 triangles of binary STL
+CORNERS_LIMIT = 1000  # corners of a prism's footprint, so that the largest triangle is found in a second
+HULL_LIMIT = 2**16  # corners of a hull: the most that points in single precision can have
 MAX_COORDINATE = 1e6  # [u] from the origin; a point further out means that the file is damaged
 MIN_WIDTH = 1e-3  # [u] a footprint narrower than this is flat
-_ROUNDED = 6  # decimals of a footprint [u]; STL stores single precision
+_DECIMALS = 6  # decimals of a footprint [u]; STL stores single precision
 
 
 def triangle_footprint(path: Path) -> Triangle:
@@ -43,11 +43,12 @@ def triangle_footprint(path: Path) -> Triangle:
     """
     hull = convex_hull(_points(path))
     if len(hull) > CORNERS_LIMIT:
-        count = f"a footprint of {len(hull):,} corners or more, a prism's has at most {CORNERS_LIMIT:,}"
-        message = f"has {count}: simplify {plain(str(path))}"
+        count = f"at least {len(hull):,} corners; a prism's may have at most {CORNERS_LIMIT:,}"
+        message = f"has a footprint with {count}: simplify {plain(str(path))}"
         raise _unusable(str(path), message)
     corners = largest_triangle(hull)
-    a, b, c = (tuple(float(value) + 0.0 for value in np.round(corner, _ROUNDED)) for corner in corners)
+    # + 0.0 turns −0.0 into 0.0.
+    a, b, c = (tuple(float(value) + 0.0 for value in np.round(corner, _DECIMALS)) for corner in corners)
     return (a[0], a[1]), (b[0], b[1]), (c[0], c[1])
 
 
@@ -58,7 +59,8 @@ def circle_footprint(path: Path) -> tuple[float, float, float]:
         TableError: The file is missing, damaged, too large or flat, or of an unknown kind.
     """
     x, z, radius = smallest_circle(_points(path))
-    return round(x, _ROUNDED) + 0.0, round(z, _ROUNDED) + 0.0, round(radius, _ROUNDED)
+    # + 0.0 turns −0.0 into 0.0.
+    return round(x, _DECIMALS) + 0.0, round(z, _DECIMALS) + 0.0, round(radius, _DECIMALS)
 
 
 def convex_hull(points: Floats) -> Floats:
@@ -120,14 +122,16 @@ def smallest_circle(points: Floats) -> tuple[float, float, float]:
     grows each time, so this ends.
     Source: B. Gärtner, "Fast and robust smallest enclosing balls", ESA 1999 (the choice of the next point).
     """
-    few: list[Point] = [(float(points[0, 0]), float(points[0, 1]))]
-    circle = (*few[0], 0.0)
+    support: list[Point] = [(float(points[0, 0]), float(points[0, 1]))]
+    circle = (*support[0], 0.0)
     while True:
         away = np.hypot(points[:, 0] - circle[0], points[:, 1] - circle[1])
         furthest = int(np.argmax(away))
         if away[furthest] <= circle[2] * (1.0 + 1e-12) + 1e-12:
             return circle
-        grown, few = _circle_of_few([*few, (float(points[furthest, 0]), float(points[furthest, 1]))])
+        grown, support = _circle_of_support(
+            [*support, (float(points[furthest, 0]), float(points[furthest, 1]))]
+        )
         if grown[2] <= circle[2]:  # no progress beyond rounding
             return circle
         circle = grown
@@ -147,7 +151,8 @@ def _points(path: Path) -> Floats:
     if not stat.S_ISREG(status.st_mode):
         raise _unusable(name, f"is not a regular file: {name}")
     if status.st_size > MESH_LIMIT:
-        message = f"is {status.st_size:,} bytes long, a mesh has at most {MESH_LIMIT:,}: simplify {name}"
+        size = f"{status.st_size:,} bytes long, but the limit for a mesh is {MESH_LIMIT:,}"
+        message = f"is {size}; simplify {name}"
         raise _unusable(name, message)
     try:
         content = path.read_bytes()
@@ -157,9 +162,8 @@ def _points(path: Path) -> Floats:
     except MeshError as error:
         raise _unusable(name, f"cannot be used: {name} {error}") from error
     if not (np.abs(vertices) <= MAX_COORDINATE).all():  # also not for NaN
-        raise _unusable(
-            name, f"has coordinates beyond {MAX_COORDINATE:,.0f} u or that are not numbers: {name} is damaged"
-        )
+        bad = f"contains coordinates that are NaN or beyond ±{MAX_COORDINATE:,.0f} u"
+        raise _unusable(name, f"{bad}; {name} is probably damaged")
     points = vertices[:, [0, 2]]
     if len(points) < 3 or _width(points) < MIN_WIDTH:
         raise _unusable(name, f"is flat or empty seen from above (along y): {name} has no footprint")
@@ -182,12 +186,12 @@ def _width(points: Floats) -> float:
     return float(np.ptp(centred @ across))
 
 
-def _circle_of_few(points: list[Point]) -> tuple[tuple[float, float, float], list[Point]]:
+def _circle_of_support(points: list[Point]) -> tuple[tuple[float, float, float], list[Point]]:
     """The smallest circle around up to four points, and the two or three that define it."""
     pairs = [(_circle_of_two(p, q), [p, q]) for p, q in itertools.combinations(points, 2)]
     triples = [(_circle_of_three(p, q, r), [p, q, r]) for p, q, r in itertools.combinations(points, 3)]
-    holding = [found for found in pairs + triples if all(_contains(found[0], point) for point in points)]
-    return min(holding or triples or pairs, key=lambda found: found[0][2])
+    enclosing = [found for found in pairs + triples if all(_contains(found[0], point) for point in points)]
+    return min(enclosing or triples or pairs, key=lambda found: found[0][2])
 
 
 def _contains(circle: tuple[float, float, float], point: Point) -> bool:

@@ -146,7 +146,7 @@ def _glb(content: bytes) -> Floats:
     total = sum(counts[mesh] for mesh, _ in places)
     if total > POINTS_LIMIT:
         many = f"has {total:,} vertices in {len(places):,} places"
-        raise MeshError(f"{many}, a mesh has at most {POINTS_LIMIT:,}: simplify it")
+        raise MeshError(f"{many}, but the limit for a mesh is {POINTS_LIMIT:,}; simplify it")
     points = {
         mesh: np.concatenate(
             [np.empty((0, 3)), *(_used_vertices(scene, binary, each) for each in primitives)]

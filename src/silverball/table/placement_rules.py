@@ -17,7 +17,7 @@ import numpy as np
 from silverball.errors import Problem
 from silverball.table.geometry import Floats, Shapes, border_gaps, distances
 from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StationaryPart
-from silverball.table.reach import PASSAGE
+from silverball.table.reach import PASSAGE_MARGIN
 
 EDGE_ANGLE = 10  # [deg] least angle between an edge of a placed prism and an axis
 _TRIALS = 48  # sample points along each side of the area
@@ -93,7 +93,7 @@ def recipe_problems(
 ) -> list[Problem]:
     """Find the rules of a recipe that no layout can meet."""
     problems = []
-    least = (2.0 + PASSAGE) * board.ball_radius
+    least = (2.0 + PASSAGE_MARGIN) * board.ball_radius
     for key in ("gap", "wall_gap"):
         given = getattr(recipe, key)
         if given < least:

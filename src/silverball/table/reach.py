@@ -28,9 +28,9 @@ CELL = 1.25  # [ball radii] side of a cell in which a ball may be created
 SAMPLES = 4  # samples along each side of a cell
 NEAR_SAMPLES = 4  # samples around a point that count as near it, in each direction
 STEP = CELL / SAMPLES  # [ball radii] between two samples
-PASSAGE = (
+PASSAGE_MARGIN = (
     math.sqrt(2.0) * STEP
-)  # [ball radii] a passage at any angle is found if it is wider than a ball by this
+)  # [ball radii] by which a passage must be wider than a ball to be found
 
 
 class Grid(NamedTuple):
@@ -133,7 +133,7 @@ def space(board: Board, paddles: tuple[Paddle, ...], stationary: list[Outline]) 
 
 
 def _block(free: Bools, grid: Grid, core: Triangle, radius: float) -> None:
-    """Mark the samples closer to a core than a radius as not free, in place."""
+    """Mark the samples within `radius` of a core as blocked, in place."""
     xs, zs = [x for x, _ in core], [z for _, z in core]
     rows = slice(*np.searchsorted(grid.x, [min(xs) - radius, max(xs) + radius]))
     columns = slice(*np.searchsorted(grid.z, [min(zs) - radius, max(zs) + radius]))

@@ -6,9 +6,10 @@ offset by a ball's radius. All pairs of parts closer than a ball is wide are con
 every border. A crossing is a pocket if
 
     no other part is in the way,
-    straight up lies between the two normals (less than 180° apart),
+    the up-table direction lies between the two normals (less than 180° apart),
     a ball can get there (`Space.reaches`), and
-    the way out over the lower part climbs higher than the hops that every touch leaves.
+    to escape over the lower part, the ball would have to climb higher than the small hop that each touch
+    gives it.
 
 A ball can only balance on a single round top, which is not a trap. Paddles are at rest here: a ball that only
 a paddle can free would lie there forever in an unplayed game.
@@ -38,9 +39,12 @@ from silverball.table.geometry import (
 from silverball.table.parts import Board, Point
 from silverball.table.reach import Space
 
-LEVEL = 2.0  # [deg] a face below this slope is level; chosen: a ball on it slides a table's width in 8 s
-SHALLOW = 1e-4  # [u] a ball hops out of a shallower pocket; chosen: a fifth of the least hop of a touch
+LEVEL = 2.0  # [deg] a face below this slope is level: a ball on it slides a table's width in 8 s
+SHALLOW = 1e-4  # [u] a ball hops out of a shallower pocket: a fifth of the smallest hop of a touch
 CONTACT = 1e-7  # [u] a gap below this is a contact; crossings are accurate to 1e-12
+ANGLE_TOLERANCE = 1e-9  # [rad] for the rounding of the angle between two normals
+PARALLEL = 1e-9  # lines whose directions differ by a smaller sine are parallel
+DUPLICATE_DECIMALS = 6  # places that are equal to so many decimals [u] are one
 
 
 class LevelFace(NamedTuple):
@@ -116,13 +120,13 @@ def _pocket_at(ball: Floats, shapes: Shapes, board: Board) -> Pocket | None:
         else:
             x, z = BORDER_NORMALS[collider - len(shapes.radius)]
         contacts.append((math.atan2(z, x), collider))
-    leftmost = max((contact for contact in contacts if contact[0] <= 0.0), default=None)
-    rightmost = min((contact for contact in contacts if contact[0] >= 0.0), default=None)
-    if leftmost is None or rightmost is None or leftmost[1] == rightmost[1]:
+    nearest_left = max((contact for contact in contacts if contact[0] <= 0.0), default=None)
+    nearest_right = min((contact for contact in contacts if contact[0] >= 0.0), default=None)
+    if nearest_left is None or nearest_right is None or nearest_left[1] == nearest_right[1]:
         return None
-    if rightmost[0] - leftmost[0] >= math.pi - 1e-9:  # between vertical faces it slides down
+    if nearest_right[0] - nearest_left[0] >= math.pi - ANGLE_TOLERANCE:  # it slides down vertical faces
         return None
-    first, second = sorted((leftmost[1], rightmost[1]))
+    first, second = sorted((nearest_left[1], nearest_right[1]))
     count = len(shapes.radius)
     if first >= count:
         return None  # borders alone hold no ball: none of them faces up
@@ -152,7 +156,7 @@ def _crossings(shapes: Shapes, board: Board) -> Floats:
         _border_crossings(shapes, np.nonzero(near)[0], i, board) for i, near in enumerate(near_border.T)
     ]
     balls = np.concatenate(found)
-    _, once = np.unique(np.round(balls, 6), axis=0, return_index=True)
+    _, once = np.unique(np.round(balls, DUPLICATE_DECIMALS), axis=0, return_index=True)
     balls = balls[once]
     return balls[_is_clear(balls, shapes, board)]
 
@@ -212,7 +216,7 @@ def _border_crossings(shapes: Shapes, which: Indices, border: int, board: Board)
 def _line_line(n1: Floats, d1: Floats, n2: Floats, d2: Floats) -> Floats:
     """The point with n1·p = d1 and n2·p = d2; not finite for parallel lines."""
     turn = n1[..., 0] * n2[..., 1] - n1[..., 1] * n2[..., 0]
-    turn = np.where(np.abs(turn) > 1e-9, turn, np.nan)
+    turn = np.where(np.abs(turn) > PARALLEL, turn, np.nan)
     x = (d1 * n2[..., 1] - d2 * n1[..., 1]) / turn
     z = (d2 * n1[..., 0] - d1 * n2[..., 0]) / turn
     return np.stack([x, z], axis=-1)

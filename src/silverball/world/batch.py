@@ -1,4 +1,4 @@
-"""Many worlds that move together, on all cores: `WorldBatch`.
+"""Many worlds stepped together, on all cores: `WorldBatch`.
 
 A batch holds one flat record per world. World i of a batch with seed s is, bit for bit, the single world with
 seed s + i at the same tick rate. Slices of worlds run on threads (the kernels release the interpreter lock);
@@ -39,8 +39,9 @@ class WorldBatch:
         count: The number of worlds.
         tick_rate: Ticks per second.
         threads: The number of threads that `step` may use.
-        state: WORLD records, shape [world]: everything that changes. A copy of a row continues exactly.
-        tables: The finished tables; worlds on the same table share one.
+        state: WORLD records, shape [world]: everything that changes. A copied row, stepped
+            with the same actions, has exactly the same future.
+        tables: The concrete tables (random parts already generated); worlds on the same table share one.
         board_of: The number of each world's table in `tables`, int64 [world].
         tallies: Hits of every part since the batch was made, int64 [world, part]; statistics, not state.
             `part_numbers` gives the column of each part.
@@ -143,15 +144,15 @@ class WorldBatch:
             ValueError: The shape of the actions is wrong, or ticks is not an integer ≥ 0.
         """
         ticks = checked_int("ticks", ticks, 0, 2**40)
-        held = np.ascontiguousarray(actions, np.bool_)
-        if held.ndim == 2:
-            held = held[None]
-        if held.shape not in ((1, self.count, 3), (ticks, self.count, 3)):
+        action_rows = np.ascontiguousarray(actions, np.bool_)
+        if action_rows.ndim == 2:
+            action_rows = action_rows[None]
+        if action_rows.shape not in ((1, self.count, 3), (ticks, self.count, 3)):
             raise ValueError(
                 f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), "
                 f"got {np.shape(actions)}"
             )
-        self.step_unchecked(held, ticks)
+        self.step_unchecked(action_rows, ticks)
 
     def step_unchecked(self, held: NDArray[np.bool_], ticks: int) -> None:
         """Advance every world, without the checks of `step`.
@@ -170,18 +171,18 @@ class WorldBatch:
             self.count * abs(ticks),
         )
 
-    def _step_in_chunks(self, held: NDArray[np.bool_], ticks: int, chunk: int) -> None:
+    def _step_in_chunks(self, action_rows: NDArray[np.bool_], ticks: int, chunk: int) -> None:
         for start in range(0, ticks, chunk):
             end = min(start + chunk, ticks)
-            rows = held if len(held) == 1 else held[start:end]
-            if len(rows) < len(held) and len(rows) == 1:
+            rows = action_rows if len(action_rows) == 1 else action_rows[start:end]
+            if len(rows) < len(action_rows) and len(rows) == 1:
                 rows = rows.repeat(2, axis=0)  # a single row would be held, and its jitter ignored
             self.step_unchecked(rows, end - start if start == 0 else start - end)
 
     def on_threads(self, task: Callable[[int, int], None], work: int) -> None:
         """Call task(first, end) for slices of the worlds, on threads if there is enough work.
 
-        An exception from outside, for example Ctrl-C, is raised when all slices are done.
+        An asynchronous exception, such as KeyboardInterrupt, is raised when all slices are done.
 
         Args:
             task: A function that releases the interpreter lock, called with the first world and one past
@@ -269,8 +270,8 @@ class WorldBatch:
         Record i of the snapshot goes into the i-th chosen world, a single record into all of them:
         ``batch.restore(batch.save(7))`` makes every world a branch of world 7. Branches share the seed, so
         the same actions lead to the same future until ``batch.state["seed"]`` is changed. The events of these
-        worlds are dropped, tallies stay. On any error nothing has changed. An impossible record stops its
-        world with a named fault in the next step.
+        worlds are dropped, tallies stay. If an error is raised, nothing is changed. An impossible record
+        stops its world with a named fault in the next step.
 
         Args:
             snapshot: What `save` of this or another batch returned.

@@ -46,8 +46,8 @@ from silverball.table import (
 )
 
 SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
-FIRST_GRID_SIZE = 1024  # numbers for a board's grid at first; most need fewer
-TINY = 1e-300  # least divisor
+FIRST_GRID_SIZE = 1024  # initial capacity of a board's grid [int32 entries]; most boards need less
+TINY = 1e-300  # smallest divisor, to avoid division by zero
 FAR = 1e9  # [u] place of a paddle that the table does not have, out of every ball's reach
 FIRST_PART_NAMES = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
 PADDLES = ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right"))
@@ -79,7 +79,7 @@ class Boards(NamedTuple):
 
 
 def compile_tables(tables: Sequence[Table]) -> Boards:
-    """Compile finished tables (without a `[random]` section) into arrays.
+    """Compile concrete tables (random parts already generated) into arrays.
 
     Raises:
         TableError: A part has no extent, or two paddles are on one side.
@@ -223,7 +223,10 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
 
 
 def _search_time(board: Any) -> float:
-    """The longest time of a search [s]; at low gravity that in which a ball from rest moves by the skin."""
+    """Maximum simulated time that one search may cover [s].
+
+    At low gravity it is the time that a ball starting from rest takes to travel `skin`.
+    """
     if board["gravity"] >= LOW_GRAVITY:
         return SEARCH_TIME
     return min(math.sqrt(board["skin"] / max(board["max_accel"], TINY)), MAX_SEARCH_TIME)
@@ -299,7 +302,7 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
 
 
 def _top(paddle: Paddle) -> float:
-    """An x [u] above every point of a paddle at each of its angles."""
+    """An upper bound on the x [u] that any point of the paddle reaches."""
     tip = paddle.length * math.sin(math.radians(paddle.up_angle))
     return paddle.pivot[0] + max(tip, 0.5 * paddle.base) + SLACK
 

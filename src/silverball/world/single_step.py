@@ -1,4 +1,4 @@
-"""The single-world fast path: one short call moves a world, in about a microsecond.
+"""The single-world fast path: one cheap call steps a world, in about a microsecond.
 
 Numba unpacks every argument at each call: seven arrays cost some 0.6 µs, more than the tick itself. So the
 addresses of a batch's arrays are stored once, in one small array, and the kernel makes views of the arrays

@@ -155,8 +155,8 @@ def scatter(
         The rows that were written.
 
     Raises:
-        StateError: Another tick rate, or a table that is not in `tables`; nothing has changed.
-        ValueError: An index that is invalid, out of range, or of another length; nothing has changed.
+        StateError: Another tick rate, or a table that is not in `tables`; nothing is changed.
+        ValueError: An index that is invalid, out of range, or of another length; nothing is changed.
     """
     if not isinstance(snapshot, Snapshot):
         raise StateError(f"a batch is restored from a Snapshot, got {type(snapshot).__name__}")

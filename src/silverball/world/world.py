@@ -141,9 +141,9 @@ class World:
             The new ball.
 
         Raises:
-            BoardFull: The board already holds `max_balls`; nothing has changed.
+            BoardFull: The board already holds `max_balls`; nothing is changed.
             FaultError: The world has stopped.
-            NoRoom: No place is free, or the given one overlaps something; nothing has changed.
+            NoRoom: No place is free, or the given one overlaps something; nothing is changed.
             ValueError: A position or velocity is not two finite numbers, or is faster than the speed cap.
 
         Examples:
@@ -233,7 +233,7 @@ class World:
 
     @property
     def jams(self) -> int:
-        """How often a pinched ball was stopped; see the event "jam"."""
+        """Number of times a jammed ball was stopped; see the event "jam"."""
         return int(self._record["jams"])
 
     @property
@@ -304,8 +304,8 @@ class World:
     def restore(self, state: bytes) -> None:
         """Restore a saved state, bit for bit.
 
-        The events are dropped. Two overlapping balls in an edited state are moved apart equally. On any error
-        nothing has changed.
+        The events are dropped. Two overlapping balls in an edited state are moved apart equally. If an error
+        is raised, nothing is changed.
 
         Raises:
             StateError: The state is damaged, impossible, or of another table or tick rate.

@@ -15,9 +15,9 @@ from silverball.metrics.game_traces import (
     REACTION,
     REACTION_JITTER,
     REMEMBERED_TICKS,
-    STAY,
+    STAY_RADIUS,
     TICK_RATE,
-    Over,
+    GameEnd,
     beginner_presses,
     play_games,
 )
@@ -66,7 +66,7 @@ def watched(seed: int, player: str) -> dict[str, float]:
             gap_to_triangle(place(ball), paddle.corners(math.degrees(now.angle))) for paddle, now in turned
         )
         seen["on_paddle"] += min(near) - TABLE.board.ball_radius < ON_PADDLE
-        if math.dist(place(ball), anchor) > STAY:
+        if math.dist(place(ball), anchor) > STAY_RADIUS:
             anchor, stay = place(ball), 0
         stay += 1
         seen["longest_stay"] = max(seen["longest_stay"], stay)
@@ -82,7 +82,7 @@ def test_the_trace_of_a_game_is_what_one_sees_from_outside(player: str) -> None:
 
 def test_the_maps_and_the_gaps_count_every_tick_and_every_hit_once() -> None:
     games = games_of(16, 5, "random")
-    assert games.heat.sum() == (games.game["ticks"] - (games.game["over"] == Over.DRAINED)).sum()
+    assert games.heat.sum() == (games.game["ticks"] - (games.game["over"] == GameEnd.DRAINED)).sum()
     assert games.gaps.sum() == games.hits.sum() > 0
     assert games.stays.max() == games.game["longest_stay"].max()
     longest = games.game["longest_stay"].argmax()
@@ -99,7 +99,7 @@ def test_a_game_is_the_same_alone_and_among_others() -> None:
 
 def test_a_game_that_does_not_end_is_cut_short() -> None:
     games = games_of(3, 0, "idle", longest=0.5)
-    assert (games.game["over"] == Over.CUT_SHORT).all()
+    assert (games.game["over"] == GameEnd.CUT_SHORT).all()
     assert (games.game["ticks"] == TICK_RATE // 2).all()
 
 

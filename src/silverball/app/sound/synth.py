@@ -46,7 +46,7 @@ RATE = 48_000
 
 Wave: TypeAlias = NDArray[np.floating[Any]]
 
-FADE_IN = 0.0004  # [s] at the start of every sound: shorter clicks, longer takes the edge off a hit
+FADE_IN = 0.0004  # [s] at the start of every sound: a shorter fade clicks; a longer one dulls the attack
 FADE_OUT = 0.012  # [s] at its end
 DECAY_FLOOR = -80.0  # [dB] below which a decay is cut off
 _BLOCK = 256  # samples of decaying tones computed at once
@@ -118,7 +118,7 @@ def struck(
         decay: Decay of the lowest partial [s].
         brightness: Strength of each partial relative to the one below; a harder blow is brighter.
         damping: Exponent of the decay of high partials, `decay` · ratio^−damping. Wood 0.9, metal 0.6.
-        detune: Greatest relative detuning of a partial; makes no two blows alike.
+        detune: Greatest relative detuning of a partial, so that no two hits sound alike.
         random: Draws the detuning and small differences of strength.
     """
     partials = []

@@ -43,7 +43,7 @@ def headers(measures: list[Rate]) -> list[str]:
     return ["environment", "steps/s", *(f"beside {measure.yardstick}" for measure in measures)]
 
 
-def footing(result: Result) -> list[str]:
+def footer(result: Result) -> list[str]:
     """Rounds, machine, versions and missing packages, one sentence each."""
     versions = ", ".join(f"{name} {version}" for name, version in result.versions.items())
     rounds = f"Medians of {result.rounds} rounds" if result.rounds > 1 else "One round"
@@ -76,7 +76,7 @@ def markdown(result: Result) -> str:
     lines = [headers(measures), ["---"] + ["---:"] * (1 + len(measures))]
     lines += [cells(rate, measures) for rate in result.rates]
     rows = ["| " + " | ".join(line) + " |" for line in lines]
-    return "\n".join([*rows, "", *footing(result), ""])
+    return "\n".join([*rows, "", *footer(result), ""])
 
 
 def as_json(result: Result) -> str:

@@ -66,7 +66,7 @@ def conclusions(result: Result) -> list[str]:
     return lines
 
 
-def footing(result: Result) -> list[str]:
+def footer(result: Result) -> list[str]:
     """What was measured, and on which machine and versions."""
     versions = ", ".join(f"{name} {version}" for name, version in result.versions.items())
     return [
@@ -96,7 +96,7 @@ def markdown(result: Result) -> str:
     """The table, the result and its conditions, in Markdown."""
     lines = ["| " + " | ".join(HEADERS) + " |", "| --- | --- " + "| ---: " * (len(HEADERS) - 2) + "|"]
     lines += ["| " + " | ".join(cells(row, result.ball_radius)) + " |" for row in result.rows]
-    lines += ["", *(f"* {line}" for line in conclusions(result)), "", *footing(result)]
+    lines += ["", *(f"* {line}" for line in conclusions(result)), "", *footer(result)]
     return "\n".join(lines) + "\n"
 
 

@@ -24,9 +24,9 @@ HOT = 0.42  # how far the centre of the brightest dot goes from its colour to wh
 GAMMA = 0.8  # raises dim dots, which look darker beside unlit ones
 
 LEVEL_BITS, GLOW_BITS, MASK_BITS = 5, 5, 5
-MIN_SPACING = 4.0  # [pixel]; dots with less are drawn larger and shrunk
+MIN_SPACING = 4.0  # [pixel]; panels with smaller spacing are drawn larger and scaled down
 WHOLE_SPACING = 0.95  # spacings are rounded down to whole pixels if that leaves this share of the size
-BEZEL_SHARE = 0.03  # least width of the bezel, by the height
+BEZEL_SHARE = 0.03  # minimum bezel width, as a fraction of the panel height
 
 
 class DotPanel:
@@ -57,7 +57,7 @@ class DotPanel:
         while spacing * shrink < MIN_SPACING:
             shrink += 1
         size = max(round(WIDTH * spacing), 1), max(round(HEIGHT * spacing), 1)
-        self._face = _face((width, height), size, rim, background, frame)
+        self._face = _face((width, height), rim, background, frame)
         self._place = ((width - size[0]) // 2, (height - size[1]) // 2)
         self._shape = _Shape(size[0] * shrink, size[1] * shrink)
         self._table = _colors(color, background, small=spacing < MIN_SPACING)
@@ -115,7 +115,8 @@ def _glow(levels: Levels) -> NDArray[np.uint16]:
     """Return the light that reaches each dot from those around it, 0 to 255."""
     wide = np.zeros((HEIGHT + 4, WIDTH + 4), np.uint16)
     wide[2:-2, 2:-2] = levels
-    # Shares of 1, 4, 6, 4, 1 sixteenths across, then down; divided in between: sixteen bits hold it.
+    # Shares of 1, 4, 6, 4, 1 sixteenths across, then down; normalised after each pass, so that the sums fit
+    # in 16 bits.
     across: NDArray[np.uint16] = wide[:, :-4] + wide[:, 4:]
     across += (wide[:, 1:-3] + wide[:, 3:-1]) << 2
     across += wide[:, 2:-2] * 6
@@ -145,9 +146,7 @@ def _colors(color: Color, background: Color, small: bool) -> NDArray[np.uint32]:
     return np.ascontiguousarray(argb.ravel(), np.uint32)
 
 
-def _face(
-    size: tuple[int, int], lit: tuple[int, int], rim: int, background: Color, frame: Color | None
-) -> pygame.Surface:
+def _face(size: tuple[int, int], rim: int, background: Color, frame: Color | None) -> pygame.Surface:
     """Return the panel without dots: the glass, and the bezel around it."""
     face = pygame.Surface(size, 0, 32)
     face.fill(background)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, cos, exp, pi, sin, sqrt
 from typing import NamedTuple
 
-from silverball.drawing.kernels.stage import Art, Ink, Inks, StageRecord
+from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, Art, Ink, Inks, StageRecord
 from silverball.drawing.kernels.tones import (
     RGB,
     add_scaled,
@@ -23,10 +23,6 @@ from silverball.drawing.kernels.tones import (
     value_noise,
 )
 from silverball.physics.kernel import inlined, internal
-
-RAYS = 22
-EMBLEM_AT = -0.05  # x at which the rays meet, by the board's length
-EMBLEM_SIZE = 0.105  # radius of the emblem by the board's width
 
 
 class Planet(NamedTuple):
@@ -45,7 +41,7 @@ def playfield_paint(s: StageRecord, inks: Inks, x: float, z: float, pixel: float
     from_x, from_z = x - EMBLEM_AT * 2.0 * s.half_length, z
     rho = sqrt(from_x * from_x + from_z * from_z)
     angle = atan2(from_z, from_x)  # 0 is up the table
-    paint = _ground(s, inks, x, z, rho, angle, pixel)
+    paint = _floor(s, inks, x, z, rho, angle, pixel)
     light = (0.0, 0.0, 0.0)
     if s.art == Art.COSMOS:
         paint, light = _starry_sky(s, inks, x, z, pixel, paint)
@@ -57,7 +53,7 @@ def playfield_paint(s: StageRecord, inks: Inks, x: float, z: float, pixel: float
 
 
 @inlined
-def _ground(s: StageRecord, inks: Inks, x: float, z: float, rho: float, angle: float, pixel: float) -> RGB:
+def _floor(s: StageRecord, inks: Inks, x: float, z: float, rho: float, angle: float, pixel: float) -> RGB:
     """The colour of the floor with its rays."""
     along = x / s.half_length
     if along < 0.0:
@@ -92,17 +88,17 @@ def _starry_sky(s: StageRecord, inks: Inks, x: float, z: float, pixel: float, pa
     paint = add_scaled(paint, tint, 0.07 * cloud)
     light = scale(tint, 0.035 * cloud)
     for layer in range(2):
-        side = (0.055 + 0.075 * layer) * w
-        i, j = int((x / side + 1000.0) // 1.0), int((z / side + 1000.0) // 1.0)
-        draw = hash01(i + 7919 * layer, j)
-        if draw < 0.17:
-            at_x = (i - 1000.0 + 0.2 + 0.6 * hash01(i, j + 513)) * side
-            at_z = (j - 1000.0 + 0.2 + 0.6 * hash01(i + 271, j)) * side
-            off = sqrt((x - at_x) ** 2 + (z - at_z) ** 2)
-            radius = (0.0022 + 0.0030 * layer + 0.004 * draw) * w
-            shine = coverage(off - radius, pixel + 0.5 * radius) * min(1.0, 2.0 * radius / pixel)
-            shine += 0.16 * layer * exp(-off / (2.2 * radius))
-            light = add_scaled(light, (0.9, 0.95, 1.0), (0.25 + 2.6 * draw) * shine)
+        cell_size = (0.055 + 0.075 * layer) * w
+        i, j = int((x / cell_size + 1000.0) // 1.0), int((z / cell_size + 1000.0) // 1.0)
+        chance = hash01(i + 7919 * layer, j)
+        if chance < 0.17:
+            at_x = (i - 1000.0 + 0.2 + 0.6 * hash01(i, j + 513)) * cell_size
+            at_z = (j - 1000.0 + 0.2 + 0.6 * hash01(i + 271, j)) * cell_size
+            distance = sqrt((x - at_x) ** 2 + (z - at_z) ** 2)
+            radius = (0.0022 + 0.0030 * layer + 0.004 * chance) * w
+            shine = coverage(distance - radius, pixel + 0.5 * radius) * min(1.0, 2.0 * radius / pixel)
+            shine += 0.16 * layer * exp(-distance / (2.2 * radius))
+            light = add_scaled(light, (0.9, 0.95, 1.0), (0.25 + 2.6 * chance) * shine)
     large = Planet(0.60 * w, -0.60 * w, 0.20 * w, True)
     small = Planet(-0.36 * w, 0.72 * w, 0.11 * w, False)
     paint, light = _planet(inks, large, x, z, pixel, paint, light)
@@ -116,18 +112,20 @@ def _planet(
     """A sphere with bands, lit from above, and perhaps a ring around it."""
     size = planet.radius
     u, v = (x - planet.x) / size, (z - planet.z) / size
-    off = sqrt(u * u + v * v)
-    if off > 2.6:
+    distance = sqrt(u * u + v * v)
+    if distance > 2.6:
         return paint, light
     tone = ink(inks, Ink.ORNAMENT_2 if planet.is_ringed else Ink.ORNAMENT)
     other = ink(inks, Ink.GLOW)
-    disc = coverage((off - 1.0) * size, pixel)
-    lit = clamp01(0.45 + 0.55 * (0.75 * u - 0.45 * v)) * (0.55 + 0.45 * sqrt(clamp01(1.0 - off * off)))
+    disc = coverage((distance - 1.0) * size, pixel)
+    lit = clamp01(0.45 + 0.55 * (0.75 * u - 0.45 * v)) * (
+        0.55 + 0.45 * sqrt(clamp01(1.0 - distance * distance))
+    )
     band = 0.5 + 0.5 * sin(11.0 * (u + 0.35 * v) + 2.0 * value_noise(2.5 * u + 9.0, 4.0 * v))
     body = scale(mix(tone, other, 0.35 + 0.45 * band), 0.62 * lit)
     paint = mix(paint, body, 0.92 * disc)
     light = add_scaled(scale(light, 1.0 - disc), body, 0.22 * disc)
-    light = add_scaled(light, tone, 0.10 * exp(-3.4 * max(off - 1.0, 0.0)) * (1.0 - disc))
+    light = add_scaled(light, tone, 0.10 * exp(-3.4 * max(distance - 1.0, 0.0)) * (1.0 - disc))
     if planet.is_ringed:
         p, q = 0.92 * u + 0.39 * v, -0.39 * u + 0.92 * v
         ring = sqrt((3.2 * p) ** 2 + q * q)
@@ -148,17 +146,17 @@ def _pinstripes(
     inset, turn = 0.075 * s.half_width, 0.16 * s.half_width
     px = max(x - (s.half_length - s.thickness - inset - turn), 0.0)
     pz = max(abs(z) - (s.half_width - s.thickness - inset - turn), 0.0)
-    off = sqrt(px * px + pz * pz) - turn
+    distance = sqrt(px * px + pz * pz) - turn
     if px == 0.0 and pz == 0.0:
-        off = -turn
+        distance = -turn
     wide, thin = 0.006 * s.half_width, 0.003 * s.half_width
-    line = coverage(abs(off) - wide, pixel) * min(1.0, 2.0 * wide / pixel)
-    second = coverage(abs(off + 0.026 * s.half_width) - thin, pixel) * min(1.0, 2.0 * thin / pixel)
+    line = coverage(abs(distance) - wide, pixel) * min(1.0, 2.0 * wide / pixel)
+    second = coverage(abs(distance + 0.026 * s.half_width) - thin, pixel) * min(1.0, 2.0 * thin / pixel)
     tone = ink(inks, Ink.ORNAMENT)
     paint = mix(paint, tone, 0.75 * line)
     paint = mix(paint, ink(inks, Ink.ORNAMENT_2), 0.6 * second)
     if s.art == Art.COSMOS:
-        light = add_scaled(light, tone, 0.22 * line + 0.05 * exp(-abs(off) / (0.02 * s.half_width)))
+        light = add_scaled(light, tone, 0.22 * line + 0.05 * exp(-abs(distance) / (0.02 * s.half_width)))
         light = add_scaled(light, ink(inks, Ink.ORNAMENT_2), 0.2 * second)
     return paint, light
 
@@ -186,10 +184,10 @@ def _emblem(
     number = int((angle + pi) / step)
     turned = angle + pi - (number + 0.5) * step
     across, along = rho * sin(turned), rho * cos(turned) - 1.72 * size
-    off = sqrt(across * across + along * along)
+    distance = sqrt(across * across + along * along)
     lens = 0.17 * size if number % 3 == 1 else 0.12 * size
     tone = one if number % 2 == 0 else two
-    return _lens(off, lens, tone, shine, pixel, paint, light)
+    return _lens(distance, lens, tone, shine, pixel, paint, light)
 
 
 @internal
@@ -208,30 +206,32 @@ def _star(
     notch_x, notch_z = notch * cos(0.5 * step), notch * sin(0.5 * step)
     ex, ez = notch_x - tip, notch_z
     length = sqrt(ex * ex + ez * ez)
-    off = ((px - tip) * -ez + pz * ex) / -length
-    star = coverage(off, pixel)
+    distance = ((px - tip) * -ez + pz * ex) / -length
+    star = coverage(distance, pixel)
     fold = clamp01(0.5 + 0.5 * rho * sin(turned) / pixel)
     face = mix(heart, (1.0, 1.0, 1.0), 0.38 * fold * (1.0 - 0.5 * rho / size))
     face = scale(face, 0.55 + 0.45 * fold)
     paint = mix(paint, face, 0.95 * star)
-    rim = coverage(abs(off) - 0.025 * size, pixel)
+    rim = coverage(abs(distance) - 0.025 * size, pixel)
     paint = mix(paint, (1.0, 1.0, 1.0), 0.5 * rim * star)
     light = add_scaled(light, face, shine * 0.30 * star)
-    return paint, add_scaled(light, heart, shine * 0.20 * exp(-max(off, 0.0) / (0.16 * size)) * (1.0 - star))
+    return paint, add_scaled(
+        light, heart, shine * 0.20 * exp(-max(distance, 0.0) / (0.16 * size)) * (1.0 - star)
+    )
 
 
 @inlined
 def _lens(
-    off: float, size: float, tone: RGB, shine: float, pixel: float, paint: RGB, light: RGB
+    distance: float, size: float, tone: RGB, shine: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
     """A round insert: a lit lens in a bright rim."""
-    disc = coverage(off - size, pixel)
-    rim = coverage(abs(off - size) - 0.12 * size, pixel)
+    disc = coverage(distance - size, pixel)
+    rim = coverage(abs(distance - size) - 0.12 * size, pixel)
     paint = mix(paint, scale(tone, 0.5), 0.9 * disc)
     paint = mix(paint, mix(tone, (1.0, 1.0, 1.0), 0.5), 0.8 * rim)
-    inner = clamp01(1.0 - off / size)
+    inner = clamp01(1.0 - distance / size)
     light = add_scaled(light, tone, shine * disc * (0.10 + 0.55 * inner * inner))
-    light = add_scaled(light, tone, shine * 0.10 * exp(-max(off - size, 0.0) / (0.8 * size)))
+    light = add_scaled(light, tone, shine * 0.10 * exp(-max(distance - size, 0.0) / (0.8 * size)))
     return paint, light
 
 
@@ -253,12 +253,12 @@ def _arrows(
         if 0.0 <= number < count and abs(z - at_z) < 0.6 * size:
             u = (from_x - low - (number + 0.5) * step) / size
             v = abs(z - at_z) / size
-            # A chevron: |z| and x on one slope, cut off at both sides.
-            off = max(abs(u + 0.75 * v - 0.08) * 0.8 - 0.115, v - 0.30) * size
-            shape = coverage(off, pixel)
+            # A chevron: a band along x + 0.75·|z| = const, clipped at both sides.
+            distance = max(abs(u + 0.75 * v - 0.08) * 0.8 - 0.115, v - 0.30) * size
+            shape = coverage(distance, pixel)
             bright = 0.35 + 0.65 * number / count
             paint = mix(paint, scale(tone, 0.6), 0.9 * shape)
             light = add_scaled(
-                light, tone, shine * bright * (0.34 * shape + 0.10 * exp(-max(off, 0.0) / (0.03 * size)))
+                light, tone, shine * bright * (0.34 * shape + 0.10 * exp(-max(distance, 0.0) / (0.03 * size)))
             )
     return paint, light

@@ -15,6 +15,7 @@ from silverball.drawing.kernels.stage import (
     FLOOR,
     HALO,
     RAIL,
+    RING_AT,
     ROOM,
     Form,
     Ink,
@@ -27,8 +28,7 @@ from silverball.drawing.kernels.surfaces import Surface, color_of, surface_of
 from silverball.drawing.kernels.tones import RGB, add_scaled, clamp01, ink, mix, multiply, scale, smoothstep
 from silverball.physics.kernel import inlined, internal
 
-RING_AT = 0.27  # [u] from a cylinder to the ring of light around it
-RING_CORE = 0.032  # [u] half the width of its bright line
+RING_CORE = 0.032  # [u] half the width of the bright line in the ring of light
 MIRROR_REACH = 2.2  # [u] greatest distance at which parts are mirrored in the lacquer
 MAX_GRAZING = 0.25  # reflectance at grazing angles, beyond a surface's gloss
 FRONT = 0.20  # unshadowed light from the player's side, relative to the lamp

@@ -12,6 +12,11 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+RAYS = 22  # of the playfield
+EMBLEM_AT = -0.05  # x where the rays meet, as a fraction of the board's length
+EMBLEM_SIZE = 0.105  # radius of the emblem, as a fraction of the board's width
+RING_AT = 0.27  # [u] from a cylinder to the ring of light around it
+
 Vector: TypeAlias = tuple[float, float, float]
 """x, y, z [u], or a direction."""
 

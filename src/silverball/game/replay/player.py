@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
     from silverball.game.rules import Rules
 
-SNAPSHOT_SECONDS = 2  # of play between two snapshots: a few ms to play, 3 MB for an hour
+SNAPSHOT_SECONDS = 2  # [s] of play between snapshots: replaying it takes a few ms, an hour needs 3 MB
 
 
 class InputRefusedError(SilverballError):
@@ -103,9 +103,9 @@ class Playback:
             elif kind == RIGHT:
                 self._held = (left, not right)
             else:
-                self._act(kind)
+                self._create_or_shove(kind)
 
-    def _act(self, kind: str) -> None:
+    def _create_or_shove(self, kind: str) -> None:
         what = "a new ball" if kind == BALL else "a shove"
         try:
             if kind == BALL:
@@ -163,7 +163,7 @@ class ReplayPlayer(Playback):
         return 1.0 if self._scout.at_end else self._scout.tick / max(self.ticks, 1)
 
     def seek(self, tick: int) -> None:
-        """Go to the moment before this tick; beyond the end, to the end.
+        """Go to the start of this tick; a tick past the end is clamped to the end.
 
         The events on the way are dropped.
         """

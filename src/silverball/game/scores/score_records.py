@@ -214,7 +214,7 @@ def import_pending(connection: sqlite3.Connection, pending: Pending) -> dict[str
     """Import pending data; of a score that was imported before, only the initials are updated.
 
     Returns:
-        The numbers of the scores by their tokens.
+        The ids of the scores by their tokens.
     """
     numbers = {}
     for one in pending.scores:

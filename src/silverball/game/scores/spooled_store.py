@@ -20,6 +20,7 @@ from silverball.game.user_folder import data_folder
 
 FILE = "silverball.sqlite3"
 CACHE_SIZE = 64  # query results that are reused while the file cannot be read
+NEW_IN_SPOOL = "new scores and settings are saved to a temporary file meanwhile"
 CLOSE_RETRY_INTERVAL = 0.05  # [s] between two attempts to write at the end
 _PROBE = "SELECT 1 FROM setting LIMIT 1"  # fails if the file cannot be read
 _Result = TypeVar("_Result")
@@ -41,8 +42,8 @@ class SpooledStore:
         self._database = Database(self._folder / FILE, schema, nonblocking=nonblocking)
         self._spool = Spool(self._folder)
         self._has_imported = False  # the spools of other programs
-        self._temporary_ids: dict[str, int] = {}  # numbers given to pending scores, by token
-        self._ids: dict[int, int] = {}  # the numbers that they have in the file, by the temporary ones
+        self._temporary_ids: dict[str, int] = {}  # ids given to pending scores, by token
+        self._ids: dict[int, int] = {}  # maps temporary ids to ids in the file
         self._cache: dict[Any, list[tuple[Any, ...]]] = {}
         self._has_missed_read = False
         self._spool_warning = ""
@@ -59,7 +60,7 @@ class SpooledStore:
         """What the player should know, a line for each problem; empty if there is none."""
         locked = ""
         if not self._database.is_open:
-            locked = f"{self.path}: another program holds it; new scores and settings wait in another file"
+            locked = f"{self.path}: another program holds it; {NEW_IN_SPOOL}"
         return "\n".join(filter(None, (self._database.warning, self._spool_warning, locked)))
 
     @property
@@ -69,7 +70,10 @@ class SpooledStore:
 
     @property
     def has_pending(self) -> bool:
-        """Whether something waits for another program to release the file; call `retry_pending` at times."""
+        """Whether something waits for another program to release the file.
+
+        While it does, call `retry_pending` from time to time.
+        """
         return not self._has_imported or self._has_missed_read or not self._spool.pending.is_empty
 
     @property
@@ -100,7 +104,10 @@ class SpooledStore:
             return ""
         held = f"{self.path}: another program holds it"
         if self._spool.is_written:
-            return f"{held}; what was played waits in {self._spool.path.name} for the next start"
+            return (
+                f"{held}; your latest scores are saved in {self._spool.path.name} "
+                "and will be imported at the next start"
+            )
         return f"{held}, and no other file can be written: what was played last is lost"
 
     def retry_pending(self) -> bool:
@@ -115,8 +122,8 @@ class SpooledStore:
             if not self._has_imported:
                 self._import_other_spools()
             if not self._spool.pending.is_empty:
-                numbers = self._import(self._spool.pending)
-                self._ids |= {self._temporary_ids[token]: id for token, id in numbers.items()}
+                file_ids = self._import(self._spool.pending)
+                self._ids |= {self._temporary_ids[token]: id for token, id in file_ids.items()}
                 self._spool.clear(keep_file=not self._database.is_persistent)
             self._database.read(_PROBE)
         except Locked:
@@ -196,12 +203,12 @@ class SpooledStore:
         return rows
 
     def _add_pending(self, new: NewScore) -> int:
-        """Spool a score; returns its temporary number, which is beyond those of the file."""
-        number = INTEGER_LIMIT + len(self._temporary_ids)
-        self._temporary_ids[new.token] = number
+        """Spool a score; returns its temporary id, which is beyond those of the file."""
+        id = INTEGER_LIMIT + len(self._temporary_ids)
+        self._temporary_ids[new.token] = id
         self._spool.pending.scores.append(new)
         self._spool.write()
-        return number
+        return id
 
     def _rename_pending(self, id: int, initials: str) -> int:
         """Spool the initials of a score in the file; returns how many scores that changes."""
@@ -250,10 +257,10 @@ class SpooledStore:
         return self._database.write(lambda connection: score_records.import_pending(connection, pending))
 
     def _file_id(self, id: int) -> int:
-        """The number of a score in the file.
+        """The id of a score in the file.
 
         Raises:
-            SilverballError: No score can have this number.
+            SilverballError: No score can have this id.
         """
         id = self._ids.get(id, id)
         if not -INTEGER_LIMIT <= id < INTEGER_LIMIT:
@@ -262,7 +269,7 @@ class SpooledStore:
 
 
 def no_such_score(id: int) -> SilverballError:
-    """The error for a number that no score has."""
+    """The error for an id that no score has."""
     return SilverballError(f"there is no score {id}; `silverball scores` lists them with their numbers")
 
 
