@@ -101,7 +101,7 @@ def typist(tmp_path_factory) -> Iterator[Typist]:
 def asked(typist, monkeypatch) -> list[Action]:
     """The actions that keys ask for, which are not done."""
 
-    def note(source: str, action: Action, *, again: bool = False) -> None:
+    def note(source: str, action: Action, *, same_board: bool = False) -> None:
         typist.asked.append(action)
 
     monkeypatch.setattr(typist.input_handler, "_press", note)
