@@ -151,5 +151,5 @@ def test_a_quick_comparison_writes_its_table_and_shows_silverball_ahead(tmp_path
     page = tmp_path / "peers.md"
     assert run(["bench", "peers", "--quick", "--json", "--out", str(page)]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert min(told["digits_ahead"]) >= 9
+    assert min(told["orders_ahead"]) >= 9
     assert page.read_text(encoding="utf-8").count("\n| ") > len(told["rows"])
