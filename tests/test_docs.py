@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import pytest
 
+import silverball
 from silverball.cli.app import main_command
 from silverball.table import parse_table
 
@@ -19,6 +20,11 @@ DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
 def test_readme_names_every_command():
     commands = main_command().commands
     assert [name for name in commands if f"silverball {name}" not in README] == []
+
+
+def test_the_citation_names_the_version_of_the_package():
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert re.search(r"^version: (.+)$", citation, re.MULTILINE)[1] == silverball.__version__
 
 
 def test_readme_prints_the_two_commands():

@@ -47,13 +47,28 @@ def test_every_part_is_documented_with_its_fields(name: str):
     assert all(field.description for field in part.model_fields.values())
 
 
+def members(thing: object) -> dict[str, object]:
+    """The public methods and properties of a class, those of our own base classes included."""
+    bases = thing.__mro__ if isinstance(thing, type) else ()
+    return {
+        name: member
+        for base in reversed(bases)
+        if base.__module__.startswith("silverball.")
+        for name, member in vars(base).items()
+        if not name.startswith("_")
+        and isinstance(member, FunctionType | classmethod | staticmethod | property)
+    }
+
+
 @pytest.mark.parametrize("name", NAMES)
-def test_every_public_name_is_documented(name: str):
+def test_every_public_name_is_documented_with_all_its_members(name: str):
     value = getattr(sb, name)
     assert value.__doc__
-    for member, what in vars(value).items() if isinstance(value, type) else ():
-        if not member.startswith("_") and isinstance(what, FunctionType | classmethod | property):
-            assert getattr(value, member).__doc__, member
+    assert [member for member, what in members(value).items() if not what.__doc__] == []
+
+
+def test_inherited_members_are_walked_too():
+    assert {"step", "replay"} <= set(members(sb.Game))
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in ERRORS and name != "parts"])

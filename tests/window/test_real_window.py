@@ -23,7 +23,7 @@ from silverball.game.replay.format import Replay
 from silverball.game.replay.verify import verify
 from silverball.game.scores.store import Store
 from silverball.game.view import Mode
-from silverball.table import Arcade, save_table
+from silverball.table import save_table
 
 pytestmark = pytest.mark.skipif(
     shutil.which("Xvfb") is None or shutil.which("xdotool") is None,
@@ -138,24 +138,31 @@ def test_a_whole_arcade_game_with_real_keys_from_the_menu_to_the_score_table(sta
     assert score.mode == Mode.ARCADE
 
 
+def slow(folder: Path) -> str:
+    """The file of a table on which a ball stays on the board for many seconds."""
+    table = folder / "slow.toml"
+    save_table(leaky().model_copy(update={"board": leaky().board.model_copy(update={"gravity": 0.1})}), table)
+    return str(table)
+
+
 def test_losing_the_focus_pauses_a_real_game(start, tmp_path):
-    table = tmp_path / "leaky.toml"
-    save_table(leaky().model_copy(update={"arcade": Arcade(balls=1, ball_saves=0)}), table)
-    machine = start("--table", str(table), "--seed", "3", "--mode", "arcade")
-    other = start("--table", str(table), "--seed", "4", folder=tmp_path / "other")  # takes the focus
-    for _ in range(200):
-        other.tap("space")
-        if scores(other.data):
-            break
-    assert scores(other.data)
-    assert scores(machine.data) == []
+    machine = start("--table", slow(tmp_path), "--seed", "3", "--mode", "free")
+    begun = time.monotonic()
+    for _ in range(40):  # until the physics is loaded and a ball has come
+        machine.tap("space")
+    start("--table", slow(tmp_path), "--seed", "4", folder=tmp_path / "other")  # takes the focus
+    focused = time.monotonic()
+    time.sleep(4.0)
+    machine.close()
+    with Store(machine.data) as store:
+        played = Replay.from_text(store.last_game()).seconds
+    assert 0.0 < played < focused - begun + 1.0
 
 
 def test_a_program_that_is_ended_in_a_game_has_kept_it(start, tmp_path):
-    table = tmp_path / "slow.toml"
-    save_table(leaky().model_copy(update={"board": leaky().board.model_copy(update={"gravity": 0.1})}), table)
+    table = slow(tmp_path)
     for taps in (10, 40, 160):  # more only where the physics must be compiled first
-        machine = start("--table", str(table), "--seed", "3", "--mode", "free")
+        machine = start("--table", table, "--seed", "3", "--mode", "free")
         for _ in range(taps):
             machine.tap("space")
         assert machine.close() == 128 + signal.SIGTERM
