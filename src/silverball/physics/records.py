@@ -61,6 +61,27 @@ class Kind(IntEnum):
     CYLINDER = 5
 
 
+class Shape(IntEnum):
+    """How far a point is from a primitive, and which way is out."""
+
+    PLANE = 0  # a border
+    CIRCLE = 1
+    CAPSULE = 2  # a segment with a radius
+    TRIANGLE = 3
+    TAPERED = 4  # a capsule with two radii: a paddle
+    ARC = 5  # with a radius
+    LINE = 6  # crossed by the ball's centre
+    DISC = 7  # entered by the ball's centre
+
+
+class Response(IntEnum):
+    """What a contact with a primitive does."""
+
+    BOUNCE = 0
+    PASS = 1  # an event, and the flight goes on
+    HOLD = 2  # the ball stays, until it is sent off
+
+
 class EventKind(IntEnum):
     """The kind of an event."""
 
@@ -191,6 +212,9 @@ COLLIDER = np.dtype(
         ("along_x2", "f8"), ("along_z2", "f8"),
         ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
+        # Shape, Response, the part (its number on the board), the levels (bit n: level n), the switch (a
+        # bit of WORLD.off; 0: always there).
+        ("shape", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]
