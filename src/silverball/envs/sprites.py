@@ -16,7 +16,7 @@ from silverball.envs.board_pool import Pool
 from silverball.envs.pixels import ANGLES, SUBPIXELS, count_coverage
 from silverball.envs.state import RASTER
 from silverball.physics.records import Kind, Part, records
-from silverball.table.geometry import offsets, paddle_cores
+from silverball.table.geometry import moving_pieces, offsets
 
 SAMPLES = 4  # along each axis of a pixel
 LUMINANCE = (0.299, 0.587, 0.114)  # Source: ITU-R BT.601
@@ -168,8 +168,8 @@ def _paddle_sprites(raster: NDArray[Any], pool: Pool) -> Bytes:
     height, width, channels = (int(raster[name][0]) for name in ("height", "width", "channels"))
     for paddle in pool.tables[0].paddle:
         side = 0 if paddle.side == "left" else 1
-        angles = np.linspace(paddle.rest_angle, paddle.up_angle, ANGLES)
-        cores[side] = paddle_cores(paddle, angles)
+        angles = np.radians(np.linspace(paddle.rest_angle, paddle.up_angle, ANGLES))
+        cores[side] = moving_pieces(paddle.primitives(board)[0], angles)[0][:, 0]
         rows = (board.length / 2 - cores[side][..., 0]) * raster["rows"][0]
         columns = (board.width / 2 + cores[side][..., 1]) * raster["columns"][0]
         top, bottom = max(0, math.floor(rows.min())), min(height, math.floor(rows.max()) + 1)

@@ -26,7 +26,7 @@ from pydantic import BaseModel
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.plain import plain
 from silverball.table.parts import PART_KINDS, Arcade, Board
-from silverball.table.table import Table, checked_table
+from silverball.table.table import Table, check_table, checked_table, examine
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
 SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
@@ -87,6 +87,20 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
         TableError: The text has problems; all of them are in `problems`.
     """
     return checked_table(_parse_toml(text, source), source, folder)
+
+
+def examine_table(name_or_path: str) -> tuple[Table | None, list[Problem]]:
+    """Return a table as `load_table` does, or None if it has errors; and all problems, warnings included.
+
+    Raises:
+        UnknownTable: No built-in table has this name.
+        TableError: The file cannot be read or is not TOML.
+    """
+    if not _looks_like_path(name_or_path or NOTHING):
+        table = load_table(name_or_path)
+        return table, check_table(table)
+    path = name_or_path or NOTHING
+    return examine(_parse_toml(_read(path), path), Path(path).parent)
 
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:

@@ -30,6 +30,8 @@ from pydantic import (
     model_validator,
 )
 
+from silverball.physics.records import Shape
+from silverball.table.primitive import Finish, Mover, Primitive, Surface
 from silverball.table.quantity import COORDINATE, POINT, Count, FixedList, Interval, Quantity, refuse, shown
 
 __all__ = [
@@ -103,6 +105,13 @@ class _Part(Model):
     name: Name = ""
     """A name for people; it has no effect in play."""
 
+    def _surface(self) -> Surface:
+        """How the part bounces a ball."""
+        return Surface(**{key: getattr(self, key) for key in _SURFACE_KEYS if hasattr(self, key)})
+
+
+_SURFACE_KEYS = ("restitution", "restitution_falloff", "speed_factor", "points")
+
 
 class Board(Model):
     """The board, its borders (left, right, top), and the physics of every ball on it."""
@@ -170,6 +179,10 @@ class SlantWall(_Part):
     """[s/u] k in e = restitution / (1 + k·|v|), v the relative normal speed."""
     points: _Points = 0
     """Points for a hit."""
+
+    def primitives(self, board: Board) -> tuple[Primitive, ...]:
+        """One capsule."""
+        return (Primitive(Shape.CAPSULE, (self.start, self.end), self.thickness, surface=self._surface()),)
 
     def outline(self) -> Outline:
         """The two ends as a core, and the thickness as its radius."""
@@ -247,6 +260,27 @@ class Paddle(_Part):
     def direction(self) -> float:
         """1 for a left paddle, whose tip points to +z at 0 deg; −1 for a right one."""
         return 1.0 if self.side == "left" else -1.0
+
+    def primitives(self, board: Board) -> tuple[Primitive, ...]:
+        """One triangle on a mover; its points are relative to the pivot."""
+        mover = Mover(
+            self.pivot,
+            self.direction,
+            math.radians(self.rest_angle),
+            math.radians(self.up_angle),
+            self.stroke,
+            self.return_stroke,
+            self.side,
+        )
+        return (
+            Primitive(
+                Shape.TRIANGLE,
+                self.local_corners(),
+                surface=self._surface(),
+                finish=Finish.PADDLE,
+                mover=mover,
+            ),
+        )
 
     def local_corners(self) -> Triangle:
         """The lower base, tip and upper base (x, z) [u] of a left paddle at 0 deg, relative to its pivot."""
@@ -354,6 +388,10 @@ class TriangularPrism(PrismSurface, _Part):
         a, b, c = ((x + self.size * sine, z + self.size * cosine) for sine, cosine in angles)
         return (a, b, c)
 
+    def primitives(self, board: Board) -> tuple[Primitive, ...]:
+        """One triangle."""
+        return (Primitive(Shape.TRIANGLE, self.corners(), surface=self._surface(), finish=Finish.PRISM),)
+
     def outline(self) -> Outline:
         """The corners as a core, without a radius."""
         return self.corners(), 0.0
@@ -415,6 +453,11 @@ class Cylinder(CylinderSurface, _Part):
         assert self.center is not None
         assert self.radius is not None
         return (*self.center, self.radius)
+
+    def primitives(self, board: Board) -> tuple[Primitive, ...]:
+        """One circle."""
+        x, z, radius = self.circle()
+        return (Primitive(Shape.CIRCLE, ((x, z),), radius, surface=self._surface(), finish=Finish.BUMPER),)
 
     def outline(self) -> Outline:
         """The centre as a core, and the radius."""

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, NamedTuple, TypeAlias
 
 from pydantic import BaseModel, BeforeValidator, Field, ValidationError
 
 from silverball.errors import Problem, TableError
-from silverball.table.check import Layout, check_layout
+from silverball.table.check import check_layout
 from silverball.table.explain import explain
+from silverball.table.layout import Layout
 from silverball.table.parts import (
     PART_KINDS,
     Arcade,
@@ -85,6 +86,14 @@ class Table(Model):
         """The parts that do not move: slant walls, triangular prisms, cylinders, in this order."""
         return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
 
+    def parts(self) -> list[tuple[str, Any]]:
+        """Return all parts, each with its path in the file, in the order in which kinds are documented."""
+        return [
+            (f"{kind}[{index}]", part)
+            for kind in PART_KINDS
+            for index, part in enumerate(getattr(self, kind))
+        ]
+
     @property
     def has_mesh(self) -> bool:
         """Whether a part names a mesh file."""
@@ -135,18 +144,20 @@ def check_table(table: Table) -> list[Problem]:
     """Find every problem of a table.
 
     Returns:
-        The problems, each with its path in the file and a sentence; an empty list for a table that can be
-        played. Tables of `load_table`, `generate_table` and `Table.replace` have none.
+        The problems, each with its path in the file, a sentence and a severity. Tables of `load_table`,
+        `generate_table` and `Table.replace` have no errors, but perhaps warnings: parts that overlap, gaps
+        that a ball barely fits, places where a ball can lie forever.
 
     Examples:
         >>> import silverball as sb
         >>> sb.check_table(sb.load_table("classic"))
         []
         >>> outside = sb.parts.Cylinder(center=(20.0, 0.0), radius=0.5)
-        >>> [problem.path for problem in sb.check_table(sb.Table(cylinder=(outside,)))]
-        ['cylinder[0].center']
+        >>> [(p.path, p.severity) for p in sb.check_table(sb.Table(cylinder=(outside,)))]
+        [('cylinder[0].center', 'error')]
     """
-    return check_layout(Layout.of(table)) or try_recipe(table)
+    problems = check_layout(Layout.of(table))
+    return problems if _has_error(problems) else problems + try_recipe(table)
 
 
 def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = None) -> Table:
@@ -158,33 +169,44 @@ def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = No
         folder: Where meshes are looked for; the current folder by default.
 
     Raises:
-        TableError: The data have problems; all of them are in `problems`.
+        TableError: The data have errors; all of them are in `problems`. Warnings are not.
     """
+    table, problems = examine(data, folder)
+    if table is None:
+        raise TableError(source, [problem for problem in problems if problem.is_error])
+    return table
+
+
+def examine(data: Mapping[str, Any], folder: Path | None = None) -> tuple[Table | None, list[Problem]]:
+    """Return the table that the data of a table file make, or None if they have errors; and all problems."""
     table: Table | None = None
     problems: list[Problem] = []
     try:
         table = Table.model_validate(data)
-        layout: Layout | None = Layout.of(table)
+        parts: _Parts | None = _Parts(table.board, table.parts(), table.random)
     except ValidationError as error:
         problems += explain(error, Table)
-        layout = _valid_layout(data, error)
-    if layout is not None:
-        layout, footprint_problems = _with_footprints(layout, folder or Path())
+        parts = _valid_parts(data, error)
+    if parts is not None:
+        parts, footprint_problems = _with_footprints(parts, folder or Path())
         problems += footprint_problems
-        problems += check_layout(layout)
-    if problems or table is None or layout is None:
-        raise TableError(source, problems)
+        problems += check_layout(Layout.of_parts(*parts))
+    if _has_error(problems) or table is None or parts is None:
+        return None, problems
     if table.has_mesh:
+        found = dict(parts.parts)
         table = table.model_copy(
             update={
-                "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
-                "cylinder": tuple(part for _, part in layout.cylinders),
+                kind: tuple(found[f"{kind}[{index}]"] for index in range(len(getattr(table, kind))))
+                for kind in PART_KINDS
             }
         )
-    problems = try_recipe(table)
-    if problems:
-        raise TableError(source, problems)
-    return table
+    recipe_problems = try_recipe(table)
+    return (None if recipe_problems else table), problems + recipe_problems
+
+
+def _has_error(problems: list[Problem]) -> bool:
+    return any(problem.is_error for problem in problems)
 
 
 def _merged(model: BaseModel, changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -210,8 +232,16 @@ def _plain_data(value: Any) -> Any:
     return value
 
 
-def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | None:
-    """The layout of the valid parts, under their own paths, so that they are checked too.
+class _Parts(NamedTuple):
+    """The board, the parts with their paths in the file, and the recipe, as far as they are valid."""
+
+    board: Board
+    parts: list[tuple[str, Any]]
+    random: RandomRecipe | None
+
+
+def _valid_parts(data: Mapping[str, Any], error: ValidationError) -> _Parts | None:
+    """The valid parts, under their own paths, so that they are checked too.
 
     None if the board itself cannot be measured.
     """
@@ -222,11 +252,11 @@ def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | N
     # Each remaining key is valid, but perhaps not together with the default of an invalid one (`rolling`
     # needs `friction`), so the board is built without validation.
     board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
-    valid: dict[str, list[tuple[str, Any]]] = {}
+    valid: list[tuple[str, Any]] = []
     for kind, model in PART_KINDS.items():
         usable = (kind,) not in broken
         bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
-        valid[kind] = [
+        valid += [
             (f"{kind}[{index}]", model.model_validate(item))
             for index, item in enumerate(data.get(kind, []) if usable else [])
             if index not in bad
@@ -234,12 +264,11 @@ def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | N
     recipe = None
     if "random" in data and not any(place[0] == "random" for place in broken):
         recipe = RandomRecipe.model_validate(data["random"])
-    parts = {f"{kind}s": tuple(valid[kind]) for kind in PART_KINDS}
-    return Layout(board=board, random=recipe, **parts)
+    return _Parts(board, valid, recipe)
 
 
-def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
-    """The layout with every mesh replaced by its footprint, without the parts whose mesh is unusable."""
+def _with_footprints(parts: _Parts, folder: Path) -> tuple[_Parts, list[Problem]]:
+    """The parts with every mesh replaced by its footprint, without those whose mesh is unusable."""
     problems: list[Problem] = []
     known: dict[tuple[type, str], _MeshPart | TableError] = {}  # a file that many parts name is read once
 
@@ -260,18 +289,11 @@ def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem
         place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
         return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
 
-    def with_footprints(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
-        kept: list[tuple[str, _MeshPart]] = []
-        for path, part in parts:
-            found = part if part.mesh is None else resolved(part)
-            if isinstance(found, TableError):
-                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
-            else:
-                kept.append((path, found))
-        return tuple(kept)
-
-    whole = layout._replace(
-        triangular_prisms=with_footprints(layout.triangular_prisms),
-        cylinders=with_footprints(layout.cylinders),
-    )
-    return whole, problems
+    kept: list[tuple[str, Any]] = []
+    for path, part in parts.parts:
+        found = part if getattr(part, "mesh", None) is None else resolved(part)
+        if isinstance(found, TableError):
+            problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
+        else:
+            kept.append((path, found))
+    return parts._replace(parts=kept), problems

@@ -1,0 +1,101 @@
+"""The layout of a table: its parts with their paths in the file and the primitives that they are made of.
+
+A file with mistakes has a layout too, made of its valid parts. Checks, reachability and the generator read a
+layout; none of them knows the kinds of parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from silverball.table.geometry import Pieces, Polygon, closed_corners, is_solid, level_mask
+from silverball.table.primitive import Primitive
+
+if TYPE_CHECKING:
+    from silverball.table.parts import Board, RandomRecipe
+    from silverball.table.table import Table
+
+# The keys that say where a part is; problems of its place are reported at the first one that it has.
+PLACE_KEYS = ("end", "vertices", "center", "position", "pivot", "points")
+
+
+class PlacedPart(NamedTuple):
+    """One part of a layout.
+
+    Attributes:
+        path: Its place in the file, for example ``cylinder[2]``.
+        model: What the file says.
+        primitives: What it is made of.
+    """
+
+    path: str
+    model: Any
+    primitives: tuple[Primitive, ...]
+
+    @property
+    def place(self) -> str:
+        """The path of the key that says where the part is."""
+        keys = (key for key in PLACE_KEYS if isinstance(getattr(self.model, key, None), tuple))
+        return ".".join([self.path, *list(keys)[:1]])
+
+    @property
+    def solid(self) -> tuple[Primitive, ...]:
+        """The primitives that balls bounce off and that do not move."""
+        return tuple(p for p in self.primitives if is_solid(p) and p.mover is None)
+
+
+class Layout(NamedTuple):
+    """The parts of a table, in the order of the file.
+
+    Attributes:
+        board: The board.
+        parts: The parts that stand still or only switch.
+        paddles: The parts that move.
+        random: What to place at random, if anything.
+        levels: The levels that the table has.
+    """
+
+    board: Board
+    parts: tuple[PlacedPart, ...] = ()
+    paddles: tuple[PlacedPart, ...] = ()
+    random: RandomRecipe | None = None
+    levels: frozenset[int] = frozenset({0})
+
+    @classmethod
+    def of(cls, table: Table) -> Layout:
+        """Return the layout of a whole table."""
+        levels = [level.number for level in getattr(table, "level", ())]
+        return cls.of_parts(table.board, table.parts(), table.random, levels)
+
+    @classmethod
+    def of_parts(
+        cls,
+        board: Board,
+        parts: Iterable[tuple[str, Any]],
+        random: RandomRecipe | None = None,
+        levels: Iterable[int] = (),
+    ) -> Layout:
+        """Return the layout of some parts, each with its path in the file, and of the levels above 0."""
+        placed = [PlacedPart(path, model, tuple(model.primitives(board))) for path, model in parts]
+        moving = [part for part in placed if any(p.mover is not None for p in part.primitives)]
+        still = [part for part in placed if all(p.mover is None for p in part.primitives)]
+        return cls(board, tuple(still), tuple(moving), random, frozenset({0, *levels}))
+
+    def moving(self) -> list[tuple[str, Primitive]]:
+        """Return the primitives of the paddles, with their paths."""
+        return [(part.path, p) for part in self.paddles for p in part.primitives if p.mover is not None]
+
+    def solids(self) -> Pieces:
+        """Return the pieces of all parts that stand still; the index of a part is that in `parts`."""
+        return Pieces.of(part.solid for part in self.parts)
+
+    def polygons(self) -> list[Polygon]:
+        """Return the insides of the parts that are closed chains."""
+        found = []
+        for index, part in enumerate(self.parts):
+            corners = closed_corners(part.solid)
+            if corners is not None:
+                levels = level_mask(level for p in part.solid for level in p.levels)
+                found.append(Polygon(corners, index, levels))
+        return found
