@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.physics.tolerances import HOP, HOP_SHARE
 from silverball.table.devices import device_problems, limit_problems
 from silverball.table.geometry import (
@@ -42,7 +42,7 @@ from silverball.table.sweep import CLEARANCE, near_paddle, touches_border, touch
 from silverball.table.traps import MAX_CLOSE_PAIRS, Terrain, level_faces, pockets
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board
+    from silverball.table.kinds import Board
 
 MIN_HEIGHT = 0.05  # [u] least height of a triangle and length of a single capsule; chosen: a fifth of a ball
 MIN_EDGE = 1e-6  # [u] least length of an edge among others

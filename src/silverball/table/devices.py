@@ -13,16 +13,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.table.geometry import Bools, Floats, Pieces, Polygon, border_gaps, clear_of
 from silverball.table.layout import Layout, PlacedPart
 from silverball.table.primitive import Primitive
 from silverball.table.reach import Space, resting_pieces
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board
+    from silverball.table.kinds import Board
 
-MAX_PRIMITIVES = 4096  # of one board
 MAX_PADDLES = 8  # as many as a world has room for
 MAX_SWITCHES = 62  # drop targets and held gates: the bits of one integer
 SPACING = 0.01  # [u] between the points of a line that are examined
@@ -35,7 +34,6 @@ def limit_problems(layout: Layout) -> list[Problem]:
     everything = [p for part in (*layout.parts, *layout.paddles) for p in part.primitives]
     switches = sum(p.bank is not None or p.is_gate for p in everything)
     for path, what, count, most in (
-        ("", "edges, circles and lines", len(everything), MAX_PRIMITIVES),
         ("paddle", "paddles", len(layout.moving()), MAX_PADDLES),
         ("", "drop targets and held gates", switches, MAX_SWITCHES),
     ):

@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import Response, Shape
+from silverball.physics.forms import Response, Shape
 from silverball.table.primitive import Point, Primitive
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board
+    from silverball.table.kinds import Board
 
 Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]

@@ -7,13 +7,14 @@ layout; none of them knows the kinds of parts.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.table.geometry import Pieces, Polygon, closed_corners, is_solid, level_mask
 from silverball.table.primitive import Primitive
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board, RandomRecipe
+    from silverball.table.kinds import Board, Part
+    from silverball.table.recipe import RandomRecipe
     from silverball.table.table import Table
 
 # The keys that say where a part is; problems of its place are reported at the first one that it has.
@@ -30,7 +31,7 @@ class PlacedPart(NamedTuple):
     """
 
     path: str
-    model: Any
+    model: Part
     primitives: tuple[Primitive, ...]
 
     @property
@@ -65,21 +66,22 @@ class Layout(NamedTuple):
     @classmethod
     def of(cls, table: Table) -> Layout:
         """Return the layout of a whole table."""
-        levels = [level.number for level in getattr(table, "level", ())]
-        return cls.of_parts(table.board, table.parts(), table.random, levels)
+        parts = [(path, part) for path, _, part in table.parts()]
+        return cls.of_parts(table.board, parts, table.random, [level.number for level in table.level])
 
     @classmethod
     def of_parts(
         cls,
         board: Board,
-        parts: Iterable[tuple[str, Any]],
+        parts: Iterable[tuple[str, Part]],
         random: RandomRecipe | None = None,
         levels: Iterable[int] = (),
     ) -> Layout:
         """Return the layout of some parts, each with its path in the file, and of the levels above 0."""
-        placed = [PlacedPart(path, model, tuple(model.primitives(board))) for path, model in parts]
+        placed = [PlacedPart(path, part, part.primitives(board)) for path, part in parts]
         moving = [part for part in placed if any(p.mover is not None for p in part.primitives)]
         still = [part for part in placed if all(p.mover is None for p in part.primitives)]
+        moving.sort(key=lambda part: _number(part.path))  # in the order of the file, for messages
         return cls(board, tuple(still), tuple(moving), random, frozenset({0, *levels}))
 
     def moving(self) -> list[tuple[str, Primitive]]:
@@ -99,3 +101,8 @@ class Layout(NamedTuple):
                 levels = level_mask(level for p in part.solid for level in p.levels)
                 found.append(Polygon(corners, index, levels))
         return found
+
+
+def _number(path: str) -> int:
+    """The 12 of ``paddle[12]``."""
+    return int(path.rpartition("[")[2].rstrip("]"))

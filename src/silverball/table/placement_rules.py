@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.table.geometry import (
     Floats,
     Pieces,
@@ -29,7 +29,8 @@ from silverball.table.primitive import Primitive
 from silverball.table.reach import PASSAGE_MARGIN
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board, RandomRecipe
+    from silverball.table.kinds import Board
+    from silverball.table.recipe import RandomRecipe
 
 EDGE_ANGLE = 10  # [deg] least angle between an edge of a placed prism and an axis
 _TRIALS = 48  # sample points along each side of the area

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.table.geometry import (
     Bools,
     Floats,
@@ -36,7 +36,7 @@ from silverball.table.layout import Layout
 from silverball.table.primitive import Point, Primitive
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board
+    from silverball.table.kinds import Board
     from silverball.table.table import Table
 
 CELL = 1.25  # [ball radii] side of a cell in which a ball may be created

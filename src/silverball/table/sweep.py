@@ -31,7 +31,7 @@ from silverball.table.geometry import (
 from silverball.table.primitive import Mover, Primitive
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board
+    from silverball.table.kinds import Board
 
 CLEARANCE = 0.02  # [u] least gap to a turning paddle; chosen: far above rounding, far below a ball
 MIN_MOTION = 1e-4  # [u] least motion that is still bisected

@@ -41,7 +41,7 @@ from silverball.table.primitive import Point
 from silverball.table.reach import Space
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board
+    from silverball.table.kinds import Board
 
 LEVEL = 2.0  # [deg] a face below this slope is level: a ball on it slides a table's width in 8 s
 SHALLOW = 1e-4  # [u] a ball hops out of a shallower pocket: a fifth of the smallest hop of a touch
