@@ -55,6 +55,8 @@ class Layout(NamedTuple):
         paddles: The parts that move.
         random: What to place at random, if anything.
         levels: The levels that the table has.
+        has_narrow_lanes: Whether lanes that a ball barely fits are found: from format 2 on, because the
+            places for new balls in tables of format 1 stay as they were.
     """
 
     board: Board
@@ -62,12 +64,14 @@ class Layout(NamedTuple):
     paddles: tuple[PlacedPart, ...] = ()
     random: RandomRecipe | None = None
     levels: frozenset[int] = frozenset({0})
+    has_narrow_lanes: bool = False
 
     @classmethod
     def of(cls, table: Table) -> Layout:
         """Return the layout of a whole table."""
         parts = [(path, part) for path, _, part in table.parts()]
-        return cls.of_parts(table.board, parts, table.random, [level.number for level in table.level])
+        levels = [level.number for level in table.level]
+        return cls.of_parts(table.board, parts, table.random, levels, table.format)
 
     @classmethod
     def of_parts(
@@ -76,13 +80,14 @@ class Layout(NamedTuple):
         parts: Iterable[tuple[str, Part]],
         random: RandomRecipe | None = None,
         levels: Iterable[int] = (),
+        table_format: int = 1,
     ) -> Layout:
         """Return the layout of some parts, each with its path in the file, and of the levels above 0."""
         placed = [PlacedPart(path, part, part.primitives(board)) for path, part in parts]
         moving = [part for part in placed if any(p.mover is not None for p in part.primitives)]
         still = [part for part in placed if all(p.mover is None for p in part.primitives)]
         moving.sort(key=lambda part: _number(part.path))  # in the order of the file, for messages
-        return cls(board, tuple(still), tuple(moving), random, frozenset({0, *levels}))
+        return cls(board, tuple(still), tuple(moving), random, frozenset({0, *levels}), table_format > 1)
 
     def moving(self) -> list[tuple[str, Primitive]]:
         """Return the primitives of the paddles, with their paths."""

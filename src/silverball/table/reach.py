@@ -4,7 +4,9 @@ The places of a ball's centre are sampled on a square grid, on each level. A sam
 touches no border, no part that stands still and no paddle at rest. It is reached if a ball can get from it to
 the gutter or into a drain: over eight-connected samples, through passages, gates and drop targets, and by way
 of holes. A lane is found if it is wider than a ball by about 0.45 ball radii; `check.py` warns of narrower
-ones, so for a table without such a warning the result is exact.
+ones, so for a table without such a warning the result is exact. Real tables have narrow lanes, so in format 2
+a finer grid is sampled too, with balls that are smaller by the distance to the nearest sample: every lane
+that a ball fits is found, and some that are too narrow by a few hundredths of a unit.
 
 The step of the grid is 5/16 of a ball radius. Four by four samples make a square cell of 1.25 ball radii. A
 cell is smaller than any part with a ball's radius around it, so no cell extends through a wall.
@@ -47,6 +49,8 @@ PASSAGE_MARGIN = math.sqrt(2.0) * STEP  # [ball radii] by which a lane must be w
 TIE = 1e-6  # [steps] a sample this close to an edge of a blocked interval is decided by its distance
 CUT = 0.75  # [steps] on either side of a line: no two neighbours lie beyond it on different sides
 BESIDE = 1.75  # [steps] beyond a line or gate, in which its neighbours lie
+MAX_DETAIL = 8  # samples of the finer grid along a step of the coarse one
+MAX_SAMPLES = 2**21  # of the finer grid, to bound time and memory
 INTERVALS_AT_ONCE = 2**17  # pairs of a piece and a row of the grid measured at once, to bound the memory
 
 
@@ -77,6 +81,13 @@ class Grid(NamedTuple):
         z = (np.arange(across, dtype=np.float64) - 0.5 * (across - 1)) * step
         return cls(x, z, step, below)
 
+    def finer(self, detail: int) -> Grid:
+        """Return the grid with so many samples in place of each one, along either side."""
+        shares = (np.arange(detail) + 0.5) / detail - 0.5
+        x = (self.x[:, None] + shares * self.step).ravel()
+        z = (self.z[:, None] + shares * self.step).ravel()
+        return Grid(x, z, self.step / detail, self.floor_row * detail)
+
     def window(self, low: Sequence[float], high: Sequence[float]) -> tuple[slice, slice]:
         """Return the rows and columns of the samples within a box."""
         rows = slice(*np.searchsorted(self.x, [low[0], high[0]]).tolist())
@@ -91,6 +102,8 @@ class Space(NamedTuple):
         levels: The levels of the table, in order; the first is 0.
         free: Whether a ball there touches nothing, shape [level, row, column].
         reached: Whether it is free and leads out, shape [level, row, column].
+        detail: How finely the samples of `detailed` lie: so many along a step of the grid.
+        detailed: The same as `reached` for a finer grid, shape [level, detail · row, detail · column].
         swept: The circles (x, z, radius [u]) of the paddles within whose reach no ball is created.
     """
 
@@ -98,6 +111,8 @@ class Space(NamedTuple):
     levels: tuple[int, ...]
     free: Bools
     reached: Bools
+    detail: int
+    detailed: Bools
     swept: tuple[tuple[float, float, float], ...] = ()
 
     def reaches(self, point: Point, level: int = 0) -> bool:
@@ -107,9 +122,10 @@ class Space(NamedTuple):
         row = round((point[0] - float(self.grid.x[0])) / self.grid.step)
         column = round((point[1] - float(self.grid.z[0])) / self.grid.step)
         rows, columns = (
-            slice(max(0, index - NEAR_SAMPLES), max(0, index + NEAR_SAMPLES + 1)) for index in (row, column)
+            slice(max(0, index - NEAR_SAMPLES) * self.detail, max(0, index + NEAR_SAMPLES + 1) * self.detail)
+            for index in (row, column)
         )
-        return bool(self.reached[self.levels.index(level), rows, columns].any())
+        return bool(self.detailed[self.levels.index(level), rows, columns].any())
 
     def places(self) -> tuple[Floats, float]:
         """Return the cells in which a ball may be created, as `ball_places` does."""
@@ -174,24 +190,40 @@ def _pivot(paddle: Primitive) -> Point:
 
 def space(layout: Layout) -> Space:
     """Return the free space for a ball between the parts that stand still and the paddles at rest."""
-    board, lowest = layout.board, _lowest_paddles(layout)
-    grid = Grid.of(board, creation_floor(layout))
+    lowest = _lowest_paddles(layout)
+    grid = Grid.of(layout.board, creation_floor(layout))
     levels = tuple(sorted(layout.levels))
-    solids, polygons = layout.solids().joined(resting_pieces(layout)), layout.polygons()
-    margin = board.wall_thickness + board.ball_radius
-    within = np.outer(grid.x <= 0.5 * board.length - margin, np.abs(grid.z) <= 0.5 * board.width - margin)
-    free = np.stack(
-        [
-            within & ~_blocked(grid, solids.on_level(level), _polygons_on(polygons, level), board.ball_radius)
-            for level in levels
-        ]
-    )
+    free = _free(layout, grid, levels, 0.0)
+    reached = _reached(layout, grid, levels, free)
+    detail, detailed = 1, reached
+    if layout.has_narrow_lanes:
+        samples = max(1, free.size)
+        detail = max(1, min(MAX_DETAIL, math.isqrt(MAX_SAMPLES // samples)))
+        fine = grid.finer(detail)
+        detailed = _reached(layout, fine, levels, _free(layout, fine, levels, math.sqrt(0.5) * fine.step))
+        middle = slice(detail // 2, None, detail)
+        reached |= free & detailed[:, middle, middle]
     swept = tuple(
-        (*_pivot(paddle), moving_reach(paddle) + board.ball_radius)
+        (*_pivot(paddle), moving_reach(paddle) + layout.board.ball_radius)
         for _, paddle in layout.moving()
         if paddle not in lowest and 0 in paddle.levels
     )
-    return Space(grid, levels, free, _reached(layout, grid, levels, free), swept)
+    return Space(grid, levels, free, reached, detail, detailed, swept)
+
+
+def _free(layout: Layout, grid: Grid, levels: tuple[int, ...], slack: float) -> Bools:
+    """The samples at which a ball overlaps nothing by more than a slack [u], [level, row, column]."""
+    board = layout.board
+    solids, polygons = layout.solids().joined(resting_pieces(layout)), layout.polygons()
+    margin = board.wall_thickness + board.ball_radius - slack
+    within = np.outer(grid.x <= 0.5 * board.length - margin, np.abs(grid.z) <= 0.5 * board.width - margin)
+    radius = board.ball_radius - slack
+    return np.stack(
+        [
+            within & ~_blocked(grid, solids.on_level(level), _polygons_on(polygons, level), radius)
+            for level in levels
+        ]
+    )
 
 
 def resting_pieces(layout: Layout) -> Pieces:

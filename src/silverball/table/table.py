@@ -302,7 +302,9 @@ def examine(
         parts, footprint_problems = _with_footprints(parts, folder or Path())
         problems += footprint_problems
         too_many = _count_problems(board, parts)
-        problems += too_many or check_layout(Layout.of_parts(board, parts, recipe, levels))
+        problems += too_many or check_layout(
+            Layout.of_parts(board, parts, recipe, levels, 1 if is_first else 2)
+        )
     if table is None or _has_error(problems):
         return None, problems
     if table.has_mesh:
