@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from commandline import silverball
+from commandline import ran
 
 OVERLAP = """format = 1
 [[cylinder]]
@@ -29,14 +29,14 @@ def table(tmp_path):
 
 def test_warnings_are_printed_and_the_exit_code_is_0(table):
     path = table(OVERLAP)
-    result = silverball("check", path)
+    result = ran("check", path)
     assert (result.returncode, result.stderr) == (0, "")
     expected = "  warning: cylinder[1].center: overlaps cylinder[0]: move one of the two"
     assert result.stdout.splitlines() == [f"{path}: 1 warning", expected]
 
 
 def test_errors_go_to_standard_error_and_the_exit_code_is_2(table):
-    result = silverball("check", table(BEYOND))
+    result = ran("check", table(BEYOND))
     assert result.returncode == 2
     assert "warning: cylinder[1].center" in result.stdout
     assert "cylinder[2].center: lies beyond the edge" in result.stderr
@@ -44,10 +44,10 @@ def test_errors_go_to_standard_error_and_the_exit_code_is_2(table):
 
 
 def test_strict_makes_errors_of_warnings(table):
-    result = silverball("check", "--strict", table(OVERLAP))
+    result = ran("check", "--strict", table(OVERLAP))
     assert (result.returncode, result.stdout) == (2, "")
     assert "overlaps cylinder[0]" in result.stderr
-    assert silverball("check", "--strict", "classic").returncode == 0
+    assert ran("check", "--strict", "classic").returncode == 0
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_strict_makes_errors_of_warnings(table):
     [(OVERLAP, [], 0, 0), (OVERLAP, ["--strict"], 2, 0), (BEYOND, [], 2, 1)],
 )
 def test_json_has_every_problem_with_its_severity(table, text, options, code, errors):
-    result = silverball("check", "--json", *options, table(text))
+    result = ran("check", "--json", *options, table(text))
     report = json.loads(result.stdout)
     assert result.returncode == code
     assert (report["errors"], report["warnings"]) == (errors, 1)
