@@ -105,7 +105,8 @@ def _prepare(table: Table) -> _Prepared:
     """Prepare a recipe, once for all seeds."""
     assert table.random is not None
     layout = Layout.of(table)
-    warnings = frozenset(check_layout(layout._replace(random=None)))
+    own = check_layout(layout._replace(random=None))
+    warnings = frozenset(problem for problem in own if not problem.is_error)
     rotations = np.array(allowed_rotations(table.random))
     return _Prepared(table, table.random, Surroundings.of(layout), rotations, warnings)
 
