@@ -42,6 +42,7 @@ from silverball.table import (
     Table,
     TriangularPrism,
     ball_places,
+    expand,
     table_digest,
 )
 
@@ -141,11 +142,7 @@ def compile_parts(table: Table) -> NDArray[Any]:
 
 def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
-    kinds = ("slant_wall", "triangular_prism", "cylinder")
-    return (
-        *FIRST_PART_NAMES,
-        *(f"{kind}[{index}]" for kind in kinds for index in range(len(getattr(table, kind)))),
-    )
+    return (*FIRST_PART_NAMES, *(name for name in expand(table).names if name not in FIRST_PART_NAMES))
 
 
 def part_numbers(table: Table) -> dict[str, int]:
