@@ -20,14 +20,15 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
-from silverball.physics.flight import newton_refined, state_at, stays_open
+from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.records import BallRecord, ColliderRecord
 from silverball.physics.shapes import point_distance
-from silverball.physics.tolerances import CROSSED_GAP, NEVER
+from silverball.physics.tolerances import CONTACT_GAP, CROSSED_GAP, FLIGHT_STEPS, NEVER
 
-ROOT_STEPS = 200  # more than bisection needs for any two doubles within a flight; Newton takes some 6
-FIRST_SPAN = 0.125  # [s] first guess of how long after its last inflection a flight is closest to a disc
+ROOT_STEPS = 100  # more than bisection needs within a flight; Newton takes some 5
+FIRST_SPAN = 0.125  # [s] first guess of how long after t₂ a flight is closest to a disc
+MAX_SPAN = 1e9  # [s] later closest points are ignored: the ball hardly moves
 
 
 class Path(NamedTuple):
@@ -127,7 +128,7 @@ def disc_entry(
     if gap > 0.0 and stays_open(gap, rate, gap_accel, limit - start):
         return limit, False
     path = path_from(ball, c.x, c.z)
-    first, second = disc_entries(path, c.radius)
+    first, second = disc_entries(path, c.radius, limit)
     if sqrt(path.x * path.x + path.z * path.z) - c.radius <= CROSSED_GAP:
         first = NEVER
     if _is_due(first, start, is_past_start, limit):
@@ -144,34 +145,40 @@ def path_from(ball: BallRecord, x: float, z: float) -> Path:
 
 
 @internal
-def disc_entries(path: Path, radius: float) -> tuple[float, float]:
+def disc_entries(path: Path, radius: float, limit: float) -> tuple[float, float]:
     """Compute the ages [s] at which a flight enters a disc around the origin; NEVER if it does not.
 
     Half the derivative of |p|² is the cubic p·v. Its derivative v² + p·a is a quadratic with the roots
     t₁ ≤ t₂, if any: p·v rises up to t₁, falls up to t₂, and rises from there. So the distance falls at most
-    twice, down to a minimum before t₁ and to one after t₂, and is monotonic in between. An entry is the only
-    root of |p|² − radius² in such a fall.
+    twice, down to a minimum before t₁ and to one after t₂, and is monotonic in between. There is one entry in
+    a fall from outside to inside.
+
+    Args:
+        path: The flight relative to the centre of the disc.
+        radius: The radius of the disc [u].
+        limit: Entries after this age are not needed.
 
     Returns:
         The entry in a fall that begins with the flight, and that in a later one.
     """
     early, late = _inflections(path)
     first, low = NEVER, 0.0
-    if _approach(path, early) > 0.0:  # there is a minimum before `early`, or the flight starts outwards
+    is_later = _approach(path, early) > 0.0
+    if is_later:  # there is a minimum before `early`, or the flight starts outwards
         if _approach(path, 0.0) < 0.0:
-            first = _entry_between(path, radius, 0.0, _root(path, 0.0, True, 0.0, early))
-        if _approach(path, late) >= 0.0:
+            first = _entry_between(path, radius, 0.0, _extreme(path, radius, True, 0.0, early))
+        if _approach(path, late) >= 0.0 or early >= limit:
             return first, NEVER
-        low = _root(path, 0.0, True, early, late)  # the greatest distance between the two minima
+        low = _extreme(path, radius, False, early, late)  # the greatest distance between the two minima
     elif _approach(path, late) >= 0.0:
         return NEVER, NEVER
     span = FIRST_SPAN
     while _approach(path, late + span) < 0.0:
-        if span > 1e9:  # no acceleration and hardly any speed
+        if span > MAX_SPAN:
             return first, NEVER
         span *= 2.0
-    entry = _entry_between(path, radius, low, _root(path, 0.0, True, late, late + span))
-    return (entry, NEVER) if low == 0.0 else (first, entry)
+    entry = _entry_between(path, radius, low, _extreme(path, radius, True, late, late + span))
+    return (first, entry) if is_later else (entry, NEVER)
 
 
 @inlined
@@ -206,15 +213,25 @@ def _approach(path: Path, age: float) -> float:
 
 @internal
 def _entry_between(path: Path, radius: float, low: float, high: float) -> float:
-    """Compute when the falling distance from the origin reaches the radius; NEVER if it does not."""
+    """Compute when a flight, outside at one age and inside at another, enters the disc; NEVER if it is not.
+
+    The steps are those of `flight.time_to_shape`: they never overshoot.
+    """
     if not (_excess(path, radius, low) > 0.0 and _excess(path, radius, high) < 0.0):
         return NEVER
-    time = _root(path, radius, False, low, high)
-    # One Newton step on the distance itself: a difference of squares has lost the last digits.
-    x = path.x + time * (path.vx + 0.5 * path.accel_x * time)
-    z = path.z + time * (path.vz + 0.5 * path.accel_z * time)
-    apart = sqrt(x * x + z * z)
-    return min(max(newton_refined(time, apart - radius, _approach(path, time) / apart), low), high)
+    time = low
+    for _ in range(FLIGHT_STEPS):
+        vx, vz = path.vx + path.accel_x * time, path.vz + path.accel_z * time
+        x = path.x + time * (path.vx + 0.5 * path.accel_x * time)
+        z = path.z + time * (path.vz + 0.5 * path.accel_z * time)
+        gap, nx, nz = point_distance(x, z, 0.0, 0.0)
+        gap -= radius
+        rate = nx * vx + nz * vz
+        if gap <= CONTACT_GAP and rate < 0.0:
+            return newton_refined(time, gap, rate)
+        step = time_to_line(max(gap, 0.0), rate, nx * path.accel_x + nz * path.accel_z)
+        time = min(time + step, high)
+    return time  # a long graze, entered within rounding
 
 
 @inlined
@@ -226,34 +243,35 @@ def _excess(path: Path, radius: float, age: float) -> float:
 
 
 @internal
-def _root(path: Path, radius: float, is_extremum: bool, low: float, high: float) -> float:
-    """Compute the root between two ages of p·v (an extremum of the distance) or of |p|² − radius².
+def _extreme(path: Path, radius: float, is_minimum: bool, low: float, high: float) -> float:
+    """Compute the age between two others at which the distance is least or greatest, a root of p·v.
 
-    Newton's method from the middle; a step that leaves the bracket is replaced by bisection.
+    Where the flight is inside at its least distance, or outside at its greatest, any age will do at which it
+    is. Newton's method; a step that leaves the bracket is replaced by bisection.
     """
-    is_rising = (_approach(path, high) > 0.0) if is_extremum else (_excess(path, radius, high) > 0.0)
-    time = low + 0.5 * (high - low)
+    time = low
     for _ in range(ROOT_STEPS):
-        x = path.x + time * (path.vx + 0.5 * path.accel_x * time)
-        z = path.z + time * (path.vz + 0.5 * path.accel_z * time)
-        vx, vz = path.vx + path.accel_x * time, path.vz + path.accel_z * time
-        value = x * vx + z * vz
-        if is_extremum:
-            slope = vx * vx + vz * vz + x * path.accel_x + z * path.accel_z
-        else:
-            value, slope = x * x + z * z - radius * radius, 2.0 * value
-        if value == 0.0:
+        excess = _excess(path, radius, time)
+        if (is_minimum and excess < 0.0) or (not is_minimum and excess > 0.0):
             return time
-        if (value > 0.0) == is_rising:
-            high = time
-        else:
+        value = _approach(path, time)
+        if (value < 0.0) == is_minimum:
             low = time
-        before = time
+        else:
+            high = time
+        before, slope = time, _approach_rate(path, time)
         time = time - value / slope if slope != 0.0 else low
         if not low < time < high:
             time = low + 0.5 * (high - low)
-            if not low < time < high:  # the two are neighbours
-                return low
-        elif abs(time - before) <= 4e-16 * time:
+        if abs(time - before) <= 4e-16 * time:
             return time
     return time
+
+
+@inlined
+def _approach_rate(path: Path, age: float) -> float:
+    """Compute the derivative of p·v:  v² + p·a."""
+    vx, vz = path.vx + path.accel_x * age, path.vz + path.accel_z * age
+    x = path.x + age * (path.vx + 0.5 * path.accel_x * age)
+    z = path.z + age * (path.vz + 0.5 * path.accel_z * age)
+    return vx * vx + vz * vz + x * path.accel_x + z * path.accel_z

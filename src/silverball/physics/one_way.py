@@ -20,6 +20,7 @@ from silverball.physics.crossing import disc_entries, falling_time, path_from
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.records import BallRecord, ColliderRecord
+from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, CROSSED_GAP, NEVER
 
 
@@ -78,8 +79,14 @@ def _time_to_end(
 ) -> float:
     """Compute the age at which a ball meets the quarter around corner 1 (`is_far`) or 0; or the limit."""
     x, z = (c.x1, c.z1) if is_far else (c.x0, c.z0)
+    now = state_at(ball, start)
+    gap, nx, nz = point_distance(now.x, now.z, x, z)
+    gap -= reach + CROSSED_GAP
+    rate, gap_accel = nx * now.vx + nz * now.vz, nx * ball.accel_x + nz * ball.accel_z
+    if gap > 0.0 and stays_open(gap, rate, gap_accel, limit - start):
+        return limit
     path = path_from(ball, x, z)
-    first, second = disc_entries(path, reach)
+    first, second = disc_entries(path, reach, limit)
     apart = sqrt(path.x * path.x + path.z * path.z)
     gap = apart - reach
     if -CROSSED_GAP <= gap <= CONTACT_GAP:  # the flight starts on the outline
