@@ -15,7 +15,13 @@ from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, start_flight, start_rolling
-from silverball.physics.paddle import contact_with_paddle, surface_velocity
+from silverball.physics.paddle import (
+    contact_with_paddle,
+    is_turning,
+    omega_at,
+    surface_acceleration,
+    surface_velocity,
+)
 from silverball.physics.records import (
     GUTTER,
     NOTHING,
@@ -32,7 +38,7 @@ from silverball.physics.records import (
     Part,
     WorldRecord,
 )
-from silverball.physics.shapes import distance
+from silverball.physics.shapes import contact_normal
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
@@ -137,10 +143,12 @@ def first_contact(
 
 
 @internal
-def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, omega: float) -> None:
+def resolve(
+    lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, paddle: PaddleSweep
+) -> None:
     """Apply a contact: the ball bounces off a part, starts to roll, or leaves through the gutter.
 
-    `omega` is the angular velocity of the paddle met [rad/s].
+    `paddle` is the motion of the paddle met; if the ball meets something else, it is not used.
     """
     world, board, time = lane.world, geometry.board, contact.time
     if contact.part == NULL_EVENT:
@@ -162,14 +170,19 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     if c.kind == Kind.WALL:
         nx, nz = c.inward_x, c.inward_z
     elif c.kind != Kind.PADDLE:
-        _, nx, nz = distance(c, ball.x, ball.z)
-    elif omega != 0.0:
-        ux, uz = surface_velocity(c, omega, ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz)
-        acceleration += omega * omega * c.reach
+        nx, nz = contact_normal(c, ball)
+    elif is_turning(paddle):
+        ux, uz = surface_velocity(
+            c,
+            omega_at(paddle, time),
+            ball.x - board.ball_radius * nx,
+            ball.z - board.ball_radius * nz,
+        )
+        acceleration += surface_acceleration(c, paddle, time)
     contact = Contact(time, contact.part, nx, nz)
     speed = bounce(ball, board, c, contact, ux, uz, acceleration)
     kind = as_int(EventKind.TOUCH)
-    if speed > board.hit_speed:
+    if speed > c.hit_speed:
         kind = as_int(EventKind.HIT)
         world.score += c.points
         lane.tally[contact.part] += 1

@@ -25,6 +25,8 @@ from silverball.physics.motion import advance_ticks, advance_to, hold_still, rel
 from silverball.physics.paddle import (
     angle_at,
     end_at_stop,
+    is_turning,
+    omega_at,
     paddle_distance,
     start_sweep,
     stop_sweep,
@@ -106,8 +108,8 @@ def advance_paddles(
     left, right = world.paddle[0], world.paddle[1]
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
-    store_paddle(left, start_sweep(left_part, left.angle, raise_left), tick)
-    store_paddle(right, start_sweep(right_part, right.angle, raise_right), tick)
+    store_paddle(left, start_sweep(left_part, left, raise_left), tick)
+    store_paddle(right, start_sweep(right_part, right, raise_right), tick)
 
 
 @inlined
@@ -124,8 +126,8 @@ def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right
     world, board, colliders = lane.world, geometry.board, geometry.colliders
     left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
     right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
-    left = start_sweep(left_part, world.paddle[0].angle, raise_left)
-    right = start_sweep(right_part, world.paddle[1].angle, raise_right)
+    left = start_sweep(left_part, world.paddle[0], raise_left)
+    right = start_sweep(right_part, world.paddle[1], raise_right)
     left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
     a, b = world.ball[0], world.ball[1]
     are_apart = cannot_meet(board, a, b, tick, 1.0)
@@ -148,12 +150,10 @@ def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right
             resolve_ball_contact(world, board, lane.log, ball_contact)
             counts = EventCounts(counts.a + 1, counts.b + 1, counts.shared + 1, counts.jams_a, counts.jams_b)
         elif contact_a.part != NOTHING and contact_a.time <= contact_b.time:
-            omega = left.omega if contact_a.part == Part.LEFT_PADDLE else right.omega
-            resolve(lane, geometry, a, contact_a, omega)
+            resolve(lane, geometry, a, contact_a, left if contact_a.part == Part.LEFT_PADDLE else right)
             counts = EventCounts(counts.a + 1, counts.b, counts.shared, counts.jams_a, counts.jams_b)
         elif contact_b.part != NOTHING:
-            omega = left.omega if contact_b.part == Part.LEFT_PADDLE else right.omega
-            resolve(lane, geometry, b, contact_b, omega)
+            resolve(lane, geometry, b, contact_b, left if contact_b.part == Part.LEFT_PADDLE else right)
             counts = EventCounts(counts.a, counts.b + 1, counts.shared, counts.jams_a, counts.jams_b)
         if time >= left_stop_time:
             left, left_stop_time = end_at_stop(left), NEVER
@@ -283,7 +283,7 @@ def stall_near(
     If the ball is about to be held (`is_repeat`), a paddle that could reach it stops too: no paddle may run
     into a held ball.
     """
-    if paddle.omega == 0.0:
+    if not is_turning(paddle):
         return paddle
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
     if gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)):
@@ -294,11 +294,10 @@ def stall_near(
 @inlined
 def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None:
     """Store a paddle at the end of the tick, together with the stop angle its button drives it to."""
-    angle, omega = paddle.angle, paddle.omega
-    if omega != 0.0:
+    angle, omega = paddle.angle, 0.0
+    if is_turning(paddle):
         angle = angle_at(paddle, tick)
-        if angle == paddle.stop:
-            omega = 0.0
+        omega = 0.0 if angle == paddle.stop else omega_at(paddle, tick)
     record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, omega
 
 

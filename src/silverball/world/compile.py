@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.broad_phase import fill_grid
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import BOARD, COLLIDER, WORLD, Kind, Part, records
+from silverball.physics.records import BOARD, COLLIDER, WORLD, Kind, Part, Shape, records
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
@@ -119,7 +119,8 @@ def compile_parts(table: Table) -> NDArray[Any]:
     """
     _refuse_degenerate(table)
     rows = records(Part.FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
-    rows["speed_factor"] = 1.0
+    rows["speed_factor"], rows["levels"] = 1.0, 1
+    rows["friction"], rows["hit_speed"] = table.board.friction, table.board.hit_speed
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
     for number, side in PADDLES:
@@ -233,7 +234,7 @@ def _search_time(board: Any) -> float:
 
 
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"] = Kind.SLANT_WALL
+    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
     _set_side(row, 0, wall.start, wall.end)
     row["x1"], row["z1"] = wall.end
     row["radius"] = wall.thickness
@@ -243,14 +244,14 @@ def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
 
 
 def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"] = Kind.TRIANGULAR_PRISM
+    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
     corners = prism.corners(sine_cosine)
     _set_triangle(row, corners)
     row["x"], row["z"], row["reach"] = _circle_around(corners)
 
 
 def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"] = Kind.CYLINDER
+    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
     row["x"], row["z"], row["radius"] = cylinder.circle()
     row["reach"] = row["radius"]
 
@@ -288,7 +289,7 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
     if paddle is None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         return
-    row["kind"] = Kind.PADDLE
+    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())
