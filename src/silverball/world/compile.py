@@ -24,7 +24,18 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.broad_phase import fill_grid
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import BOARD, COLLIDER, LEFT, MAX_PADDLES, RIGHT, WORLD, Kind, Part, records
+from silverball.physics.records import (
+    BOARD,
+    COLLIDER,
+    LEFT,
+    MAX_PADDLES,
+    RIGHT,
+    WORLD,
+    Kind,
+    Part,
+    Shape,
+    records,
+)
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
@@ -122,7 +133,8 @@ def compile_parts(table: Table) -> NDArray[Any]:
     """
     _refuse_degenerate(table)
     rows = records(FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
-    rows["speed_factor"] = 1.0
+    rows["speed_factor"], rows["levels"] = 1.0, 1
+    rows["friction"], rows["hit_speed"] = table.board.friction, table.board.hit_speed
     rows["part"] = np.arange(len(rows))
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
@@ -230,7 +242,7 @@ def _search_time(board: Any) -> float:
 
 
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"] = Kind.SLANT_WALL
+    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
     _set_side(row, 0, wall.start, wall.end)
     row["x1"], row["z1"] = wall.end
     row["radius"] = wall.thickness
@@ -240,14 +252,14 @@ def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
 
 
 def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"] = Kind.TRIANGULAR_PRISM
+    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
     corners = prism.corners(sine_cosine)
     _set_triangle(row, corners)
     row["x"], row["z"], row["reach"] = _circle_around(corners)
 
 
 def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"] = Kind.CYLINDER
+    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
     row["x"], row["z"], row["radius"] = cylinder.circle()
     row["reach"] = row["radius"]
 
@@ -286,7 +298,7 @@ def _set_paddle(row: Any, paddle: Paddle | None, ball_radius: float) -> None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         row["sweep_x"] = FAR
         return
-    row["kind"] = Kind.PADDLE
+    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())
