@@ -18,9 +18,8 @@ from math import sqrt
 
 from silverball.physics.crossing import disc_entries, falling_time, path_from
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import internal, kernel
 from silverball.physics.records import BallRecord, ColliderRecord
-from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, CROSSED_GAP, NEVER
 
 
@@ -69,7 +68,8 @@ def _time_to_face(c: ColliderRecord, ball: BallRecord, reach: float) -> float:
         time = time_to_line(max(gap, 0.0), rate, gap_accel)
     if not 0.0 <= time < NEVER:
         return NEVER
-    foot = _foot(c, ball, time)
+    at = state_at(ball, time)
+    foot = (at.x - c.x0) * c.along_x0 + (at.z - c.z0) * c.along_z0
     return time if 0.0 <= foot <= c.length0 else NEVER
 
 
@@ -78,15 +78,8 @@ def _time_to_end(
     c: ColliderRecord, ball: BallRecord, reach: float, is_far: bool, start: float, limit: float
 ) -> float:
     """Compute the age at which a ball meets the quarter around corner 1 (`is_far`) or 0; or the limit."""
-    x, z = (c.x1, c.z1) if is_far else (c.x0, c.z0)
-    now = state_at(ball, start)
-    gap, nx, nz = point_distance(now.x, now.z, x, z)
-    gap -= reach + CROSSED_GAP
-    rate, gap_accel = nx * now.vx + nz * now.vz, nx * ball.accel_x + nz * ball.accel_z
-    if gap > 0.0 and stays_open(gap, rate, gap_accel, limit - start):
-        return limit
-    path = path_from(ball, x, z)
-    first, second = disc_entries(path, reach, limit)
+    path = path_from(ball, c.x1, c.z1) if is_far else path_from(ball, c.x0, c.z0)
+    first, second = disc_entries(path, reach, start, limit)
     apart = sqrt(path.x * path.x + path.z * path.z)
     gap = apart - reach
     if -CROSSED_GAP <= gap <= CONTACT_GAP:  # the flight starts on the outline
@@ -95,25 +88,13 @@ def _time_to_end(
             first = newton_refined(0.0, max(gap, 0.0), approach / apart)
         elif approach == 0.0 and path.x * path.accel_x + path.z * path.accel_z < 0.0:
             first = 0.0
-    if start <= first < limit and _is_on_quarter(c, ball, is_far, first):
-        return first
-    if start <= second < limit and _is_on_quarter(c, ball, is_far, second):
-        return second
+    for age in (first, second):
+        if start <= age < limit:
+            at = state_at(ball, age)
+            x, z = at.x - c.x0, at.z - c.z0
+            foot = x * c.along_x0 + z * c.along_z0
+            # With this tolerance there is no slit between the quarter and the face.
+            is_beyond = foot >= c.length0 - CROSSED_GAP if is_far else foot <= CROSSED_GAP
+            if is_beyond and x * c.inward_x + z * c.inward_z >= 0.0:
+                return age
     return limit
-
-
-@inlined
-def _foot(c: ColliderRecord, ball: BallRecord, age: float) -> float:
-    """Compute how far along the axis from corner 0 a ball is at an age [u]."""
-    at = state_at(ball, age)
-    return (at.x - c.x0) * c.along_x0 + (at.z - c.z0) * c.along_z0
-
-
-@inlined
-def _is_on_quarter(c: ColliderRecord, ball: BallRecord, is_far: bool, age: float) -> bool:
-    """Whether a ball is above the axis and beyond an end at an age, with a tolerance: no slit to the face."""
-    at = state_at(ball, age)
-    if (at.x - c.x0) * c.inward_x + (at.z - c.z0) * c.inward_z < 0.0:
-        return False
-    foot = _foot(c, ball, age)
-    return foot >= c.length0 - CROSSED_GAP if is_far else foot <= CROSSED_GAP
