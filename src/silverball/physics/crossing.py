@@ -21,7 +21,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import internal, kernel
 from silverball.physics.records import BallRecord, ColliderRecord
 from silverball.physics.tolerances import CONTACT_GAP, CROSSED_GAP, FLIGHT_STEPS, NEVER
 
@@ -30,19 +30,15 @@ FIRST_SPAN = 0.125  # [s] first guess of how long after t₂ a flight is closest
 MAX_AGE = 1e9  # [s] no flight is as old
 
 
-class Path(NamedTuple):
-    """A flight relative to a point: position [u], velocity [u/s] and acceleration [u/s²] at its start."""
+class Center(NamedTuple):
+    """The centre of a disc [u]."""
 
     x: float
     z: float
-    vx: float
-    vz: float
-    accel_x: float
-    accel_z: float
 
 
 class Approach(NamedTuple):
-    """A moment of a path: the products |p|², p·v, v² and p·a."""
+    """A moment of a flight relative to a centre: the products |p|², p·v, v² and p·a."""
 
     square: float
     rate: float
@@ -118,9 +114,9 @@ def disc_entry(
     Returns:
         The age and True; or the limit and False.
     """
-    path = path_from(ball, c.x, c.z)
-    first, second = disc_entries(path, c.radius, start, limit)
-    if sqrt(path.x * path.x + path.z * path.z) - c.radius <= CROSSED_GAP:
+    center = Center(c.x, c.z)
+    first, second = disc_entries(ball, center, c.radius, start, limit)
+    if sqrt(approach(ball, center, 0.0).square) - c.radius <= CROSSED_GAP:
         first = NEVER
     for age in (first, second):
         if start <= age < limit and not (is_past_start and age == start):
@@ -128,15 +124,11 @@ def disc_entry(
     return limit, False
 
 
-@inlined
-def path_from(ball: BallRecord, x: float, z: float) -> Path:
-    """The flight of a ball relative to a point."""
-    return Path(ball.start_x - x, ball.start_z - z, ball.start_vx, ball.start_vz, ball.accel_x, ball.accel_z)
-
-
 @internal
-def disc_entries(path: Path, radius: float, start: float, limit: float) -> tuple[float, float]:
-    """Compute the ages [s] at which a flight enters a disc around the origin; NEVER if it does not.
+def disc_entries(
+    ball: BallRecord, center: Center, radius: float, start: float, limit: float
+) -> tuple[float, float]:
+    """Compute the ages [s] at which a flight enters a disc; NEVER if it does not.
 
     Half the derivative of |p|² is the cubic p·v. Its derivative v² + p·a is a quadratic with the roots
     t₁ ≤ t₂, if any: p·v rises up to t₁, falls up to t₂, and rises from there. So the distance falls at most
@@ -144,7 +136,8 @@ def disc_entries(path: Path, radius: float, start: float, limit: float) -> tuple
     a fall from outside to inside.
 
     Args:
-        path: The flight relative to the centre of the disc.
+        ball: The ball.
+        center: The centre of the disc.
         radius: The radius of the disc [u].
         start: Entries before this age are not needed,
         limit: nor are those after this one; they may be found or not.
@@ -152,80 +145,90 @@ def disc_entries(path: Path, radius: float, start: float, limit: float) -> tuple
     Returns:
         The entry in a fall that begins with the flight, and that in a later one.
     """
-    now = _approach(path, start)
+    now = approach(ball, center, start)
     apart = sqrt(now.square)
     gap = apart - radius - CROSSED_GAP
     if gap > 0.0 and stays_open(gap, now.rate / apart, now.pull / apart, limit - start):
         return NEVER, NEVER
-    early, late = 0.0, 0.0
     # 3/2·a²·t² + 3·(v₀·a)·t + (v₀² + p₀·a) = 0, the form without cancellation for each root
-    square = 1.5 * (path.accel_x * path.accel_x + path.accel_z * path.accel_z)
-    half = 1.5 * (path.vx * path.accel_x + path.vz * path.accel_z)
-    rest = path.vx * path.vx + path.vz * path.vz + path.x * path.accel_x + path.z * path.accel_z
+    at_first = approach(ball, center, 0.0)
+    square = 1.5 * (ball.accel_x * ball.accel_x + ball.accel_z * ball.accel_z)
+    half = 1.5 * (ball.start_vx * ball.accel_x + ball.start_vz * ball.accel_z)
+    rest = at_first.speed_square + at_first.pull
     discriminant = half * half - square * rest
+    early, late = 0.0, 0.0
     if square > 0.0 and discriminant > 0.0:
-        q = -half - sqrt(discriminant) if half > 0.0 else -half + sqrt(discriminant)
-        early, late = max(min(q / square, rest / q), 0.0), max(q / square, rest / q, 0.0)
+        if half > 0.0:
+            q = -half - sqrt(discriminant)
+            early, late = q / square, rest / q
+        else:
+            q = -half + sqrt(discriminant)
+            early, late = rest / q, q / square
+        early, late = early if early > 0.0 else 0.0, late if late > 0.0 else 0.0
     first, low = NEVER, 0.0
-    rate_late = _approach(path, late).rate
-    is_later = _approach(path, early).rate > 0.0
+    rate_late = approach(ball, center, late).rate
+    is_later = approach(ball, center, early).rate > 0.0
     if is_later:  # there is a minimum before `early`, or the flight starts outwards
-        if _approach(path, 0.0).rate < 0.0:
-            first = _entry_between(path, radius, 0.0, _extreme(path, radius, True, 0.0, early))
+        if at_first.rate < 0.0:
+            high = _extreme(ball, center, radius, 1.0, 0.0, early)
+            first = _entry_between(ball, center, radius, 0.0, high)
         if rate_late < 0.0 and early < limit:
-            low = _extreme(path, radius, False, early, late)  # the greatest distance between the minima
+            low = _extreme(ball, center, radius, -1.0, early, late)
     if rate_late >= 0.0 or low >= limit:
         return first, NEVER
     high = late + FIRST_SPAN
-    while _approach(path, high).rate < 0.0:
+    while approach(ball, center, high).rate < 0.0:
         if high > MAX_AGE:
             return first, NEVER
         high = late + 2.0 * (high - late)
-    entry = _entry_between(path, radius, low, _extreme(path, radius, True, late, high))
+    high = _extreme(ball, center, radius, 1.0, late, high)
+    entry = _entry_between(ball, center, radius, low, high)
     return (first, entry) if is_later else (entry, NEVER)
 
 
 @internal
-def _approach(path: Path, age: float) -> Approach:
-    """Compute the products that tell how a flight approaches the origin at an age."""
-    vx, vz = path.vx + path.accel_x * age, path.vz + path.accel_z * age
-    x = path.x + age * (path.vx + 0.5 * path.accel_x * age)
-    z = path.z + age * (path.vz + 0.5 * path.accel_z * age)
-    return Approach(x * x + z * z, x * vx + z * vz, vx * vx + vz * vz, x * path.accel_x + z * path.accel_z)
+def approach(ball: BallRecord, center: Center, age: float) -> Approach:
+    """Compute how a flight approaches a centre at an age."""
+    vx, vz = ball.start_vx + ball.accel_x * age, ball.start_vz + ball.accel_z * age
+    x = ball.start_x - center.x + age * (ball.start_vx + 0.5 * ball.accel_x * age)
+    z = ball.start_z - center.z + age * (ball.start_vz + 0.5 * ball.accel_z * age)
+    return Approach(x * x + z * z, x * vx + z * vz, vx * vx + vz * vz, x * ball.accel_x + z * ball.accel_z)
 
 
 @internal
-def _entry_between(path: Path, radius: float, low: float, high: float) -> float:
+def _entry_between(ball: BallRecord, center: Center, radius: float, low: float, high: float) -> float:
     """Compute when a flight, outside at one age and inside at another, enters the disc; NEVER if it is not.
 
     The steps are those of `flight.time_to_shape`: they never overshoot.
     """
-    if _approach(path, high).square >= radius * radius or _approach(path, low).square <= radius * radius:
+    square = radius * radius
+    if approach(ball, center, high).square >= square or approach(ball, center, low).square <= square:
         return NEVER
     time = low
     for _ in range(FLIGHT_STEPS):
-        now = _approach(path, time)
+        now = approach(ball, center, time)
         apart = sqrt(now.square)
         gap, rate = apart - radius, now.rate / apart
         if gap <= CONTACT_GAP and rate < 0.0:
             return newton_refined(time, gap, rate)
-        time = min(time + time_to_line(max(gap, 0.0), rate, now.pull / apart), high)
+        time += time_to_line(gap if gap > 0.0 else 0.0, rate, now.pull / apart)
+        time = min(time, high)
     return time  # a long graze, entered within rounding
 
 
 @internal
-def _extreme(path: Path, radius: float, is_minimum: bool, low: float, high: float) -> float:
-    """Compute the age between two others at which the distance is least or greatest, a root of p·v.
+def _extreme(ball: BallRecord, center: Center, radius: float, sign: float, low: float, high: float) -> float:
+    """Compute the age between two others at which the distance is least (sign 1) or greatest (−1).
 
-    Where the flight is inside at its least distance, or outside at its greatest, any age will do at which it
-    is. Newton's method; a step that leaves the bracket is replaced by bisection.
+    It is a root of p·v. Where the flight is inside at its least distance, or outside at its greatest, any age
+    will do at which it is. Newton's method; a step that leaves the bracket is replaced by bisection.
     """
     time = low
     for _ in range(ROOT_STEPS):
-        now = _approach(path, time)
-        if now.square < radius * radius if is_minimum else now.square > radius * radius:
+        now = approach(ball, center, time)
+        if sign * (radius * radius - now.square) > 0.0:
             break
-        if (now.rate < 0.0) == is_minimum:
+        if sign * now.rate < 0.0:
             low = time
         else:
             high = time
