@@ -202,7 +202,7 @@ def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders)
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
             dx, dz = a.x - b.x, a.z - b.z
-            reach = 2.0 * board.ball_radius
+            reach = 2.0 * board.ball_radius - FREE_GAP
             if a.id != 0 and b.id != 0 and dx * dx + dz * dz < reach * reach:
                 return False
     return True

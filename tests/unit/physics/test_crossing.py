@@ -118,7 +118,7 @@ def test_all_entries_into_a_disc(accel: str) -> None:
 def test_crossings_have_the_same_bits_however_a_flight_is_searched(find) -> None:
     rng = np.random.default_rng(3)
     crossed = 0
-    for _ in range(FLIGHTS):
+    for _ in range(100):
         accel = str(rng.choice(ACCELERATIONS))
         if find is line_crossing:
             ends, ball = line_and_flight(rng, accel)
@@ -138,7 +138,7 @@ def test_crossings_have_the_same_bits_however_a_flight_is_searched(find) -> None
             for to in (-1.0, None, 9.0)
         ]
         assert searched(find, row, ball, [*sorted(near), LIMIT]) == found
-    assert crossed > 100
+    assert crossed > 60
 
 
 def test_the_left_of_a_line_is_the_left_as_the_player_sees_it() -> None:

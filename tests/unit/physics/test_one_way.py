@@ -107,7 +107,7 @@ def test_no_contact_is_missed_and_none_is_false(accel: str) -> None:
 @pytest.mark.parametrize("accel", ACCELERATIONS)
 def test_contacts_have_the_same_bits_however_a_flight_is_searched(accel: str) -> None:
     rng = np.random.default_rng(6)
-    for _ in range(200):
+    for _ in range(60):
         gate, ball = gate_and_flight(rng, accel)
         whole = first_contact(gate, ball)
         for ticks in (60, 240, 1000):
