@@ -211,9 +211,9 @@ COLLIDER = np.dtype(
         ("along_x2", "f8"), ("along_z2", "f8"),
         ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
-        # Shape, Response, the part (its number on the board), the levels (bit n: level n), the switch (a
-        # bit of WORLD.off; 0: always there).
-        ("shape", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
+        # Shape (a NumPy record has a `shape` of its own), Response, the part (its number on the board), the
+        # levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
+        ("outline", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the
