@@ -67,10 +67,7 @@ def arc_gap(x, z, curve: Curve):
     face = abs(length(qx, qz) - radius)
     first, second = length(x - ax, z - az), length(x - bx, z - bz)
     ends = min(first, second) if is_exact else np.minimum(first, second)
-    if is_exact:
-        near = face if abs(turn) <= half else ends
-    else:
-        near = np.where(np.abs(turn) <= half, face, ends)
+    near = (face if abs(turn) <= half else ends) if is_exact else np.where(np.abs(turn) <= half, face, ends)
     return near - number(curve.thickness) - number(RADIUS)
 
 
