@@ -66,8 +66,6 @@ def line_crossing(
     rate = ball.start_vx * c.inward_x + ball.start_vz * c.inward_z
     gap_accel = ball.accel_x * c.inward_x + ball.accel_z * c.inward_z
     to_right, to_left = falling_time(gap, rate, gap_accel), falling_time(-gap, -rate, -gap_accel)
-    if to_right < NEVER and to_left < NEVER and (to_right - to_left) * gap_accel >= 0.0:
-        return limit, 0  # a graze: rounding has put the two crossings at one age, or in the wrong order
     if abs(gap) <= CROSSED_GAP:
         if rate <= 0.0:
             to_right = NEVER
@@ -88,7 +86,9 @@ def falling_time(gap: float, rate: float, gap_accel: float) -> float:
     """Compute the time [s] at which a gap's parabola falls through zero; it may be negative.
 
     A parabola does so once at most, with the rate −√Δ (see `flight.time_to_line`). The result is NEVER where
-    it only touches zero, and where it fell through zero in the past and does not fall now.
+    it only touches zero, and where it fell through zero in the past and does not fall now. Rounding cannot
+    swap this time and the one at which the gap rises: Δ > 0 is at least an ulp of rate², and so the two are
+    some 1e-8 of the time apart.
     """
     discriminant = rate * rate - 2.0 * gap_accel * gap
     if discriminant <= 0.0:

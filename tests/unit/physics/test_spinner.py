@@ -103,8 +103,8 @@ def test_the_remaining_turns_are_those_that_have_a_time() -> None:
     for _ in range(2000):
         angle, speed, _ = random_blade(rng)
         damping = float(rng.choice([0.1, 2.0, 30.0]))
-        if rng.random() < 0.2:  # the last turn is made just so, or just not
-            angle, speed = 0.0, damping * math.pi * (2 * int(rng.integers(1, 6)) - 1)
+        if rng.random() < 0.5:  # the last turn is made just so, or just not
+            speed = damping * (math.pi * (2 * int(rng.integers(1, 30)) - 1) - angle)
             speed = math.nextafter(speed, float(rng.choice([0.0, speed, math.inf])))
         total = remaining_turns(angle, speed, damping, 0)
         assert time_of_turn(angle, speed, damping, max(total, 1)) < math.inf or total == 0
