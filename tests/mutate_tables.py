@@ -30,6 +30,8 @@ import numpy as np
 
 from silverball.errors import SilverballError, TableError
 from silverball.table import dump_table, generate_table, load_table, table_names
+from silverball.table.parts import Arcade, Board, RandomRecipe
+from silverball.table.table import PART_KINDS
 from silverball.world import World
 
 LONGEST = 5.0  # [s] of computing time for one file, and ten times that by the clock
@@ -81,44 +83,19 @@ VALUES = (
     ),
 )
 CHARACTERS = "\x00\x07\x1b\x7f\x85\x9b\u200b\u202e\u2066\ufeff\u2028é𝄞\"'\\[]{}=#.,\n\r\t"
-WORDS = (
-    *("length", "width", "gravity", "friction", "rolling", "ball_radius", "speed_cap", "hit_speed", "gutter"),
-    *(
-        "max_balls",
-        "wall_thickness",
-        "start",
-        "end",
-        "thickness",
-        "restitution",
-        "restitution_falloff",
-        "points",
-    ),
-    *(
-        "side",
-        "pivot",
-        "base",
-        "rest_angle",
-        "up_angle",
-        "stroke",
-        "return_stroke",
-        "vertices",
-        "center",
-        "size",
-    ),
-    *(
-        "rotation",
-        "mesh",
-        "radius",
-        "speed_factor",
-        "triangular_prisms",
-        "cylinders",
-        "prism_size",
-        "area",
-        "gap",
-    ),
-    *("wall_gap", "cylinder_radius", "prism", "balls", "name", "format", "flipper", "__class__", "\x1b[1m"),
+WORDS = tuple(
+    dict.fromkeys(
+        [
+            *(
+                key
+                for model in (Board, RandomRecipe, Arcade, *PART_KINDS.values())
+                for key in model.model_fields
+            ),
+            *("format", "from", "to", "flipper", "__class__", "\x1b[1m"),
+        ]
+    )
 )
-HEADS = ("[board]", "[random]", "[arcade]", *(f"[[{kind}]]" for kind in ("slant_wall", "paddle", "cylinder")))
+HEADS = ("[board]", "[random]", "[arcade]", *(f"[[{kind}]]" for kind in PART_KINDS))
 NUMBER = re.compile(r"(?<![\w.\"])-?\d[\d_.]*(?:e-?\d+)?(?![\w.])")
 
 
