@@ -27,8 +27,9 @@ from silverball.table.primitive import Point, Primitive
 
 OPACITY = 0.45  # of what stands on an upper level
 OUTLINE = 0.8  # of its outline
-FLOOR_OPACITY = 0.22
+FLOOR_OPACITY = 0.3
 FLOOR_CELL = 0.1  # [u]
+EDGE = 0.05  # [u] around a solid within which it is smoothed
 MARGIN = 0.35  # [u] around what stands on a level
 
 
@@ -47,17 +48,21 @@ def bake_level(layout: Layout, level: int, camera: Camera, theme: Theme, bake_th
     table = TableScene(layout, camera, theme, level)
     canvas = new_canvas(camera.size)
     canvas.mask[:] = False
-    canvas.mask[box] = True
+    is_on_level = np.isclose(table.scene.solids["base"], base)
+    for solid in table.scene.solids[is_on_level]:
+        x, z, reach = solid["x"], solid["z"], solid["reach"] + EDGE
+        place = camera.box(x - reach, x + reach, z - reach, z + reach, base, float(solid["height"]) + EDGE)
+        canvas.mask[place[1] : place[3], place[0] : place[2]] = True
     bake_threads.plan(2 * (bottom - top))
     bake_threads.bake(table.scene, canvas)
-    solids = table.scene.solids
-    is_on_level = np.append(np.isclose(solids["base"], base), [False] * 4)  # the last four: floor, rail, …
-    seen = is_on_level[canvas.part[box]]
+    seen = (
+        canvas.mask[box] & np.append(is_on_level, [False] * 4)[canvas.part[box]]
+    )  # the last: floor, rail, …
     alpha = np.where(seen, np.where(_edge(seen), OUTLINE, OPACITY), 0.0)
     color = to_bytes(canvas.shown[box]).astype(np.float64)
     color = np.where((seen & _edge(seen))[:, :, None], np.minimum(1.25 * color + 30.0, 255.0), color)
     floor = _floor_share(layout, level, camera, base, (left, top, right, bottom))
-    tint = np.array(theme.mouth, np.float64)
+    tint = np.array(theme.ramp, np.float64)
     share = np.where(seen, 0.0, FLOOR_OPACITY * floor)
     added = alpha[:, :, None] * color + share[:, :, None] * tint
     remaining = 255.0 * (1.0 - alpha - share)

@@ -96,7 +96,7 @@ def pose_box(camera: Camera, part: MovingPart, pose: int) -> Box:
             )
             points = [(x, z), (x - length * to_x, z - length * to_z)]
         elif part.motion is not Motion.STANDING:
-            around += 0.5 * unit
+            around += 0.3 * unit
     xs, zs = [x for x, _ in points], [z for _, z in points]
     return camera.box(
         min(xs) - reach - around, max(xs) + 0.3 * reach + around, min(zs) - reach - around,

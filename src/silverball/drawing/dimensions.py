@@ -16,7 +16,7 @@ from silverball.table.primitive import Finish, Point
 REFERENCE_BALL_RADIUS = 0.25  # [u] for which the heights below are given
 RAIL_SHARE = 0.044  # width of the rail, by the board's shorter side
 MAX_RAIL = 1.0  # [u]
-LEVEL_RISE = 0.75  # [u] from one level to the next
+LEVEL_RISE = 0.5  # [u] from one level to the next
 TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies on it
 
 

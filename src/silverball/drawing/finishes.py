@@ -54,7 +54,7 @@ class Look(NamedTuple):
 LOOKS = {
     Finish.BORDER: Look(Material.BAR, "rail", 0.36),
     Finish.WALL: Look(Material.BAR, "wall", 0.36, bevel=0.06, has_tube=True),
-    Finish.METAL: Look(Material.STEEL, "steel", 0.34, bevel=0.1, fill=Fill(Material.STEEL, "steel")),
+    Finish.METAL: Look(Material.STEEL, "steel", 0.34, bevel=0.1),
     Finish.WOOD: Look(Material.TIMBER, "timber", 0.40, bevel=0.03, fill=Fill(Material.TIMBER, "timber")),
     Finish.PLASTIC: Look(
         Material.PLASTIC, "plastics", 0.40, bevel=0.03, glow=0.3,

@@ -15,7 +15,17 @@ from numpy.typing import NDArray
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import LEVEL_RISE
 from silverball.drawing.kernels.solids import list_cells
-from silverball.drawing.kernels.stage import CELL, HALO, LIGHT, MAX_CELLS, NEAR, STAGE, Scene
+from silverball.drawing.kernels.stage import (
+    CELL,
+    HALO,
+    LIGHT,
+    MANY,
+    MAX_CELLS,
+    NEAR,
+    NEAR_IF_MANY,
+    STAGE,
+    Scene,
+)
 from silverball.drawing.layout import Layout
 from silverball.drawing.moving import MovingPart
 from silverball.drawing.solids import Solids, linear
@@ -70,10 +80,13 @@ def make_scene(
 
 
 def _with_cells(scene: Scene) -> Scene:
-    unit = float(scene.stage[0]["unit"])
+    stage = scene.stage.copy()
+    unit = float(stage[0]["unit"])
+    stage[0]["near"] = (NEAR if len(scene.solids) <= MANY else NEAR_IF_MANY) * unit
     return scene._replace(
-        near=list_cells(scene.stage, scene.solids, NEAR * unit, False),
-        lit=list_cells(scene.stage, scene.solids, HALO * unit, True),
+        stage=stage,
+        near=list_cells(stage, scene.solids, float(stage[0]["near"]), False),
+        lit=list_cells(stage, scene.solids, HALO * unit, True),
     )
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from silverball.drawing.dimensions import LEVEL_RISE, Dimensions, corner_behind
 from silverball.drawing.finishes import LOOKS, Fill, Look
-from silverball.drawing.kernels.solids import CAP_RISE, CAP_SHARE
+from silverball.drawing.kernels.solids import CAP_RISE, CAP_SHARE, RING
 from silverball.drawing.kernels.stage import SOLID, Material, Outline
 from silverball.drawing.layout import Layout, Row, closed_outline
 from silverball.drawing.moving import (
@@ -38,6 +38,7 @@ NO_CULL = 1e9  # [u]
 BRACKET = 0.055  # [u] radius of the posts that hold a gate or a spinner
 BLADE_AXIS = 0.42  # [u] height of the axis of a spinner
 FLAP_AXIS = 0.52  # [u] the same of a gate
+THIN = 0.02  # [u] least radius of a wall; a thinner one would be seen here and there only
 WIRE = 0.05  # [u] half the width of a line in the playfield
 SLOT = 0.012  # [u] height of what lies in the playfield
 BULGE = 0.28  # tan(angle/4) of the rubber of a slingshot that has just kicked
@@ -73,7 +74,7 @@ class Solids:
             colors = self._next_colors(primitives[0])
             drawn = tuple(p for p in primitives if min(p.levels) <= level)
             if drawn:
-                self._begin(part, max(number for p in drawn for number in p.levels if number <= level))
+                self._begin(part, shown_level(drawn[0], level))
                 for primitive in drawn:
                     self._add_still(primitive, colors)
                 self._fill(drawn, colors)
@@ -127,7 +128,7 @@ class Solids:
         solid["material"], solid["group"] = material, self._group
         solid["base"], solid["height"], solid["bevel"] = self._base, self._base + height, bevel
         solid["side"] = solid["cosine"] = 1.0
-        solid["cull"] = NO_CULL
+        solid["cull"], solid["top"] = NO_CULL, solid["height"]
         solid["red"], solid["green"], solid["blue"] = linear(color)
         self._records.append(solid)
         self._parts.append(self._part)
@@ -169,10 +170,11 @@ class Solids:
         elif primitive.shape == Shape.TRIANGLE:
             self._set_triangle(solid, points)
         elif primitive.shape == Shape.ARC:
-            self._set_arc(solid, primitive)
+            radius = max(radius, THIN * self._unit)
+            self._set_arc(solid, primitive._replace(radius=radius))
             solid["bevel"] = min(radius, solid["bevel"])
         else:
-            radius = WIRE * self._unit if primitive.shape == Shape.LINE else radius
+            radius = WIRE * self._unit if primitive.shape == Shape.LINE else max(radius, THIN * self._unit)
             self._set_capsule(solid, points[0], points[1], radius)
             solid["bevel"] = min(radius, solid["bevel"])
             corner = corner_behind(self._board, *points) if look.has_tube else None
@@ -197,6 +199,7 @@ class Solids:
         solid["sine"], solid["cosine"] = math.sin(math.radians(angle)), math.cos(math.radians(angle))
         height = float(solid["height"] - solid["base"])
         solid["bolt"] = min(0.36 * base, 0.3 * height / 0.33)
+        solid["top"] += 0.5 * solid["bolt"]
 
     def _add_plate(
         self, primitive: Primitive, color: Color, axis: float, extent: tuple[float, float], angle: float
@@ -205,8 +208,10 @@ class Solids:
         solid = self._new(Material.BLADE, color, axis * self._unit, 0.0)
         self._set_capsule(solid, primitive.points[0], primitive.points[1], max(-extent[0], extent[1]))
         solid["outline"] = Outline.PLATE
-        solid["low"], solid["high"] = extent
         solid["thin"] = 0.02 * self._unit
+        solid["cull"] += solid["thin"]
+        solid["low"], solid["high"] = extent
+        solid["top"] += solid["radius"] + solid["thin"]
         solid["sine"], solid["cosine"] = math.sin(angle), math.cos(angle)
 
     def _add_rod(self, primitive: Primitive, color: Color, pull: float) -> None:
@@ -250,6 +255,7 @@ class Solids:
             wide = CAP_SHARE * radius
             rise = min(CAP_RISE * wide, 0.45 * self._unit)
             solid["cull"] = max(radius, (wide * wide + rise * rise) / (2.0 * rise))
+            solid["top"] += rise + RING * self._unit
 
     def _set_capsule(self, solid: Any, start: Point, end: Point, radius: float) -> None:
         solid["outline"] = Outline.CAPSULE
@@ -279,6 +285,15 @@ class Solids:
         solid["x"], solid["z"] = x, z
         reach = math.sqrt(max((px - x) ** 2 + (pz - z) ** 2 for px, pz in corners)) * (1 + 1e-12)
         solid["reach"] = solid["cull"] = reach
+
+
+def shown_level(primitive: Primitive, level: int) -> int:
+    """Return the level on which a primitive is drawn, of those up to a level.
+
+    What lies flat, such as the mouth of a passage, is drawn on its lowest level, the rest on its highest.
+    """
+    numbers = [number for number in primitive.levels if number <= level]
+    return min(numbers) if LOOKS[primitive.finish].height <= SLOT else max(numbers)
 
 
 def _runs(rows: Sequence[Row]) -> list[tuple[int, int]]:

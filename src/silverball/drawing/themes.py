@@ -47,6 +47,7 @@ class Theme:
         spinner: Blades of spinners.
         hole: Inside of a hole.
         mouth: Arrows where balls change from one level to another.
+        ramp: Floors of upper levels.
     """
 
     title: str
@@ -91,6 +92,7 @@ class Theme:
     spinner: Color = (220, 60, 60)
     hole: Color = (70, 74, 92)
     mouth: Color = (255, 200, 60)
+    ramp: Color = (120, 200, 255)
 
 
 NEON = Theme(
@@ -167,6 +169,7 @@ PARLOUR = Theme(
     spinner=(196, 40, 34),
     hole=(64, 40, 26),
     mouth=(255, 220, 120),
+    ramp=(40, 120, 170),
 )
 
 CLEAR = Theme(
@@ -209,6 +212,7 @@ CLEAR = Theme(
     spinner=(150, 40, 160),
     hole=(4, 5, 7),
     mouth=(70, 150, 130),
+    ramp=(130, 150, 200),
 )
 
 THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}

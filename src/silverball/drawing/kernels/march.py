@@ -7,7 +7,7 @@ a surface. The intersection with the playfield, a plane, is computed in closed f
 from __future__ import annotations
 
 from silverball.drawing.kernels.solids import apron_distance, cell_at, rail_distance, solid_distance
-from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Outline, Scene
+from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 
 STEPS = 72  # upper limit of steps of a ray
@@ -20,7 +20,7 @@ BELOW = -1.2  # [u] height of the room's floor
 
 @internal
 def nearest_part(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
-    """Return the distance of the nearest surface, at most `NEAR`, and the number of its solid."""
+    """Return the distance of the nearest surface, at most the stage's `near`, and the number of its solid."""
     s = scene.stage[0]
     best, part = rail_distance(s, x, y, z), RAIL
     apron = apron_distance(s, x, y, z)
@@ -31,14 +31,12 @@ def nearest_part(scene: Scene, x: float, y: float, z: float) -> tuple[float, int
         index = scene.near[place]
         solid = scene.solids[index]
         dx, dz, reach = x - solid.x, z - solid.z, best + solid.cull
-        if dx * dx + dz * dz > reach * reach:
+        if y - solid.top >= best or dx * dx + dz * dz > reach * reach:
             continue  # nothing of it is nearer
-        if solid.outline == Outline.POLYGON and y - solid.height >= best:
-            continue
         d = solid_distance(scene.corners, solid, x, y, z)
         if d < best:
             best, part = d, index
-    return min(best, NEAR * s.unit), part
+    return min(best, s.near), part
 
 
 @internal

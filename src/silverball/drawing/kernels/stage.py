@@ -39,7 +39,9 @@ FLOOR, RAIL, APRON, ROOM = -1, -2, -3, -4
 
 CELL = 0.5  # [u] least side of a cell
 MAX_CELLS = 128  # along the longer side
-NEAR = 1.0  # [u] parts within this distance are listed in a cell, for marching
+NEAR = 1.0  # [u] solids within this distance are listed in a cell, for marching
+NEAR_IF_MANY = 0.5  # [u] the same in a scene of more than `MANY` solids, whose lists would be long
+MANY = 100
 HALO = 2.4  # [u] parts light up nothing farther away than this, for shading
 LIGHT = (0.75, 0.66143782776614768)
 """Direction to the lamp: x and y of a unit vector; z is 0, so that both sides are lit alike."""
@@ -123,6 +125,7 @@ SOLID = np.dtype(
         ("group", "i8"),  # solids of one part follow each other and have one number; they glow as one
         # The footprint, in the fields of a COLLIDER (see physics/records.py)
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),  # a circle around it; a paddle's is around its pivot
+        ("cull", "f8"), ("top", "f8"),  # [u] radius around (x, z) and height beyond which no surface is
         ("radius", "f8"), ("tip_radius", "f8"),
         ("x0", "f8"), ("z0", "f8"), ("x1", "f8"), ("z1", "f8"), ("x2", "f8"), ("z2", "f8"),
         ("along_x0", "f8"), ("along_z0", "f8"), ("along_x1", "f8"), ("along_z1", "f8"),
@@ -132,7 +135,6 @@ SOLID = np.dtype(
         ("arc_cosine", "f8"),  # of half the angle of an arc
         ("first", "i8"), ("end", "i8"),  # corners of a polygon among the scene's corners
         # The body above it
-        ("cull", "f8"),  # [u] radius around (x, z) outside of which no surface is
         ("base", "f8"), ("height", "f8"), ("bevel", "f8"),  # [u] its underside, its top, its rounded edge
         ("turns", "i8"),  # 1: the footprint is in the frame of a paddle that turns about (x, z)
         ("sine", "f8"), ("cosine", "f8"), ("side", "f8"),  # of its angle; +1 left, −1 right
@@ -150,6 +152,7 @@ STAGE = np.dtype(
     [
         ("half_length", "f8"), ("half_width", "f8"), ("thickness", "f8"), ("rail", "f8"),
         ("rail_height", "f8"), ("apron_height", "f8"), ("apron_top", "f8"), ("top", "f8"), ("unit", "f8"),
+        ("near", "f8"),  # [u] solids farther away than this are not listed, for marching
         ("art", "i8"), ("frame", "i8"),
         ("exposure", "f8"), ("key", "f8"), ("fill", "f8"), ("lacquer", "f8"), ("halo", "f8"),
         ("cap_ground", "f8"),
