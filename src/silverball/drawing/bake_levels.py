@@ -22,7 +22,7 @@ from silverball.drawing.layout import Layout, path
 from silverball.drawing.pictures import Sprite
 from silverball.drawing.scene import TableScene
 from silverball.drawing.themes import Theme
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.table.primitive import Point, Primitive
 
 OPACITY = 0.45  # of what stands on an upper level

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
-from silverball.physics.records import Shape
-from silverball.table import Board, Paddle, Table
-from silverball.table.primitive import Finish, Mover, Point, Primitive, arc_of
+from silverball.physics.forms import Shape
+from silverball.table import Board, Table
+from silverball.table.primitive import Finish, Point, Primitive, arc_of
 
 RECIPE_FINISHES = (Finish.PRISM, Finish.BUMPER)
 """Finishes of what a recipe places at random: all of its boards are alike but for these."""
@@ -16,7 +16,7 @@ ARC_STEP = math.radians(12.0)  # between two corners of a polygon that follows a
 
 
 class Row(NamedTuple):
-    """A primitive, and the part that it belongs to, by its path in the table."""
+    """A primitive, and the part that it belongs to, by its name in events."""
 
     part: str
     primitive: Primitive
@@ -38,7 +38,14 @@ class Layout(NamedTuple):
     @classmethod
     def of(cls, table: Table) -> Layout:
         """Return the layout of a finished table."""
-        return cls(table.name, table.board, tuple(_rows(table)))
+        # Not `expand`, which needs the compiler; the last bit of a prism's corners cannot be seen.
+        table = table.resolved()
+        rows = (
+            Row(name, primitive)
+            for _, name, part in table.parts()
+            for primitive in part.primitives(table.board)
+        )
+        return cls(table.name, table.board, tuple(rows))
 
     def without(self, is_left_out: Callable[[Primitive], bool]) -> Layout:
         """Return the layout without some of its primitives."""
@@ -52,34 +59,6 @@ class Layout(NamedTuple):
     def levels(self) -> tuple[int, ...]:
         """The levels on which something is, the playfield (0) included, from low to high."""
         return tuple(sorted({0, *(level for row in self.rows for level in row.primitive.levels)}))
-
-
-def _rows(table: Table) -> Iterator[Row]:
-    for side in ("left", "right"):
-        for paddle in table.paddle:
-            if paddle.side == side:
-                yield Row(f"paddle.{side}", _paddle(paddle))
-    for index, wall in enumerate(table.slant_wall):
-        yield Row(
-            f"slant_wall[{index}]", Primitive(Shape.CAPSULE, (wall.start, wall.end), radius=wall.thickness)
-        )
-    for index, prism in enumerate(table.triangular_prism):
-        yield Row(
-            f"triangular_prism[{index}]", Primitive(Shape.TRIANGLE, prism.corners(), finish=Finish.PRISM)
-        )
-    for index, cylinder in enumerate(table.cylinder):
-        x, z, radius = cylinder.circle()
-        yield Row(
-            f"cylinder[{index}]", Primitive(Shape.CIRCLE, ((x, z),), radius=radius, finish=Finish.BUMPER)
-        )
-
-
-def _paddle(paddle: Paddle) -> Primitive:
-    mover = Mover(
-        paddle.pivot, paddle.direction, math.radians(paddle.rest_angle), math.radians(paddle.up_angle),
-        paddle.stroke, paddle.return_stroke, paddle.side,
-    )  # fmt: skip
-    return Primitive(Shape.TRIANGLE, paddle.local_corners(), finish=Finish.PADDLE, mover=mover)
 
 
 def closed_outline(primitives: tuple[Primitive, ...]) -> tuple[Point, ...] | None:

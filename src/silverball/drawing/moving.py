@@ -18,7 +18,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from silverball.drawing.layout import Layout
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.table.primitive import Finish, Mover, Point, Primitive
 
 DEGREES = 1.0  # about, between two poses of a paddle

@@ -24,7 +24,7 @@ from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.moving import PULL, Motion, MovingPart, is_moving, moving_parts, pose_angle, turned
 from silverball.drawing.poses import pose_of
 from silverball.drawing.themes import Color, Theme, role_color
-from silverball.physics.records import Shape
+from silverball.physics.forms import Shape
 from silverball.table import Table
 from silverball.table.primitive import Point, Primitive
 

@@ -30,7 +30,8 @@ from silverball.drawing.moving import (
     pose_angle,
 )
 from silverball.drawing.themes import Color, Theme, role_color
-from silverball.physics.records import Shape, records
+from silverball.physics.forms import Shape
+from silverball.physics.records import records
 from silverball.table import Board
 from silverball.table.primitive import Point, Primitive, arc_of
 

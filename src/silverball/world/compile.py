@@ -24,7 +24,18 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.broad_phase import fill_grid
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import BOARD, COLLIDER, WORLD, Kind, Part, records
+from silverball.physics.records import (
+    BOARD,
+    COLLIDER,
+    LEFT,
+    MAX_PADDLES,
+    RIGHT,
+    WORLD,
+    Kind,
+    Part,
+    Shape,
+    records,
+)
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
@@ -42,6 +53,7 @@ from silverball.table import (
     Table,
     TriangularPrism,
     ball_places,
+    expand,
     table_digest,
 )
 
@@ -50,7 +62,8 @@ FIRST_GRID_SIZE = 1024  # initial capacity of a board's grid [int32 entries]; mo
 TINY = 1e-300  # smallest divisor, to avoid division by zero
 FAR = 1e9  # [u] place of a paddle that the table does not have, out of every ball's reach
 FIRST_PART_NAMES = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
-PADDLES = ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right"))
+PADDLES = ((Part.LEFT_PADDLE, "left", LEFT), (Part.RIGHT_PADDLE, "right", RIGHT))
+FIRST_SHAPE = int(Part.FIRST_PADDLE) + len(PADDLES)  # row of the first stationary shape
 SHARED_FIELDS = (
     "ball_radius", "ball_restitution", "friction", "gravity", "gutter", "hit_speed", "jitter", "max_balls",
     "speed_cap",
@@ -91,6 +104,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
     for row, table, parts in zip(boards, tables, colliders, strict=True):
         _set_board(row, table.board)
         _set_bounds(row, table, parts)
+        row["paddles"], row["shape_first"] = len(PADDLES), FIRST_SHAPE
         centers, size = ball_places(table)
         row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
         row["place_first"], row["place_end"] = place_count, place_count + len(centers)
@@ -118,13 +132,16 @@ def compile_parts(table: Table) -> NDArray[Any]:
         TableError: A part has no extent, or two paddles are on one side.
     """
     _refuse_degenerate(table)
-    rows = records(Part.FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
-    rows["speed_factor"] = 1.0
+    rows = records(FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
+    rows["speed_factor"], rows["levels"] = 1.0, 1
+    rows["friction"], rows["hit_speed"] = table.board.friction, table.board.hit_speed
+    rows["part"] = np.arange(len(rows))
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
-    for number, side in PADDLES:
-        _set_paddle(rows[number], paddles.get(side))
-    for row, part in zip(rows[Part.FIRST_SHAPE :], table.stationary_parts, strict=True):
+    for number, side, button in PADDLES:
+        _set_paddle(rows[number], paddles.get(side), table.board.ball_radius)
+        rows[number]["button"] = button
+    for row, part in zip(rows[FIRST_SHAPE:], table.stationary_parts, strict=True):
         if isinstance(part, SlantWall):
             _set_slant_wall(row, part, table.board)
         elif isinstance(part, TriangularPrism):
@@ -137,11 +154,7 @@ def compile_parts(table: Table) -> NDArray[Any]:
 
 def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
-    kinds = ("slant_wall", "triangular_prism", "cylinder")
-    return (
-        *FIRST_PART_NAMES,
-        *(f"{kind}[{index}]" for kind in kinds for index in range(len(getattr(table, kind)))),
-    )
+    return (*FIRST_PART_NAMES, *(name for name in expand(table).names if name not in FIRST_PART_NAMES))
 
 
 def part_numbers(table: Table) -> dict[str, int]:
@@ -168,10 +181,11 @@ def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
     """
     worlds = records(len(board_of), WORLD)
     first = boards.board["collider_first"][board_of]
-    for side, (number, _) in enumerate(PADDLES):
-        rest = boards.collider["angle_rest"][first + number]
-        worlds["paddle"]["angle"][:, side] = rest
-        worlds["paddle"]["angle_commanded"][:, side] = rest
+    for index in range(MAX_PADDLES):
+        worlds_with = np.flatnonzero(boards.board["paddles"][board_of] > index)
+        rest = boards.collider["angle_rest"][first[worlds_with] + Part.FIRST_PADDLE + index]
+        worlds["paddle"]["angle"][worlds_with, index] = rest
+        worlds["paddle"]["angle_commanded"][worlds_with, index] = rest
     return worlds
 
 
@@ -194,11 +208,6 @@ def _set_bounds(row: Any, table: Table, parts: NDArray[Any]) -> None:
     row["low_z"] = parts[Part.LEFT_WALL]["z"] + radius
     row["high_z"] = parts[Part.RIGHT_WALL]["z"] - radius
     row["top_x"] = parts[Part.TOP_WALL]["x"] - radius
-    row["left_x"] = row["right_x"] = FAR
-    for paddle in table.paddle:
-        x, z, reach = _swept_circle(paddle)
-        side = paddle.side
-        row[f"{side}_x"], row[f"{side}_z"], row[f"{side}_reach"] = x, z, reach + radius
     row["paddle_top"] = max((_top(paddle) + radius for paddle in table.paddle), default=-FAR)
 
 
@@ -207,7 +216,7 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
     grid = np.zeros(FIRST_GRID_SIZE * len(boards), np.int32)
     used = 0
     for row in boards:
-        shapes = row["collider_end"] - row["collider_first"] - Part.FIRST_SHAPE
+        shapes = row["collider_end"] - row["collider_first"] - row["shape_first"]
         spacing = math.sqrt(4.0 * row["half_length"] * row["half_width"] / max(shapes, 1))
         row["grid_first"], row["skin"] = used, min(SKIN, SKIN_SHARE * spacing)
         row["search_time"] = _search_time(row)
@@ -233,7 +242,7 @@ def _search_time(board: Any) -> float:
 
 
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"] = Kind.SLANT_WALL
+    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
     _set_side(row, 0, wall.start, wall.end)
     row["x1"], row["z1"] = wall.end
     row["radius"] = wall.thickness
@@ -243,14 +252,14 @@ def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
 
 
 def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"] = Kind.TRIANGULAR_PRISM
+    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
     corners = prism.corners(sine_cosine)
     _set_triangle(row, corners)
     row["x"], row["z"], row["reach"] = _circle_around(corners)
 
 
 def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"] = Kind.CYLINDER
+    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
     row["x"], row["z"], row["radius"] = cylinder.circle()
     row["reach"] = row["radius"]
 
@@ -283,16 +292,19 @@ def _set_borders(rows: NDArray[Any], board: Board) -> None:
     rows[Part.TOP_WALL]["inward_x"] = -1.0
 
 
-def _set_paddle(row: Any, paddle: Paddle | None) -> None:
+def _set_paddle(row: Any, paddle: Paddle | None, ball_radius: float) -> None:
     """Set a paddle in its own frame (see physics/paddle.py): pivot at the origin, tip along z′."""
     if paddle is None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
+        row["sweep_x"] = FAR
         return
-    row["kind"] = Kind.PADDLE
+    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())
     row["reach"] = paddle.reach
+    row["sweep_x"], row["sweep_z"], reach = _swept_circle(paddle)
+    row["sweep_reach"] = reach + ball_radius
     row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
     swing = row["angle_up"] - row["angle_rest"]
     row["lift_speed"], row["return_speed"] = swing / paddle.stroke, swing / paddle.return_stroke

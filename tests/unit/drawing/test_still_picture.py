@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from boards import FIRST_SHAPE
 from silverball.drawing import THEMES, Camera, best_size
 from silverball.drawing.bake_table import bake_table
 from silverball.drawing.bake_threads import BakeThreads
@@ -15,7 +16,6 @@ from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL
 from silverball.drawing.layout import Layout
 from silverball.drawing.scene import TableScene
 from silverball.physics import shapes
-from silverball.physics.records import Part
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table, load_table
 from silverball.world.compile import compile_parts
 
@@ -44,7 +44,7 @@ def part_at(canvas, x, z, y=0.0):
 def test_the_playfield_is_seen_exactly_where_no_part_stands(canvas):
     """No pixel of floor lies inside a footprint of the physics, but for half a pixel."""
     half = 0.75 / CAMERA.scale
-    colliders = compile_parts(TABLE)[Part.FIRST_SHAPE :]
+    colliders = compile_parts(TABLE)[FIRST_SHAPE:]
     rows, columns = np.nonzero(canvas.part == FLOOR)
     assert len(rows) > 0.4 * canvas.part.size
     for row, column in zip(rows[::7], columns[::7], strict=True):

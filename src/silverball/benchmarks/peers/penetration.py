@@ -16,7 +16,7 @@ from silverball.benchmarks.peers.random_play import Game
 from silverball.physics.audit import deepest
 from silverball.physics.records import WORLD, records
 from silverball.table import Paddle, Table
-from silverball.table.parts import Point
+from silverball.table.primitive import Point
 from silverball.world.compile import compile_tables
 
 AXIS_SHARE = 0.75  # of a paddle's axis that no ball can cross; a fast ball may cut across the rest
@@ -58,7 +58,7 @@ class PenetrationMonitor:
     def depths(self, field: Playfield) -> list[float]:
         """Overlap of each ball with parts and borders [u]; updates `depth`, by the overlap of balls too."""
         balls = field.balls()
-        self.record["paddle"]["angle"] = field.angles()
+        self.record["paddle"]["angle"][:2] = field.angles()
         found = []
         for x, z, _, _ in balls:
             self.record["ball"][0]["x"], self.record["ball"][0]["z"], self.record["ball"][0]["id"] = x, z, 1
