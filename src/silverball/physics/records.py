@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.physics.forms import Response as Response, Shape as Shape  # noqa: PLC0414
 from silverball.physics.kernel import SETTINGS
 
 MAX_BALLS = 8
@@ -73,27 +74,6 @@ class Kind(IntEnum):
     PADDLE = 3
     TRIANGULAR_PRISM = 4
     CYLINDER = 5
-
-
-class Shape(IntEnum):
-    """How far a point is from a primitive, and which way is out."""
-
-    PLANE = 0  # a border
-    CIRCLE = 1
-    CAPSULE = 2  # a segment with a radius
-    TRIANGLE = 3
-    TAPERED = 4  # a capsule with two radii: a paddle
-    ARC = 5  # with a radius
-    LINE = 6  # crossed by the ball's centre
-    DISC = 7  # entered by the ball's centre
-
-
-class Response(IntEnum):
-    """What a contact with a primitive does."""
-
-    BOUNCE = 0
-    PASS = 1  # an event, and the flight goes on
-    HOLD = 2  # the ball stays, until it is sent off
 
 
 class EventKind(IntEnum):

@@ -24,7 +24,18 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.broad_phase import fill_grid
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import BOARD, COLLIDER, LEFT, MAX_PADDLES, RIGHT, WORLD, Kind, Part, records
+from silverball.physics.records import (
+    BOARD,
+    COLLIDER,
+    LEFT,
+    MAX_BALLS,
+    MAX_PADDLES,
+    RIGHT,
+    WORLD,
+    Kind,
+    Part,
+    records,
+)
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
@@ -42,6 +53,7 @@ from silverball.table import (
     Table,
     TriangularPrism,
     ball_places,
+    expand,
     table_digest,
 )
 
@@ -141,11 +153,7 @@ def compile_parts(table: Table) -> NDArray[Any]:
 
 def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
-    kinds = ("slant_wall", "triangular_prism", "cylinder")
-    return (
-        *FIRST_PART_NAMES,
-        *(f"{kind}[{index}]" for kind in kinds for index in range(len(getattr(table, kind)))),
-    )
+    return (*FIRST_PART_NAMES, *(name for name in expand(table).names if name not in FIRST_PART_NAMES))
 
 
 def part_numbers(table: Table) -> dict[str, int]:
@@ -184,6 +192,7 @@ def _set_board(row: Any, board: Board) -> None:
     """Set the fields of a board, and the bound on the acceleration of flights on it."""
     for name in SHARED_FIELDS:
         row[name] = getattr(board, name)
+    row["max_balls"] = min(board.max_balls, MAX_BALLS)
     row["accel_x"], row["accel_z"] = 0.0 - board.gravity, 0.0  # not −0.0
     row["curvature"] = 1.0 / board.ball_radius
     row["half_length"], row["half_width"] = board.length / 2, board.width / 2
