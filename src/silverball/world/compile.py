@@ -28,12 +28,12 @@ from silverball.physics.records import (
     BOARD,
     COLLIDER,
     LEFT,
-    MAX_BALLS,
     MAX_PADDLES,
     RIGHT,
     WORLD,
     Kind,
     Part,
+    Shape,
     records,
 )
 from silverball.physics.tolerances import (
@@ -133,7 +133,8 @@ def compile_parts(table: Table) -> NDArray[Any]:
     """
     _refuse_degenerate(table)
     rows = records(FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
-    rows["speed_factor"] = 1.0
+    rows["speed_factor"], rows["levels"] = 1.0, 1
+    rows["friction"], rows["hit_speed"] = table.board.friction, table.board.hit_speed
     rows["part"] = np.arange(len(rows))
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
@@ -192,7 +193,6 @@ def _set_board(row: Any, board: Board) -> None:
     """Set the fields of a board, and the bound on the acceleration of flights on it."""
     for name in SHARED_FIELDS:
         row[name] = getattr(board, name)
-    row["max_balls"] = min(board.max_balls, MAX_BALLS)
     row["accel_x"], row["accel_z"] = 0.0 - board.gravity, 0.0  # not −0.0
     row["curvature"] = 1.0 / board.ball_radius
     row["half_length"], row["half_width"] = board.length / 2, board.width / 2
@@ -242,7 +242,7 @@ def _search_time(board: Any) -> float:
 
 
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"] = Kind.SLANT_WALL
+    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
     _set_side(row, 0, wall.start, wall.end)
     row["x1"], row["z1"] = wall.end
     row["radius"] = wall.thickness
@@ -252,14 +252,14 @@ def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
 
 
 def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"] = Kind.TRIANGULAR_PRISM
+    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
     corners = prism.corners(sine_cosine)
     _set_triangle(row, corners)
     row["x"], row["z"], row["reach"] = _circle_around(corners)
 
 
 def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"] = Kind.CYLINDER
+    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
     row["x"], row["z"], row["radius"] = cylinder.circle()
     row["reach"] = row["radius"]
 
@@ -298,7 +298,7 @@ def _set_paddle(row: Any, paddle: Paddle | None, ball_radius: float) -> None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         row["sweep_x"] = FAR
         return
-    row["kind"] = Kind.PADDLE
+    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())
