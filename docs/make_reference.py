@@ -10,7 +10,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from silverball.table import Arcade, Board, Cylinder, Paddle, RandomRecipe, SlantWall, Table, TriangularPrism
+from silverball.table import Arcade, Board, RandomRecipe, Table
+from silverball.table.kinds import Bouncing, in_order
+from silverball.table.model import is_since_2, key_of
+from silverball.table.table import PART_KINDS
 
 PAGE = Path(__file__).parent / "tables.md"
 HEAD = """\
@@ -36,7 +39,7 @@ with the same checks:
     mine = table.replace(name="Mine", board={"gravity": 12}, cylinder=[bumper], triangular_prism=[])
     sb.save_table(mine, "mine.toml")
 
-This page is generated from `src/silverball/table/parts.py` and `table.py`.
+This page is generated from `src/silverball/table/kinds/` and `table.py`.
 """
 MESHES = """\
 ## Obstacles from meshes
@@ -56,36 +59,70 @@ converts such a model (`.venv/bin/pip install trimesh`):
     wedge.apply_transform([[0, 1, 0, x], [0, 0, 1, 0], [1, 0, 0, z], [0, 0, 0, 1]])  # Y → x, Z → y, X → z
     wedge.export("wedge.stl")
 """
-SECTIONS = (
-    ("[board]", Board, "once"),
-    ("[[slant_wall]]", SlantWall, "any number"),
-    ("[[paddle]]", Paddle, "at most one per side"),
-    ("[[triangular_prism]]", TriangularPrism, "any number"),
-    ("[[cylinder]]", Cylinder, "any number"),
-    ("[random]", RandomRecipe, "makes the table a recipe, with a board for every seed"),
-    ("[arcade]", Arcade, "once"),
-)
+FORMATS = """\
+## Formats
+
+A file says which format it is written in: `format = 1`, the default, or `format = 2`. Format 2 has more kinds of parts
+and more keys, which are marked below; a file that uses them must say `format = 2`. Everything of format 1 means the
+same in format 2. In format 2 the names of parts are unique, because rules speak of parts by their names. A file has at
+most 256 KB, and all its parts together at most 4,096 shapes, of which an edge of a wall is one.
+
+Where it fits, the defaults of format 2 are what tables for Visual Pinball use: 1 u is 100 of its units and 1 u/s one of
+its units of speed.
+"""
+COMMON = """\
+## Keys of all parts
+
+Every part may have these keys beside its own, solid ones all of them, others the name and the level. (Format 2, but for
+the name.)
+
+| key | default | range | meaning |
+| --- | --- | --- | --- |
+"""
+SHARED = ("name", "level", "levels", "speed_factor", "friction", "hit_speed", "finish")
+"""Keys that are told once, for all parts, unless a kind has another default."""
+
+NOTES = {"paddle": "Any number; in format 1 at most one per side"}
 
 
 def page() -> str:
     """Return the whole page."""
-    elsewhere = ("board", "slant_wall", "paddle", "triangular_prism", "cylinder", "arcade")
-    parts = [HEAD, _table("Top level", Table, "", skip=elsewhere)]
-    parts += [_table(f"`{title}`", model, note) for title, model, note in SECTIONS]
+    parts = [HEAD, FORMATS, _table("Top level", Table, "", skip=(*PART_KINDS, "board", "arcade"))]
+    parts.append(_table("`[board]`", Board, "Once"))
+    rows = [_row(Bouncing, name, is_marked=False) for name in in_order(Bouncing) if name in SHARED]
+    parts.append(COMMON + "\n".join(rows) + "\n")
+    for kind, model in PART_KINDS.items():
+        is_new = is_since_2(Table.model_fields[kind])
+        note = NOTES.get(kind, "Any number; format 2" if is_new else "Any number")
+        shared = [name for name in SHARED if _is_as_in_all(model, name)]
+        parts.append(_table(f"`[[{kind}]]`", model, note, skip=tuple(shared), is_marked=not is_new))
+    parts.append(_table("`[random]`", RandomRecipe, "Makes the table a recipe, with a board for every seed"))
+    parts.append(_table("`[arcade]`", Arcade, "Once"))
     parts.append(MESHES)
     return "\n".join(parts)
 
 
-def _table(title: str, model: Any, note: str, skip: tuple[str, ...] = ()) -> str:
-    schema = model.model_json_schema()
-    text = " ".join((model.__doc__ or "").split("\n\n", 1)[0].split())
-    lines = [f"## {title}", "", f"{text} ({note[0].upper() + note[1:]}.)" if note else text, ""]
+def _is_as_in_all(model: Any, name: str) -> bool:
+    """Whether a field means in a kind what it means in all of them."""
+    field, common = model.model_fields.get(name), Bouncing.model_fields[name]
+    return field is not None and (field.default, is_since_2(field)) == (common.default, is_since_2(common))
+
+
+def _table(title: str, model: Any, note: str, skip: tuple[str, ...] = (), is_marked: bool = True) -> str:
+    text = "\n\n".join(" ".join(paragraph.split()) for paragraph in (model.__doc__ or "").split("\n\n")[:2])
+    text = text.partition(" Examples:")[0].rstrip()
+    lines = [f"## {title}", "", f"{text} ({note}.)" if note else text, ""]
     lines += ["| key | default | range | meaning |", "| --- | --- | --- | --- |"]
-    for key, field in schema["properties"].items():
-        if key not in skip:
-            default = _default(model.model_fields[key])
-            lines.append(f"| `{key}` | {default} | {_span(field)} | {_cell(field['description'])} |")
+    lines += [_row(model, name, is_marked) for name in in_order(model) if name not in skip]
     return "\n".join([*lines, ""])
+
+
+def _row(model: Any, name: str, is_marked: bool) -> str:
+    """One key; `is_marked`: keys of format 2 say so."""
+    field, key = model.model_fields[name], key_of(model, name)
+    schema = model.model_json_schema()["properties"][key]
+    mark = " (Format 2.)" if is_marked and is_since_2(field) else ""
+    return f"| `{key}` | {_default(field)} | {_span(schema)} | {_cell(schema['description'])}{mark} |"
 
 
 def _cell(text: str) -> str:
@@ -110,7 +147,7 @@ def _span(field: dict[str, Any]) -> str:
         if "minimum" in choice and "maximum" in choice:
             return f"{choice['minimum']:g} to {choice['maximum']:g} {choice.get('unit', '')}".rstrip()
         if "enum" in choice:
-            return " or ".join(f'"{value}"' for value in choice["enum"])
+            return " or ".join(f'"{v}"' if isinstance(v, str) else str(v) for v in choice["enum"])
     return ""
 
 

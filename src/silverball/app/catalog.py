@@ -237,4 +237,7 @@ def _description(table: Table) -> str:
         return "a new board every game"
     if table.board.rolling:
         return "a rolling steel ball"
-    return f"{len(table.triangular_prism)} prisms, {len(table.cylinder)} cylinders"
+    if table.format == 1:
+        return f"{len(table.triangular_prism)} prisms, {len(table.cylinder)} cylinders"
+    parts = [type(part) for _, _, part in table.parts()]
+    return f"{len(parts)} parts of {len(set(parts))} kinds"

@@ -187,12 +187,8 @@ def _meshes(name: str) -> list[str]:
             data = tomllib.load(file)
     except (OSError, ValueError, RecursionError):
         return []
-    parts = [
-        part
-        for kind in ("triangular_prism", "cylinder")
-        for part in (data[kind] if isinstance(data.get(kind), list) else ())
-        if isinstance(part, dict)
-    ]
+    sections = [section for section in data.values() if isinstance(section, list)]
+    parts = [part for section in sections for part in section if isinstance(part, dict)]
     meshes = [part["mesh"] for part in parts if isinstance(part.get("mesh"), str)]
     return [str(Path(name).parent / mesh) for mesh in dict.fromkeys(meshes)]
 

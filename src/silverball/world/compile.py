@@ -271,14 +271,21 @@ def _refuse_degenerate(table: Table) -> None:
     if len(set(sides)) < len(sides):
         problems.append(Problem("paddle", f"there can be one paddle per side, got {', '.join(sides)}"))
     for index, wall in enumerate(table.slant_wall):
-        if wall.start == wall.end:
+        if _square(wall.start, wall.end) == 0.0:
             problems.append(Problem(f"slant_wall[{index}]", "must have two different ends"))
     for index, prism in enumerate(table.triangular_prism):
         a, b, c = prism.corners()
-        if (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
+        # A side of 1e-200 u has no length either: its square is 0.
+        has_sides = all(_square(*pair) > 0.0 for pair in ((a, b), (b, c), (c, a)))
+        if not has_sides or (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
             problems.append(Problem(f"triangular_prism[{index}]", "must not be flat"))
     if problems:
         raise TableError(table.name, problems)
+
+
+def _square(start: Sequence[float], end: Sequence[float]) -> float:
+    """The square of the distance between two points [u²]; 0 below 1e-162 u."""
+    return (end[0] - start[0]) ** 2 + (end[1] - start[1]) ** 2
 
 
 def _set_borders(rows: NDArray[Any], board: Board) -> None:

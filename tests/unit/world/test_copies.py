@@ -90,3 +90,15 @@ def test_parts_that_make_no_sense_are_refused_with_their_paths():
     with pytest.raises(sb.TableError) as refusal:
         sb.World(table)
     assert [problem.path for problem in refusal.value.problems] == ["paddle", "triangular_prism[0]"]
+
+
+@pytest.mark.parametrize("short", [1e-170, 5e-324])
+def test_a_side_whose_square_is_zero_is_refused_too(short: float):
+    wall = sb.parts.SlantWall(start=(0.0, 0.0), end=(0.0, short))
+    prism = sb.parts.TriangularPrism(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, short)))
+    with pytest.raises(sb.TableError) as refusal:
+        sb.World(
+            sb.load_table("classic").model_copy(update={"slant_wall": (wall,), "triangular_prism": (prism,)})
+        )
+    paths = [problem.path for problem in refusal.value.problems]
+    assert paths == ["slant_wall[0]", "triangular_prism[0]"]

@@ -184,5 +184,5 @@ def in_order(model: type[Model]) -> list[str]:
     """Return the fields of a model as a file lists them: the name, what is its own, what all parts have."""
     common: set[str] = set()
     for base in (Part, Bouncing, Scored):
-        common |= set(base.model_fields) if issubclass(model, base) else set()
-    return sorted(model.model_fields, key=lambda name: (name != "name", name in common))
+        common |= base.model_fields.keys() - {"name"} if issubclass(model, base) else set()
+    return sorted(model.model_fields, key=lambda name: name in common)

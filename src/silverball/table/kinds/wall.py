@@ -25,10 +25,11 @@ ChainPoint: TypeAlias = tuple[float, float] | tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class _ChainPoint(Rule):
+class ChainPointRule(Rule):
     """A point of a wall: [x, z], or [x, z, bulge] where an arc follows."""
 
     def check(self, value: Any) -> ChainPoint:
+        """Return the point as a tuple, without a bulge of 0."""
         if not isinstance(value, list | tuple) or len(value) != 3:
             if not isinstance(value, list | tuple) or len(value) != 2:
                 refuse(f"must be written [[x, z], [x, z, bulge], …], got a point {shown(value)}")
@@ -43,6 +44,7 @@ class _ChainPoint(Rule):
         return x, z, bulge
 
     def json_schema(self) -> JsonSchemaValue:
+        """Return the schema of an array of two or three numbers."""
         number = {"type": "number"}
         return {"type": "array", "items": number, "minItems": 2, "maxItems": 3}
 
@@ -55,7 +57,7 @@ class Wall(Bouncing):
     """
 
     points: Annotated[
-        tuple[ChainPoint, ...], ItemList(_ChainPoint(), MAX_POINTS, "[[x, z], [x, z], …]", least=2)
+        tuple[ChainPoint, ...], ItemList(ChainPointRule(), MAX_POINTS, "[[x, z], [x, z], …]", least=2)
     ]
     """[u] the corners in order, [x, z] or [x, z, bulge]."""
     closed: Annotated[bool, Field(strict=True)] = False
