@@ -12,8 +12,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from silverball.physics.records import MAX_PADDLES
+
 BALL_COUNT = 2
-"""Balls that an observation shows."""
+"""Balls that a picture shows."""
 
 
 class ResetMode(IntEnum):
@@ -83,13 +85,16 @@ RULES = np.dtype(
         ("weights", "f8", (len(COUNTS) + 2,)),  # of the terms of a reward, see `rewards.TERMS`
         ("weighs_counts", "i8"), ("writes_terms", "i8"),  # 1: counts have weights; a callable needs terms
         ("stall_steps", "i8"), ("max_steps", "i8"),
-        ("jitter_bit", "i8"), ("create_bit", "i8"),  # 0: there is no such button
+        ("jitter_bit", "i8"), ("create_bit", "i8"), ("launch_bit", "i8"),  # 0: there is no such button
         ("boards", "i8"), ("own_boards", "i8"),  # 1: environment i plays board i, modulo their number
         ("mode", "i8"),  # a ResetMode
         # Factors that scale quantities to −1 … 1.
         ("x_scale", "f8"), ("z_scale", "f8"), ("speed_scale", "f8"), ("idle_scale", "f8"),
-        ("ball_scale", "f8"), ("angle_scale", "f8", (2,)), ("turn_scale", "f8", (2,)),
-        ("rest_angle", "f8", (2,)), ("raised_angle", "f8", (2,)),  # of the paddles [rad]
+        ("ball_scale", "f8"), ("angle_scale", "f8", (MAX_PADDLES,)), ("turn_scale", "f8", (MAX_PADDLES,)),
+        ("rest_angle", "f8", (MAX_PADDLES,)), ("raised_angle", "f8", (MAX_PADDLES,)),  # of the paddles [rad]
+        # The layout of a state observation: items of these groups, and the first columns of the others.
+        ("balls_shown", "i8"), ("paddles_shown", "i8"),
+        ("paddles_at", "i8"), ("game_at", "i8"), ("layout_at", "i8"),
         # Flags: 1 if a step writes these.
         ("writes_state", "i8"), ("draws_pictures", "i8"),
         ("copies_stack", "i8"),  # 1: the window of pictures is copied

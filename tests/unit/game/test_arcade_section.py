@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-
 import pytest
 
 from silverball.errors import TableError
@@ -16,20 +13,25 @@ from silverball.table import (
     load_table,
     parse_table,
     table_digest,
-    table_names,
 )
 
 TEXT = 'format = 1\nname = "Mine"\n\n[arcade]\nballs = 5\nball_save = 8.0\n'
 
 
-@pytest.mark.parametrize("name", table_names())
+DIGESTS = {
+    "classic": "668a71504423109c2a3f170e83b16b187a458b05e82b78f653e3376a15ea58b4",
+    "original": "9ffb643750a89d124e9e9c9035ca56596c3abdde5d7ce0e80c4e420fd7363ee8",
+    "random": "746ffccea3163e5226697f0bae56630a907c97fa8ae0e50a685414525bbb2cb7",
+    "rolling": "3e49eaa04f578cf9a3758299b6455d8d4e2e0ae3648be489d03b68a3860527a6",
+}
+"""Of the built-in tables of format 1, as replays and scores of every version name them."""
+
+
+@pytest.mark.parametrize("name", DIGESTS)
 def test_a_table_without_an_arcade_section_keeps_its_digest_and_text(name: str):
     table = load_table(name)
     assert table.arcade == Arcade()
-    before = table.model_dump(mode="json")
-    del before["arcade"]
-    text = json.dumps(before, sort_keys=True, separators=(",", ":"))
-    assert table_digest(table) == hashlib.sha256(text.encode()).hexdigest()
+    assert table_digest(table) == DIGESTS[name]
     assert "arcade" not in dump_table(table)
 
 
