@@ -18,11 +18,12 @@ from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import LEVEL_RISE
 from silverball.drawing.kernels.bake import new_canvas
-from silverball.drawing.layout import Layout, path
+from silverball.drawing.layout import Layout
 from silverball.drawing.pictures import Sprite
 from silverball.drawing.scene import TableScene
 from silverball.drawing.themes import Theme
 from silverball.physics.forms import Shape
+from silverball.table.outlines import path
 from silverball.table.primitive import Point, Primitive
 
 OPACITY = 0.45  # of what stands on an upper level

@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+from silverball.drawing.layout import Layout
+from silverball.drawing.moving import Motion, moving_parts, pose_angle
 from silverball.table import Table
 
 if TYPE_CHECKING:
@@ -87,8 +89,8 @@ class Moment(NamedTuple):
     @classmethod
     def before(cls, table: Table) -> Self:
         """The moment before play starts: no ball, paddles at rest."""
-        rest = {paddle.side: paddle.rest_angle for paddle in table.paddle}
-        return cls(0.0, (), (rest.get("left", 0.0), rest.get("right", 0.0)), 0)
+        parts = moving_parts(Layout.of(table))
+        return cls(0.0, (), tuple(pose_angle(part, 0) for part in parts if part.motion is Motion.TURNING), 0)
 
 
 def _balls(record: Any) -> tuple[BallAt, ...]:

@@ -19,13 +19,14 @@ from silverball.drawing.dimensions import LEVEL_RISE, corner_behind
 from silverball.drawing.effects import Effects
 from silverball.drawing.finishes import LOOKS
 from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art, Material
-from silverball.drawing.layout import Layout, closed_outline, path
+from silverball.drawing.layout import Layout
 from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.moving import PULL, Motion, MovingPart, is_moving, moving_parts, pose_angle, turned
 from silverball.drawing.poses import pose_of
 from silverball.drawing.themes import Color, Theme, role_color
 from silverball.physics.forms import Shape
 from silverball.table import Table
+from silverball.table.outlines import closed_outline, path
 from silverball.table.primitive import Point, Primitive
 
 SUPERSAMPLE = 2  # antialiasing: the picture is drawn larger by this factor and scaled down

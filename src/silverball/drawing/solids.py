@@ -18,7 +18,7 @@ from silverball.drawing.dimensions import LEVEL_RISE, Dimensions, corner_behind
 from silverball.drawing.finishes import LOOKS, Fill, Look
 from silverball.drawing.kernels.solids import CAP_RISE, CAP_SHARE, RING
 from silverball.drawing.kernels.stage import SOLID, Material, Outline
-from silverball.drawing.layout import Layout, Row, closed_outline
+from silverball.drawing.layout import Layout, Row
 from silverball.drawing.moving import (
     FLAP_ANGLE,
     PULL,
@@ -33,6 +33,7 @@ from silverball.drawing.themes import Color, Theme, role_color
 from silverball.physics.forms import Shape
 from silverball.physics.records import records
 from silverball.table import Board
+from silverball.table.outlines import closed_outline
 from silverball.table.primitive import Point, Primitive, arc_of
 
 NO_CULL = 1e9  # [u]
