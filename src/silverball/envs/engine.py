@@ -160,7 +160,8 @@ class Engine:
             "boards": boards.board, "colliders": boards.collider, "grid": boards.grid, "places": boards.place,
             "board_seeds": pool.seeds, "blanks": pool.blanks, "layouts": pool.layouts, "held": self._held,
             "backgrounds": pictures.backgrounds, "ball_sprites": pictures.balls,
-            "paddle_sprites": pictures.paddles,
+            "paddle_sprites": pictures.paddles, "pictured_boards": pictures.pictured_boards,
+            "lamp_of": pictures.lamp_of, "pieces": pictures.pieces, "masks": pictures.masks,
         }  # fmt: skip
         self.addresses = records(1, ADDRESSES)
         write_addresses(self.addresses, {**vars(self), **arrays, **self.outputs.last.arrays})
