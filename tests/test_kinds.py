@@ -198,3 +198,11 @@ def test_the_examples_use_every_shape_response_and_finish_of_parts() -> None:
     assert {row.response for row in rows} == set(Response)
     chosen = {Finish.METAL, Finish.WOOD, Finish.PLASTIC}  # no kind has them of itself
     assert {row.finish for row in rows} == set(Finish) - chosen
+
+
+def test_the_playground_has_every_kind_once_at_least() -> None:
+    playground = sb.load_table("parts")
+    assert playground.format == 2
+    missing = [kind for kind in PART_KINDS if not getattr(playground, kind)]
+    assert missing == []
+    assert sb.check_table(playground) == []

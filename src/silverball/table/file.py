@@ -40,7 +40,7 @@ def table_names() -> tuple[str, ...]:
     Examples:
         >>> import silverball as sb
         >>> sb.table_names()
-        ('classic', 'original', 'random', 'rolling')
+        ('classic', 'original', 'parts', 'random', 'rolling')
     """
     folder = resources.files("silverball.table") / "tables"
     return tuple(sorted(entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")))

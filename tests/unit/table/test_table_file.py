@@ -65,7 +65,7 @@ def test_the_built_in_tables_load_without_a_problem(name):
 
 
 def test_the_built_in_tables_are_these():
-    assert table_names() == ("classic", "original", "random", "rolling")
+    assert table_names() == ("classic", "original", "parts", "random", "rolling")
 
 
 def test_the_rolling_table_has_the_parts_of_the_classic_one_where_they_are():
