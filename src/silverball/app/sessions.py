@@ -88,14 +88,15 @@ class GameSession:
         return ""
 
     def advance(self, held: PaddleInput, ticks: int) -> None:
-        """Advance with the paddle buttons held; a tap holds a paddle for one tick."""
+        """Advance with the buttons held; a tap holds a paddle for one tick."""
         if ticks <= 0:
             return
-        if held.first != held.rest:
-            self.game.step(*held.first, 1)
+        launch_first, launch_rest = held.launch
+        if held.first != held.rest or launch_first != launch_rest:
+            self.game.step(*held.first, 1, launch=launch_first)
             ticks -= 1
         if ticks > 0:
-            self.game.step(*held.rest, ticks)
+            self.game.step(*held.rest, ticks, launch=launch_rest)
 
 
 class DemoSession:
@@ -110,16 +111,25 @@ class DemoSession:
 
     def __init__(self, table: Table, seed: int, player: Player) -> None:
         from silverball.game.game import Game
+        from silverball.game.mechanisms import plungers
 
         self.game = Game(table, seed, Mode.FREE)
         self.player = player
+        self._has_plunger = bool(plungers(self.game.table))
         self._delay = 0.0  # [s] until the next ball may be created
 
     def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance by a number of ticks; `held` is ignored."""
         for _ in range(ticks):
             self._create_balls()
-            self.game.step(*self.player.press(self.game.world), 1)
+            self.game.step(*self.player.press(self.game.world), 1, launch=self._holds_launch())
+
+    def _holds_launch(self) -> bool:
+        """Whether the launch button is held in the next tick; a player presses the paddle buttons only."""
+        from silverball.players.simple import holds_launch
+
+        world = self.game.world
+        return self._has_plunger and bool(holds_launch(world.records[0], 1.0 / world.tick_rate))
 
     def _create_balls(self) -> None:
         world = self.game.world

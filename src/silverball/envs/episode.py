@@ -13,11 +13,11 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.envs import pointers as views
-from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, BallSlot, GameSlot, PaddleSlot
+from silverball.envs.observations import BallSlot, GameSlot, PaddleSlot
 from silverball.envs.pixels import PICTURE_STATE_SIZE, copy_stack, draw_first, draw_step, redraw_stack
 from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
-from silverball.envs.state import BALL_COUNT, COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
+from silverball.envs.state import COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.portable_math import WORD, threefry
@@ -120,6 +120,8 @@ def apply_action(ptr: Pointers, rules: RulesRecord, index: int) -> None:
     held[0, index, 0] = bits & LEFT != 0
     held[0, index, 1] = bits & RIGHT != 0
     held[0, index, 2] = bits & rules.jitter_bit != 0
+    if rules.launch_bit != 0:
+        held[0, index, 3] = bits & rules.launch_bit != 0
     if bits & rules.create_bit != 0 and world.created < rules.balls and views.episodes(ptr)[index].over == 0:
         board = views.boards(ptr)[views.board_of(ptr)[index]]
         if create_ball(world, board, views.colliders(ptr), views.places(ptr), log) == Outcome.CREATED:
@@ -265,22 +267,22 @@ def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> 
     """Write the state observation of an environment into an array [env, column] at an address."""
     row = array_at(address + index * ptr.columns * 4, (ptr.columns,), SMALL_FLOAT)
     world, episode = views.worlds(ptr)[index], views.episodes(ptr)[index]
-    for slot in range(BALL_COUNT):
-        ball, start = world.ball[slot], BALLS + BALL_WIDTH * slot
+    for slot in range(rules.balls_shown):
+        ball, start = world.ball[slot], BALL_WIDTH * slot
         is_alive = 0.0 if ball.id == 0 else 1.0
         row[start + BallSlot.ALIVE] = is_alive
         row[start + BallSlot.X] = is_alive * ball.x * rules.x_scale
         row[start + BallSlot.Z] = is_alive * ball.z * rules.z_scale
         row[start + BallSlot.VX] = is_alive * ball.vx * rules.speed_scale
         row[start + BallSlot.VZ] = is_alive * ball.vz * rules.speed_scale
-    for side in range(2):
-        paddle, start = world.paddle[side], PADDLES + PADDLE_WIDTH * side
-        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest_angle[side]) * rules.angle_scale[side]
-        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[side]
-        held = paddle.angle_commanded == rules.raised_angle[side] and rules.angle_scale[side] != 0.0
+    for number in range(rules.paddles_shown):
+        paddle, start = world.paddle[number], rules.paddles_at + PADDLE_WIDTH * number
+        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest_angle[number]) * rules.angle_scale[number]
+        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[number]
+        held = paddle.angle_commanded == rules.raised_angle[number] and rules.angle_scale[number] != 0.0
         row[start + PaddleSlot.HELD] = 1.0 if held else 0.0
-    row[GAME + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.idle_steps * rules.idle_scale)
-    row[GAME + GameSlot.LEFT] = (rules.balls - world.created) * rules.ball_scale
+    row[rules.game_at + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.idle_steps * rules.idle_scale)
+    row[rules.game_at + GameSlot.LEFT] = (rules.balls - world.created) * rules.ball_scale
     size = ptr.layout_columns * 4
-    target = address + (index * ptr.columns + LAYOUT) * 4
+    target = address + (index * ptr.columns + rules.layout_at) * 4
     copy_bytes(target, ptr.layouts_at + views.board_of(ptr)[index] * size, size)

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.metrics.game_traces import CONTACTS, MIN_STRIKE_SPEED, PADDLES, TICK_RATE, TOP_ZONE
+from silverball.metrics.game_traces import CONTACTS, MIN_STRIKE_SPEED, TICK_RATE, TOP_ZONE, is_paddle
 from silverball.physics.balls import put_ball
 from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import as_int, kernel
@@ -198,7 +198,7 @@ def shoot(
                 event = log.event[number]
                 if event.kind not in CONTACTS:
                     continue
-                if event.part in PADDLES:
+                if is_paddle(board, event.part):
                     is_met_again = shot.launched == 1
                 elif event.kind == EventKind.HIT and shot.first == NOTHING:
                     shot.first, shot.first_x, shot.first_z = event.part, event.x, event.z

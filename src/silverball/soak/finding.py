@@ -19,10 +19,10 @@ from pydantic.dataclasses import dataclass
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import NOTHING, BoardGeometry, Lane, Motion
+from silverball.physics.records import MAX_BALLS, NOTHING, BoardGeometry, Lane, Motion
 from silverball.physics.validation import validate_world
 from silverball.soak.checks import Found, watched_tick
-from silverball.soak.driver import WATCHED_BALLS, ActionRecord
+from silverball.soak.driver import ActionRecord
 from silverball.soak.json_file import STRICT, Amount, Count, file_text, parse_json
 from silverball.soak.rounds import KINDS, FindingPlace, Options, SoakBatch, round_batch
 from silverball.table import Table, dump_table, table_digest
@@ -34,6 +34,7 @@ LEAD_SECONDS = 1.0  # [s] from the saved state to the finding
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
 DESCRIPTION = "a finding of a soak"
+LEAST_KICKS = 2  # velocities of an action, also where there are fewer balls
 MAX_KICK = 1e4  # [u/s] of a kick: far above every speed cap
 
 
@@ -41,12 +42,9 @@ def _action(values: list[Any]) -> list[Any]:
     """An action as `_action_values` writes it, or a ValueError."""
     buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
     are_valid = all(type(button) is int and button in (0, 1) for button in buttons)
-    if (
-        not are_valid
-        or len(kicks) != WATCHED_BALLS
-        or not all(kick is None or _is_kick(kick) for kick in kicks)
-    ):
-        raise ValueError(f"must be four times 0 or 1 and {WATCHED_BALLS} velocities")
+    has_count = LEAST_KICKS <= len(kicks) <= MAX_BALLS
+    if not are_valid or not has_count or not all(kick is None or _is_kick(kick) for kick in kicks):
+        raise ValueError(f"must be four times 0 or 1 and {LEAST_KICKS} to {MAX_BALLS} velocities")
     return values
 
 
@@ -80,7 +78,7 @@ class Finding:
         tick_rate: Ticks per second.
         state: The saved world before the first action, in hexadecimal.
         actions: Of each tick: left, right, shove, create (0 or 1), then the new velocity of each ball, [vx,
-            vz] [u/s], or null.
+            vz] [u/s], or null; at least two, later ones only as far as there are any.
     """
 
     kind: Annotated[str, Field(pattern=f"^({'|'.join(kind.name.lower() for kind in KINDS)})$")]
@@ -230,14 +228,17 @@ def _action_values(action: ActionRecord) -> list[Any]:
         [float(vx), float(vz)] if kick else None
         for kick, vx, vz in zip(action["kick"], action["vx"], action["vz"], strict=True)
     ]
+    while len(kicks) > LEAST_KICKS and kicks[-1] is None:
+        del kicks[-1]
     return [*(int(action[name]) for name in BUTTONS), *kicks]
 
 
 def _fill_action(action: ActionRecord, values: list[Any]) -> None:
     """Write plain values into an ACTION record."""
-    *buttons, first, second = values
+    buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
     for name, value in zip(BUTTONS, buttons, strict=True):
         action[name] = value
-    for slot, kick in enumerate((first, second)):
+    for slot in range(MAX_BALLS):
+        kick = kicks[slot] if slot < len(kicks) else None
         action["kick"][slot] = kick is not None
         action["vx"][slot], action["vz"][slot] = kick or (0.0, 0.0)
