@@ -21,25 +21,29 @@ from math import sqrt
 from typing import NamedTuple
 
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import internal, kernel
 from silverball.physics.records import BallRecord, ColliderRecord
-from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, CROSSED_GAP, FLIGHT_STEPS, NEVER
 
 ROOT_STEPS = 100  # more than bisection needs within a flight; Newton takes some 5
 FIRST_SPAN = 0.125  # [s] first guess of how long after t₂ a flight is closest to a disc
-MAX_SPAN = 1e9  # [s] later closest points are ignored: the ball hardly moves
+MAX_AGE = 1e9  # [s] no flight is as old
 
 
-class Path(NamedTuple):
-    """A flight relative to a point: position [u], velocity [u/s] and acceleration [u/s²] at its start."""
+class Center(NamedTuple):
+    """The centre of a disc [u]."""
 
     x: float
     z: float
-    vx: float
-    vz: float
-    accel_x: float
-    accel_z: float
+
+
+class Approach(NamedTuple):
+    """A moment of a flight relative to a centre: the products |p|², p·v, v² and p·a."""
+
+    square: float
+    rate: float
+    speed_square: float
+    pull: float
 
 
 @kernel
@@ -49,20 +53,18 @@ def line_crossing(
     """Find when a ball's centre next crosses a line, the segment from corner 0 to corner 1.
 
     Args:
-        c: The line: x0, z0, along_x0, along_z0, length0.
+        c: The line; `inward` is the unit normal to the left of corner 0 → corner 1 as the player sees it.
         ball: The ball.
         start: The age at which the search starts [s].
         is_past_start: Whether a crossing at exactly this age has been handled.
         limit: The age at which the search ends [s].
 
     Returns:
-        The age and the direction: 1 towards the left of corner 0 → corner 1 as the player sees it, −1 towards
-        the right. Without a crossing before the limit: the limit and 0.
+        The age and the direction: 1 to the left, −1 to the right; or the limit and 0.
     """
-    left_x, left_z = c.along_z0, -c.along_x0
-    gap = (ball.start_x - c.x0) * left_x + (ball.start_z - c.z0) * left_z
-    rate = ball.start_vx * left_x + ball.start_vz * left_z
-    gap_accel = ball.accel_x * left_x + ball.accel_z * left_z
+    gap = (ball.start_x - c.x0) * c.inward_x + (ball.start_z - c.z0) * c.inward_z
+    rate = ball.start_vx * c.inward_x + ball.start_vz * c.inward_z
+    gap_accel = ball.accel_x * c.inward_x + ball.accel_z * c.inward_z
     to_right, to_left = falling_time(gap, rate, gap_accel), falling_time(-gap, -rate, -gap_accel)
     if to_right < NEVER and to_left < NEVER and (to_right - to_left) * gap_accel >= 0.0:
         return limit, 0  # a graze: rounding has put the two crossings at one age, or in the wrong order
@@ -72,14 +74,16 @@ def line_crossing(
         if rate >= 0.0:
             to_left = NEVER
     time, direction = limit, 0
-    if _is_due(to_right, start, is_past_start, time) and _is_between_ends(c, ball, to_right):
-        time, direction = to_right, -1
-    if _is_due(to_left, start, is_past_start, time) and _is_between_ends(c, ball, to_left):
-        time, direction = to_left, 1
+    for side in (-1, 1):
+        age = to_right if side < 0 else to_left
+        if start <= age < time and not (is_past_start and age == start):
+            at = state_at(ball, age)
+            if 0.0 <= (at.x - c.x0) * c.along_x0 + (at.z - c.z0) * c.along_z0 <= c.length0:
+                time, direction = age, side
     return time, direction
 
 
-@inlined
+@internal
 def falling_time(gap: float, rate: float, gap_accel: float) -> float:
     """Compute the time [s] at which a gap's parabola falls through zero; it may be negative.
 
@@ -94,17 +98,6 @@ def falling_time(gap: float, rate: float, gap_accel: float) -> float:
     return (rate + sqrt(discriminant)) / -gap_accel if gap_accel < 0.0 else NEVER
 
 
-@inlined
-def _is_due(time: float, start: float, is_past_start: bool, limit: float) -> bool:
-    return start <= time < limit and not (is_past_start and time == start)
-
-
-@inlined
-def _is_between_ends(c: ColliderRecord, ball: BallRecord, age: float) -> bool:
-    at = state_at(ball, age)
-    return 0.0 <= (at.x - c.x0) * c.along_x0 + (at.z - c.z0) * c.along_z0 <= c.length0
-
-
 @kernel
 def disc_entry(
     c: ColliderRecord, ball: BallRecord, start: float, is_past_start: bool, limit: float
@@ -112,7 +105,7 @@ def disc_entry(
     """Find when a ball's centre next enters a disc.
 
     Args:
-        c: The disc: x, z, radius.
+        c: The disc.
         ball: The ball.
         start: The age at which the search starts [s].
         is_past_start: Whether an entry at exactly this age has been handled.
@@ -121,32 +114,21 @@ def disc_entry(
     Returns:
         The age and True; or the limit and False.
     """
-    now = state_at(ball, start)
-    gap, nx, nz = point_distance(now.x, now.z, c.x, c.z)
-    gap -= c.radius + CROSSED_GAP
-    rate, gap_accel = nx * now.vx + nz * now.vz, nx * ball.accel_x + nz * ball.accel_z
-    if gap > 0.0 and stays_open(gap, rate, gap_accel, limit - start):
-        return limit, False
-    path = path_from(ball, c.x, c.z)
-    first, second = disc_entries(path, c.radius, limit)
-    if sqrt(path.x * path.x + path.z * path.z) - c.radius <= CROSSED_GAP:
+    center = Center(c.x, c.z)
+    first, second = disc_entries(ball, center, c.radius, start, limit)
+    if sqrt(approach(ball, center, 0.0).square) - c.radius <= CROSSED_GAP:
         first = NEVER
-    if _is_due(first, start, is_past_start, limit):
-        return first, True
-    if _is_due(second, start, is_past_start, limit):
-        return second, True
+    for age in (first, second):
+        if start <= age < limit and not (is_past_start and age == start):
+            return age, True
     return limit, False
 
 
-@inlined
-def path_from(ball: BallRecord, x: float, z: float) -> Path:
-    """The flight of a ball relative to a point."""
-    return Path(ball.start_x - x, ball.start_z - z, ball.start_vx, ball.start_vz, ball.accel_x, ball.accel_z)
-
-
 @internal
-def disc_entries(path: Path, radius: float, limit: float) -> tuple[float, float]:
-    """Compute the ages [s] at which a flight enters a disc around the origin; NEVER if it does not.
+def disc_entries(
+    ball: BallRecord, center: Center, radius: float, start: float, limit: float
+) -> tuple[float, float]:
+    """Compute the ages [s] at which a flight enters a disc; NEVER if it does not.
 
     Half the derivative of |p|² is the cubic p·v. Its derivative v² + p·a is a quadratic with the roots
     t₁ ≤ t₂, if any: p·v rises up to t₁, falls up to t₂, and rises from there. So the distance falls at most
@@ -154,124 +136,106 @@ def disc_entries(path: Path, radius: float, limit: float) -> tuple[float, float]
     a fall from outside to inside.
 
     Args:
-        path: The flight relative to the centre of the disc.
+        ball: The ball.
+        center: The centre of the disc.
         radius: The radius of the disc [u].
-        limit: Entries after this age are not needed.
+        start: Entries before this age are not needed,
+        limit: nor are those after this one; they may be found or not.
 
     Returns:
         The entry in a fall that begins with the flight, and that in a later one.
     """
-    early, late = _inflections(path)
-    first, low = NEVER, 0.0
-    is_later = _approach(path, early) > 0.0
-    if is_later:  # there is a minimum before `early`, or the flight starts outwards
-        if _approach(path, 0.0) < 0.0:
-            first = _entry_between(path, radius, 0.0, _extreme(path, radius, True, 0.0, early))
-        if _approach(path, late) >= 0.0 or early >= limit:
-            return first, NEVER
-        low = _extreme(path, radius, False, early, late)  # the greatest distance between the two minima
-    elif _approach(path, late) >= 0.0:
+    now = approach(ball, center, start)
+    apart = sqrt(now.square)
+    gap = apart - radius - CROSSED_GAP
+    if gap > 0.0 and stays_open(gap, now.rate / apart, now.pull / apart, limit - start):
         return NEVER, NEVER
-    span = FIRST_SPAN
-    while _approach(path, late + span) < 0.0:
-        if span > MAX_SPAN:
+    # 3/2·a²·t² + 3·(v₀·a)·t + (v₀² + p₀·a) = 0, the form without cancellation for each root
+    at_first = approach(ball, center, 0.0)
+    square = 1.5 * (ball.accel_x * ball.accel_x + ball.accel_z * ball.accel_z)
+    half = 1.5 * (ball.start_vx * ball.accel_x + ball.start_vz * ball.accel_z)
+    rest = at_first.speed_square + at_first.pull
+    discriminant = half * half - square * rest
+    early, late = 0.0, 0.0
+    if square > 0.0 and discriminant > 0.0:
+        if half > 0.0:
+            q = -half - sqrt(discriminant)
+            early, late = q / square, rest / q
+        else:
+            q = -half + sqrt(discriminant)
+            early, late = rest / q, q / square
+        early, late = early if early > 0.0 else 0.0, late if late > 0.0 else 0.0
+    first, low = NEVER, 0.0
+    rate_late = approach(ball, center, late).rate
+    is_later = approach(ball, center, early).rate > 0.0
+    if is_later:  # there is a minimum before `early`, or the flight starts outwards
+        if at_first.rate < 0.0:
+            high = _extreme(ball, center, radius, 1.0, 0.0, early)
+            first = _entry_between(ball, center, radius, 0.0, high)
+        if rate_late < 0.0 and early < limit:
+            low = _extreme(ball, center, radius, -1.0, early, late)
+    if rate_late >= 0.0 or low >= limit:
+        return first, NEVER
+    high = late + FIRST_SPAN
+    while approach(ball, center, high).rate < 0.0:
+        if high > MAX_AGE:
             return first, NEVER
-        span *= 2.0
-    entry = _entry_between(path, radius, low, _extreme(path, radius, True, late, late + span))
+        high = late + 2.0 * (high - late)
+    high = _extreme(ball, center, radius, 1.0, late, high)
+    entry = _entry_between(ball, center, radius, low, high)
     return (first, entry) if is_later else (entry, NEVER)
 
 
-@inlined
-def _inflections(path: Path) -> tuple[float, float]:
-    """Compute the ages t₁ ≤ t₂ between which p·v falls, cut off at 0; both 0 if it never does.
-
-    v² + p·a = (v₀² + p₀·a) + 3·(v₀·a)·t + 3/2·a²·t²
-    """
-    square = 1.5 * (path.accel_x * path.accel_x + path.accel_z * path.accel_z)
-    half = 1.5 * (path.vx * path.accel_x + path.vz * path.accel_z)
-    rest = path.vx * path.vx + path.vz * path.vz + path.x * path.accel_x + path.z * path.accel_z
-    discriminant = half * half - square * rest
-    if square == 0.0 or discriminant <= 0.0:
-        return 0.0, 0.0
-    # The form without cancellation for each root.
-    if half > 0.0:
-        q = -half - sqrt(discriminant)
-        early, late = q / square, rest / q
-    else:
-        q = -half + sqrt(discriminant)
-        early, late = rest / q, q / square
-    return max(early, 0.0), max(late, 0.0)
-
-
-@inlined
-def _approach(path: Path, age: float) -> float:
-    """Compute p·v at an age: negative while the ball approaches the origin."""
-    return (path.x + age * (path.vx + 0.5 * path.accel_x * age)) * (path.vx + path.accel_x * age) + (
-        path.z + age * (path.vz + 0.5 * path.accel_z * age)
-    ) * (path.vz + path.accel_z * age)
+@internal
+def approach(ball: BallRecord, center: Center, age: float) -> Approach:
+    """Compute how a flight approaches a centre at an age."""
+    vx, vz = ball.start_vx + ball.accel_x * age, ball.start_vz + ball.accel_z * age
+    x = ball.start_x - center.x + age * (ball.start_vx + 0.5 * ball.accel_x * age)
+    z = ball.start_z - center.z + age * (ball.start_vz + 0.5 * ball.accel_z * age)
+    return Approach(x * x + z * z, x * vx + z * vz, vx * vx + vz * vz, x * ball.accel_x + z * ball.accel_z)
 
 
 @internal
-def _entry_between(path: Path, radius: float, low: float, high: float) -> float:
+def _entry_between(ball: BallRecord, center: Center, radius: float, low: float, high: float) -> float:
     """Compute when a flight, outside at one age and inside at another, enters the disc; NEVER if it is not.
 
     The steps are those of `flight.time_to_shape`: they never overshoot.
     """
-    if not (_excess(path, radius, low) > 0.0 and _excess(path, radius, high) < 0.0):
+    square = radius * radius
+    if approach(ball, center, high).square >= square or approach(ball, center, low).square <= square:
         return NEVER
     time = low
     for _ in range(FLIGHT_STEPS):
-        vx, vz = path.vx + path.accel_x * time, path.vz + path.accel_z * time
-        x = path.x + time * (path.vx + 0.5 * path.accel_x * time)
-        z = path.z + time * (path.vz + 0.5 * path.accel_z * time)
-        gap, nx, nz = point_distance(x, z, 0.0, 0.0)
-        gap -= radius
-        rate = nx * vx + nz * vz
+        now = approach(ball, center, time)
+        apart = sqrt(now.square)
+        gap, rate = apart - radius, now.rate / apart
         if gap <= CONTACT_GAP and rate < 0.0:
             return newton_refined(time, gap, rate)
-        step = time_to_line(max(gap, 0.0), rate, nx * path.accel_x + nz * path.accel_z)
-        time = min(time + step, high)
+        time += time_to_line(gap if gap > 0.0 else 0.0, rate, now.pull / apart)
+        time = min(time, high)
     return time  # a long graze, entered within rounding
 
 
-@inlined
-def _excess(path: Path, radius: float, age: float) -> float:
-    """Compute |p|² − radius² at an age."""
-    x = path.x + age * (path.vx + 0.5 * path.accel_x * age)
-    z = path.z + age * (path.vz + 0.5 * path.accel_z * age)
-    return x * x + z * z - radius * radius
-
-
 @internal
-def _extreme(path: Path, radius: float, is_minimum: bool, low: float, high: float) -> float:
-    """Compute the age between two others at which the distance is least or greatest, a root of p·v.
+def _extreme(ball: BallRecord, center: Center, radius: float, sign: float, low: float, high: float) -> float:
+    """Compute the age between two others at which the distance is least (sign 1) or greatest (−1).
 
-    Where the flight is inside at its least distance, or outside at its greatest, any age will do at which it
-    is. Newton's method; a step that leaves the bracket is replaced by bisection.
+    It is a root of p·v. Where the flight is inside at its least distance, or outside at its greatest, any age
+    will do at which it is. Newton's method; a step that leaves the bracket is replaced by bisection.
     """
     time = low
     for _ in range(ROOT_STEPS):
-        excess = _excess(path, radius, time)
-        if (is_minimum and excess < 0.0) or (not is_minimum and excess > 0.0):
-            return time
-        value = _approach(path, time)
-        if (value < 0.0) == is_minimum:
+        now = approach(ball, center, time)
+        if sign * (radius * radius - now.square) > 0.0:
+            break
+        if sign * now.rate < 0.0:
             low = time
         else:
             high = time
-        before, slope = time, _approach_rate(path, time)
-        time = time - value / slope if slope != 0.0 else low
+        before, slope = time, now.speed_square + now.pull
+        time = time - now.rate / slope if slope != 0.0 else low
         if not low < time < high:
             time = low + 0.5 * (high - low)
         if abs(time - before) <= 4e-16 * time:
-            return time
+            break
     return time
-
-
-@inlined
-def _approach_rate(path: Path, age: float) -> float:
-    """Compute the derivative of p·v:  v² + p·a."""
-    vx, vz = path.vx + path.accel_x * age, path.vz + path.accel_z * age
-    x = path.x + age * (path.vx + 0.5 * path.accel_x * age)
-    z = path.z + age * (path.vz + 0.5 * path.accel_z * age)
-    return vx * vx + vz * vz + x * path.accel_x + z * path.accel_z

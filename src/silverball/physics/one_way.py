@@ -16,11 +16,10 @@ from __future__ import annotations
 
 from math import sqrt
 
-from silverball.physics.crossing import disc_entries, falling_time, path_from
+from silverball.physics.crossing import Center, approach, disc_entries, falling_time
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
-from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.kernel import internal, kernel
 from silverball.physics.records import BallRecord, ColliderRecord
-from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, CROSSED_GAP, NEVER
 
 
@@ -52,8 +51,8 @@ def time_to_one_way(
         return limit, False
     time = _time_to_face(c, ball, reach)
     time = time if start <= time < limit else limit
-    time = _time_to_end(c, ball, reach, False, start, time)
-    time = _time_to_end(c, ball, reach, True, start, time)
+    time = _time_to_end(c, ball, Center(c.x0, c.z0), reach, -1.0, start, time)
+    time = _time_to_end(c, ball, Center(c.x1, c.z1), reach, 1.0, start, time)
     return time, time < limit
 
 
@@ -66,54 +65,50 @@ def _time_to_face(c: ColliderRecord, ball: BallRecord, reach: float) -> float:
     if gap < -CROSSED_GAP:
         time = falling_time(gap, rate, gap_accel)
     else:
-        time = time_to_line(max(gap, 0.0), rate, gap_accel)
+        time = time_to_line(gap if gap > 0.0 else 0.0, rate, gap_accel)
     if not 0.0 <= time < NEVER:
         return NEVER
-    foot = _foot(c, ball, time)
+    at = state_at(ball, time)
+    foot = (at.x - c.x0) * c.along_x0 + (at.z - c.z0) * c.along_z0
     return time if 0.0 <= foot <= c.length0 else NEVER
 
 
 @internal
 def _time_to_end(
-    c: ColliderRecord, ball: BallRecord, reach: float, is_far: bool, start: float, limit: float
+    c: ColliderRecord,
+    ball: BallRecord,
+    end: Center,
+    reach: float,
+    outward: float,
+    start: float,
+    limit: float,
 ) -> float:
-    """Compute the age at which a ball meets the quarter around corner 1 (`is_far`) or 0; or the limit."""
-    x, z = (c.x1, c.z1) if is_far else (c.x0, c.z0)
-    now = state_at(ball, start)
-    gap, nx, nz = point_distance(now.x, now.z, x, z)
-    gap -= reach + CROSSED_GAP
-    rate, gap_accel = nx * now.vx + nz * now.vz, nx * ball.accel_x + nz * ball.accel_z
-    if gap > 0.0 and stays_open(gap, rate, gap_accel, limit - start):
-        return limit
-    path = path_from(ball, x, z)
-    first, second = disc_entries(path, reach, limit)
-    apart = sqrt(path.x * path.x + path.z * path.z)
+    """Compute the age at which a ball meets the quarter around an end, or the limit.
+
+    Args:
+        c: The capsule.
+        ball: The ball.
+        end: The end of its axis.
+        reach: The radius of the quarter [u].
+        outward: 1 where the axis leads out of this end (corner 1), −1 at the other (corner 0).
+        start: The age at which the search starts [s].
+        limit: The age at which the search ends [s].
+    """
+    first, second = disc_entries(ball, end, reach, start, limit)
+    now = approach(ball, end, 0.0)
+    apart = sqrt(now.square)
     gap = apart - reach
     if -CROSSED_GAP <= gap <= CONTACT_GAP:  # the flight starts on the outline
-        approach = path.x * path.vx + path.z * path.vz
-        if approach < 0.0:
-            first = newton_refined(0.0, max(gap, 0.0), approach / apart)
-        elif approach == 0.0 and path.x * path.accel_x + path.z * path.accel_z < 0.0:
+        if now.rate < 0.0:
+            first = newton_refined(0.0, gap if gap > 0.0 else 0.0, now.rate / apart)
+        elif now.rate == 0.0 and now.pull < 0.0:
             first = 0.0
-    if start <= first < limit and _is_on_quarter(c, ball, is_far, first):
-        return first
-    if start <= second < limit and _is_on_quarter(c, ball, is_far, second):
-        return second
+    for age in (first, second):
+        if start <= age < limit:
+            at = state_at(ball, age)
+            x, z = at.x - end.x, at.z - end.z
+            beyond = outward * (x * c.along_x0 + z * c.along_z0)
+            # With the tolerance there is no slit between the quarter and the face.
+            if beyond >= -CROSSED_GAP and x * c.inward_x + z * c.inward_z >= 0.0:
+                return age
     return limit
-
-
-@inlined
-def _foot(c: ColliderRecord, ball: BallRecord, age: float) -> float:
-    """Compute how far along the axis from corner 0 a ball is at an age [u]."""
-    at = state_at(ball, age)
-    return (at.x - c.x0) * c.along_x0 + (at.z - c.z0) * c.along_z0
-
-
-@inlined
-def _is_on_quarter(c: ColliderRecord, ball: BallRecord, is_far: bool, age: float) -> bool:
-    """Whether a ball is above the axis and beyond an end at an age, with a tolerance: no slit to the face."""
-    at = state_at(ball, age)
-    if (at.x - c.x0) * c.inward_x + (at.z - c.z0) * c.inward_z < 0.0:
-        return False
-    foot = _foot(c, ball, age)
-    return foot >= c.length0 - CROSSED_GAP if is_far else foot <= CROSSED_GAP
