@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import LOG, WORLD
+from silverball.physics.records import LOG, WORLD, Motion
 from silverball.world import World
 
 SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
@@ -59,8 +59,9 @@ class GameWorld:
 
     @property
     def places(self) -> list[tuple[int, float, float]]:
-        """The balls on the board: id, x [u] and z [u]."""
-        return [ball for ball in self._record["ball"][["id", "x", "z"]].tolist() if ball[0]]
+        """The balls that move on the board, not those in a hole or on a plunger: id, x [u] and z [u]."""
+        balls = self._record["ball"][["id", "x", "z", "motion"]].tolist()
+        return [ball[:3] for ball in balls if ball[0] and ball[3] != Motion.CAPTURED]
 
     def to_bytes(self) -> bytes:
         """The bytes of the record."""
