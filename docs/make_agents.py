@@ -68,7 +68,7 @@ def slot_table(layout: tuple[Field, ...]) -> str:
     for field in layout:
         width = len(field.group.slots)
         for slot, (least, meaning) in zip(field.group.slots, field.group.means, strict=True):
-            columns = ", ".join(str(field.first + slot + item * width) for item in range(max(1, field.items)))
+            columns = ", ".join(str(field.first + slot + item * width) for item in range(field.items)) or "–"
             name = f"`{slot.name.lower()}`"
             rows.append(f"| `{field.group.name}` | {columns} | {name} | {least:g} … 1 | {meaning} |")
     return "\n".join(rows)

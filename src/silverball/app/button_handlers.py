@@ -86,6 +86,8 @@ def _try(program: Program, request: Callable[[], object]) -> None:
         count = program.board.table.board.max_balls
         program.show_message("only one ball at a time" if count == 1 else f"at most {count} balls at a time")
     except NoRoom:
-        program.show_message("there is no space for a ball right now")
+        is_on_plunger = bool(plungers(program.board.table))
+        where = "on the plunger" if is_on_plunger else "for a ball right now"
+        program.show_message(f"there is no space {where}")
     except SilverballError as error:
         program.show_message(str(error))

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from silverball.players import Player
     from silverball.table import Table
 
+DEMO_BALLS = 2  # balls of a demo at once, if the table allows them
 DEMO_SECOND_BALL_DELAY = 4.0  # [s] between the first and the second ball of a demo
 DEMO_BALL_DELAY = 1.0  # [s] between two balls of a demo
 NEW_BALL_LOCK = 1.0  # [s] after a new ball in arcade, in which no other can be requested
@@ -135,7 +136,7 @@ class DemoSession:
         world = self.game.world
         self._delay = max(0.0, self._delay - 1.0 / world.tick_rate)
         count = len(world.balls)
-        if count >= world.table.board.max_balls or self._delay > 0.0:
+        if count >= min(world.table.board.max_balls, DEMO_BALLS) or self._delay > 0.0:
             return
         with contextlib.suppress(BoardFull, NoRoom):
             self.game.create_ball()

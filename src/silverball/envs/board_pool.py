@@ -27,7 +27,7 @@ from silverball.envs.observations import (
     fields,
 )
 from silverball.envs.options import TableSource
-from silverball.game.mechanisms import plungers
+from silverball.physics.records import Device
 from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
@@ -145,11 +145,16 @@ def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     boards = compile_tables(tables)
     items = {"balls": max(LEAST_BALLS, int(boards.board["max_balls"].max())), "game": 1}
     items["paddles"] = max(LEAST_PADDLES, int(boards.board["paddles"].max()))
+    items["switches"] = int(boards.board["switches"].max())
+    items["spinners"] = int(boards.board["spinners"].max())
+    items["plunger"] = int(boards.board["plungers"].max() > 0)
+    if np.isin(boards.collider["device"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
+        items["ball_places"] = items["balls"]
     for group, kind in SHOWN_KINDS.items():
         items[group] = max(len(getattr(table, kind)) for table in tables)
     layout = fields(items)
     blanks = blank_worlds(boards, np.arange(len(tables)))
-    layouts, has_plunger = _layouts(boards, layout), bool(plungers(tables[0]))
+    layouts, has_plunger = _layouts(boards, layout), items["plunger"] > 0
     return Pool(tables, np.array(seeds, np.int64), boards, blanks, layouts, layout, has_plunger)
 
 

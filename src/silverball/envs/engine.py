@@ -380,6 +380,19 @@ def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ..
     row["balls_shown"], row["paddles_shown"] = balls.items, paddles.items
     row["paddles_at"], row["game_at"] = paddles.first, game.first
     row["layout_at"] = pool.columns - pool.layouts.shape[1]
+    devices = (("ball_places", "places"), ("switches", "switches"), ("spinners", "spinners"))
+    for name, shown in devices:
+        field = field_named(pool.fields, name)
+        row[f"{shown}_shown"], row[f"{shown}_at"] = field.items, field.first
+    plunger = field_named(pool.fields, "plunger")
+    row["plungers_shown"], row["plunger_at"] = plunger.items, plunger.first
+    row["shows_devices"] = any(
+        row[f"{name}_shown"] for name in ("places", "switches", "spinners", "plungers")
+    )
+    if plunger.items:
+        board_row = pool.boards.board[0]
+        collider = pool.boards.collider[board_row["collider_first"] + board_row["plunger_row"]]
+        row["charge_scale"] = row["tick"] / collider["charge_time"]
     row["writes_state"] = options.observation != "pixels"
     row["draws_pictures"] = options.observation == "pixels"
     return rules

@@ -45,6 +45,31 @@ class GameSlot(IntEnum):
     LEFT = 1
 
 
+class PlaceSlot(IntEnum):
+    """Slots of a ball on tables with levels, holes or plungers."""
+
+    LEVEL = 0
+    HELD = 1
+
+
+class SwitchSlot(IntEnum):
+    """Slots of a drop target or a gate."""
+
+    PRESENT = 0
+
+
+class SpinnerSlot(IntEnum):
+    """Slots of a spinner."""
+
+    SPEED = 0
+
+
+class PlungerSlot(IntEnum):
+    """Slots of the plunger."""
+
+    CHARGE = 0
+
+
 class PrismSlot(IntEnum):
     """Slots of a triangular prism: its corners, counter-clockwise."""
 
@@ -114,6 +139,33 @@ GROUPS = (
             ),
             (0.0, "balls of the episode that have not been created yet, as a share of all"),
         ),
+    ),
+    Group(
+        "ball_places",
+        "a ball; on tables with levels, holes or plungers",
+        PlaceSlot,
+        (
+            (0.0, "the level of the ball, as a share of the highest possible one"),
+            (0.0, "1 while a hole or a plunger holds it"),
+        ),
+    ),
+    Group(
+        "switches",
+        "a drop target or a gate that rules open, in the order of the table",
+        SwitchSlot,
+        ((0.0, "1 while it stands in the way of balls; 0 if it has fallen or is open"),),
+    ),
+    Group(
+        "spinners",
+        "a spinner, in the order of the table",
+        SpinnerSlot,
+        ((-1.0, "speed of the blade's edge, in speed caps; positive to the left of start → end"),),
+    ),
+    Group(
+        "plunger",
+        "the plunger, on tables that have one",
+        PlungerSlot,
+        ((0.0, "how far it is pulled back: 1 launches at the greatest speed"),),
     ),
     Group(
         "triangular_prisms",

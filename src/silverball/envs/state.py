@@ -110,6 +110,10 @@ RULES = np.dtype(
         # The layout of a state observation: items of these groups, and the first columns of the others.
         ("balls_shown", "i8"), ("paddles_shown", "i8"),
         ("paddles_at", "i8"), ("game_at", "i8"), ("layout_at", "i8"),
+        # The groups of devices, which most tables do not have: 1 if there is any; their items and columns.
+        ("shows_devices", "i8"), ("places_shown", "i8"), ("places_at", "i8"),
+        ("switches_shown", "i8"), ("switches_at", "i8"), ("spinners_shown", "i8"), ("spinners_at", "i8"),
+        ("plungers_shown", "i8"), ("plunger_at", "i8"), ("charge_scale", "f8"),  # per tick of the button
         # Flags: 1 if a step writes these.
         ("writes_state", "i8"), ("draws_pictures", "i8"),
         ("copies_stack", "i8"),  # 1: the window of pictures is copied

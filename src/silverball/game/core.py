@@ -345,7 +345,6 @@ class GameCore:
         self._shove, self._auto_shove = saved.shove, saved.auto_shove
         self._was_stopped = how_ended == "stopped"
         self.fault = self.world.fault
-        self._board.mark_read()
         self._points_seen = self._points_of_hits()
         tick = self.tick
         self._next_check = (tick // self._check_ticks + 1) * self._check_ticks
@@ -425,7 +424,6 @@ class GameCore:
             ):
                 self._play_singly(before, count)
                 return
-            self._board.mark_read()
             self._apply_world_events(events)
         self._shove = self._auto_shove = False
         if self._has_waiting:
@@ -488,7 +486,6 @@ class GameCore:
     def _queue_creation(self) -> None:
         """Queue the event of the ball just created, the last one in the log of the world."""
         self._world_queue.extend(event for event in self.world.events[-1:] if event.kind == "created")
-        self._board.mark_read()
 
     def _check_stuck(self, tick: int) -> None:
         """Check whether the automatic shove is due."""

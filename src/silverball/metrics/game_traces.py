@@ -40,7 +40,7 @@ from silverball.physics.records import (
     records,
 )
 from silverball.physics.step import button_bits, step_world
-from silverball.players.simple import LOOK_AHEAD, PlayerKind, pressed, struck_buttons
+from silverball.players.simple import LOOK_AHEAD, PlayerKind, launch_bit, pressed, struck_buttons
 from silverball.world import WorldBatch
 
 TICK_RATE = 240
@@ -252,7 +252,7 @@ def play_balls(
             else:
                 left, right = pressed(setup.player, world, board, colliders, tick)
             score = world.score
-            step_world(lane, geometry, button_bits(left, right), tick)
+            step_world(lane, geometry, button_bits(left, right) | launch_bit(world, board, tick), tick)
             game.ticks += 1
             is_cylinder = setup.is_cylinder[lanes.board_of[index]]
             follow_hits(

@@ -32,6 +32,7 @@ from silverball.physics.records import (
     Colliders,
     Lane,
     LogRecord,
+    Motion,
     Tally,
     WorldRecord,
     records,
@@ -318,7 +319,8 @@ def buttons_of(
 def has_no_ball_in_reach(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether no ball is in reach of a paddle."""
     for slot in range(board.max_balls):
-        if world.ball[slot].id != 0 and world.ball[slot].x <= board.paddle_top:
+        ball = world.ball[slot]
+        if ball.id != 0 and ball.x <= board.paddle_top and ball.motion != Motion.CAPTURED:
             return False
     return True
 

@@ -29,7 +29,7 @@ from silverball.physics.records import (
 )
 from silverball.physics.step import button_bits, step_world
 from silverball.players.batch_policies import batch_policy, kernel_player
-from silverball.players.simple import PlayerKind, pressed
+from silverball.players.simple import PlayerKind, launch_bit, pressed
 from silverball.world import WorldBatch
 
 CHUNK_TICKS = 2_000_000  # ticks of all worlds together between two calls of `progress`
@@ -179,7 +179,7 @@ def play_worlds(
                 left, right = rollout.buttons[index, 0], rollout.buttons[index, 1]
             else:
                 left, right = pressed(rollout.player, world, board, colliders, tick)
-            step_world(lane, geometry, button_bits(left, right), tick)
+            step_world(lane, geometry, button_bits(left, right) | launch_bit(world, board, tick), tick)
             if rollout.audit:
                 rollout.depths[index] = max(rollout.depths[index], deepest(world, board, colliders))
 

@@ -11,11 +11,13 @@ from typing import Any
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
+    LAUNCH,
     LEFT,
     RIGHT,
     BoardRecord,
     ColliderRecord,
     Colliders,
+    Motion,
     Part,
     WorldRecord,
 )
@@ -90,6 +92,20 @@ def holds_launch(world: WorldRecord, tick: float) -> bool:
 
 
 @kernel
+def launch_bit(world: WorldRecord, board: BoardRecord, tick: float) -> int:
+    """The bit of the launch button if it is held in the next tick; see `holds_launch`."""
+    return LAUNCH if board.plungers != 0 and holds_launch(world, tick) else 0
+
+
+@kernel
+def press_launch(worlds: Any, boards: Any, board_of: Any, tick: float, actions: Any) -> None:
+    """Write whether the launch button is held in the next tick into `actions`, bool [1, world, 4]."""
+    for index in range(len(worlds)):
+        bit = launch_bit(worlds[index], boards[board_of[index]], tick)
+        actions[0, index, 3] = bit != 0
+
+
+@kernel
 def press_all(
     player: int, worlds: Any, boards: Any, board_of: Any, colliders: Colliders, tick: float, actions: Any
 ) -> None:
@@ -132,7 +148,7 @@ def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: fl
     sine, cosine = sine_cosine(c.angle_rest)
     for slot in range(board.max_balls):
         ball = world.ball[slot]
-        if ball.id == 0:
+        if ball.id == 0 or ball.motion == Motion.CAPTURED or c.levels >> ball.level & 1 == 0:
             continue
         dx = ball.x + (ball.vx + 0.5 * ball.accel_x * ahead) * ahead - c.x
         dz = (ball.z + (ball.vz + 0.5 * ball.accel_z * ahead) * ahead - c.z) * c.side

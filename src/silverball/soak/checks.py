@@ -25,6 +25,7 @@ from silverball.physics.audit import (
 from silverball.physics.kernel import as_int, inlined, kernel
 from silverball.physics.records import (
     JITTER,
+    LAUNCH,
     MAX_BALLS,
     MAX_PADDLES,
     BallRecord,
@@ -403,6 +404,7 @@ def watched_tick(
     register_new_balls(world, truth, watch)
     remember_state(world, truth.board, watch)
     buttons = button_bits(action.left != 0, action.right != 0) | (JITTER if action.shove != 0 else 0)
+    buttons |= LAUNCH if action.launch != 0 else 0
     step_world(lane, geometry, buttons, tick)
     watch.frames += 1
     if world.fault != Fault.NONE:

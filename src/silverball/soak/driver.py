@@ -30,6 +30,7 @@ from silverball.physics.records import (
     WorldRecord,
     records,
 )
+from silverball.players.simple import launch_bit
 
 SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's
 # All of the following are chosen.
@@ -43,7 +44,7 @@ RETRY = 0.25  # [s] between two attempts to create a ball: a crowded board may h
 
 ACTION = np.dtype(
     [
-        ("left", "i8"), ("right", "i8"), ("shove", "i8"),  # buttons, 0 or 1
+        ("left", "i8"), ("right", "i8"), ("shove", "i8"), ("launch", "i8"),  # buttons, 0 or 1
         ("create", "i8"),  # whether to create a ball
         ("kick", "i8", (MAX_BALLS,)),  # whether the ball in the slot gets this velocity [u/s]
         ("vx", "f8", (MAX_BALLS,)), ("vz", "f8", (MAX_BALLS,)),
@@ -104,6 +105,7 @@ def choose_action(
     """Choose the action of a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
+    action.launch = 1 if launch_bit(world, board, tick) != 0 else 0
     is_active = wild or now * tick % (QUIET + LIVELY) >= QUIET
     for side in range(2):
         if is_active and now >= driver.press_at[side]:

@@ -40,12 +40,18 @@ MAX_KICK = 1e4  # [u/s] of a kick: far above every speed cap
 
 def _action(values: list[Any]) -> list[Any]:
     """An action as `_action_values` writes it, or a ValueError."""
-    buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
+    buttons, kicks = _buttons_and_kicks(values)
     are_valid = all(type(button) is int and button in (0, 1) for button in buttons)
     has_count = LEAST_KICKS <= len(kicks) <= MAX_BALLS
     if not are_valid or not has_count or not all(kick is None or _is_kick(kick) for kick in kicks):
         raise ValueError(f"must be four times 0 or 1 and {LEAST_KICKS} to {MAX_BALLS} velocities")
     return values
+
+
+def _buttons_and_kicks(values: list[Any]) -> tuple[list[Any], list[Any]]:
+    """The buttons of an action, with the launch button if it is held, and the velocities after them."""
+    count = len(BUTTONS) + (values[len(BUTTONS) : len(BUTTONS) + 1] == [1])
+    return values[:count], values[count:]
 
 
 def _is_kick(kick: Any) -> bool:
@@ -77,8 +83,9 @@ class Finding:
         hostile: Whether the table was not checked.
         tick_rate: Ticks per second.
         state: The saved world before the first action, in hexadecimal.
-        actions: Of each tick: left, right, shove, create (0 or 1), then the new velocity of each ball, [vx,
-            vz] [u/s], or null; at least two, later ones only as far as there are any.
+        actions: Of each tick: left, right, shove, create (0 or 1), 1 if the launch button is held, then the
+            new velocity of each ball, [vx, vz] [u/s], or null; at least two, later ones only where there are
+            any.
     """
 
     kind: Annotated[str, Field(pattern=f"^({'|'.join(kind.name.lower() for kind in KINDS)})$")]
@@ -230,14 +237,16 @@ def _action_values(action: ActionRecord) -> list[Any]:
     ]
     while len(kicks) > LEAST_KICKS and kicks[-1] is None:
         del kicks[-1]
-    return [*(int(action[name]) for name in BUTTONS), *kicks]
+    launch = [1] if action["launch"] else []
+    return [*(int(action[name]) for name in BUTTONS), *launch, *kicks]
 
 
 def _fill_action(action: ActionRecord, values: list[Any]) -> None:
     """Write plain values into an ACTION record."""
-    buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
-    for name, value in zip(BUTTONS, buttons, strict=True):
+    buttons, kicks = _buttons_and_kicks(values)
+    for name, value in zip(BUTTONS, buttons, strict=False):
         action[name] = value
+    action["launch"] = len(buttons) > len(BUTTONS)
     for slot in range(MAX_BALLS):
         kick = kicks[slot] if slot < len(kicks) else None
         action["kick"][slot] = kick is not None

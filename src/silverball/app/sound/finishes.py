@@ -73,8 +73,12 @@ EVENTS: dict[str, Sound | None] = {
     "gutter": Sound("drain", 0.9),
     "jitter": Sound("shove", 0.8),
     "jam": None,
+    "reset": Sound("bank_reset", 0.8),
 }
 """The sounds of events that do not depend on a part."""
+
+ONCE = frozenset({"jitter", "reset"})
+"""Events that several balls or parts have at one time, and that are heard once."""
 
 MECHANISMS: dict[str, dict[Finish, Sound]] = {
     "pass": {

@@ -140,8 +140,8 @@ class Voices:
             return self._blow(event, time)
         part = self._parts.get(event.part)
         sound = finishes.event_sound(event.kind, None if part is None else part.finish)
-        # A shove has an event per ball, but only one sound.
-        if sound is None or (event.kind == "jitter" and self._is_repeat(0, "jitter", time, sound.strength)):
+        is_once = event.kind in finishes.ONCE
+        if sound is None or (is_once and self._is_repeat(0, event.kind, time, sound.strength)):
             return None
         return sound.name, 0, sound.strength
 

@@ -63,15 +63,8 @@ def short_digests(record: bytes, rules: str, physics: int = PHYSICS_VERSION) -> 
         rules: The state of the rules as JSON.
         physics: The version of the physics in whose layout the bytes are.
     """
-    paddles, tick, seed, score, rest = _EDGES if physics == PHYSICS_VERSION else _EDGES_3
-    parts = (
-        record[paddles:tick],
-        record[seed:score],
-        record[:paddles],
-        record[tick:seed] + record[rest:],
-        record[score:rest],
-        rules.encode("ascii"),
-    )
+    spans = _SPANS if physics == PHYSICS_VERSION else _SPANS_3
+    parts = (*(b"".join(record[start:end] for start, end in group) for group in spans), rules.encode("ascii"))
     return "".join(_short(part) for part in parts)
 
 
@@ -93,14 +86,22 @@ def record_bytes(record: Any, physics: int) -> bytes:
     return then.tobytes()
 
 
-def _edges(layout: np.dtype[Any]) -> tuple[int, ...]:
-    """The first bytes of the fields at which the groups begin."""
-    fields = layout.fields
-    assert fields is not None, "a world record has fields"
-    return tuple(int(fields[name][1]) for name in ("paddle", "tick", "seed", "score", "created"))
+def _spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """The first byte and the end of every field of each group but the last, in the order of the layout."""
+    groups = (("paddle",), ("seed", "draws"), ("ball",), (), ("score",))
+    named = {name for group in groups for name in group}
+    assert layout.fields is not None, "a world record has fields"
+    spans = {}
+    for name in layout.names or ():
+        part, start = layout.fields[name][:2]
+        spans[name] = (int(start), int(start) + part.itemsize)
+    return tuple(
+        tuple(span for name, span in spans.items() if (name in group if group else name not in named))
+        for group in groups
+    )
 
 
-_EDGES, _EDGES_3 = _edges(WORLD), _edges(_WORLD_3)
+_SPANS, _SPANS_3 = _spans(WORLD), _spans(_WORLD_3)
 
 
 def differing_groups(expected: str, got: str) -> tuple[str, ...]:
