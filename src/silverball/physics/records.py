@@ -265,8 +265,8 @@ BOARD = np.dtype(
 COLLIDER = np.dtype(
     [
         ("kind", "i8"),
-        # Shape (a NumPy record has a `shape` of its own), Response, the levels (bit n: level n), the switch (a
-        # bit of WORLD.off; 0: always there).
+        # Shape (a NumPy record has a `shape` of its own), Response, the levels (bit n: level n), the
+        # switch (a bit of WORLD.off; 0: always there).
         ("outline", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
