@@ -266,7 +266,7 @@ COLLIDER = np.dtype(
     [
         ("kind", "i8"),
         # Shape, Response, the levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
-        ("shape", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
+        ("form", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
         # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
