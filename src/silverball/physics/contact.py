@@ -250,7 +250,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
         world.touches += 1
     log_event(lane.log, kind, ball, world.tick, c.part, contact, speed)
     start_flight(ball, board, time)
-    if c.device == Device.DROP_TARGET and kind == EventKind.HIT:
+    if c.role == Device.DROP_TARGET and kind == EventKind.HIT:
         drop_target(lane, geometry, c, time, tick)
 
 
