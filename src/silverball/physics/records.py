@@ -221,7 +221,7 @@ COLLIDER = np.dtype(
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
         # Shape, Response, the part (its number on the board), the levels (bit n: level n), the switch (a
         # bit of WORLD.off; 0: always there).
-        ("shape", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
+        ("form", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]

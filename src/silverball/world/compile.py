@@ -234,7 +234,7 @@ def _search_time(board: Any) -> float:
 
 
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
+    row["kind"], row["form"] = Kind.SLANT_WALL, Shape.CAPSULE
     _set_side(row, 0, wall.start, wall.end)
     row["x1"], row["z1"] = wall.end
     row["radius"] = wall.thickness
@@ -244,14 +244,14 @@ def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
 
 
 def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
+    row["kind"], row["form"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
     corners = prism.corners(sine_cosine)
     _set_triangle(row, corners)
     row["x"], row["z"], row["reach"] = _circle_around(corners)
 
 
 def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
+    row["kind"], row["form"] = Kind.CYLINDER, Shape.CIRCLE
     row["x"], row["z"], row["radius"] = cylinder.circle()
     row["reach"] = row["radius"]
 
@@ -289,7 +289,7 @@ def _set_paddle(row: Any, paddle: Paddle | None) -> None:
     if paddle is None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         return
-    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
+    row["kind"], row["form"] = Kind.PADDLE, Shape.TRIANGLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())
