@@ -161,12 +161,45 @@ def public(table: Table, kind: str) -> None:
     assert model.__name__ in sb.parts.__all__
 
 
+def scored(table: Table, kind: str) -> None:
+    """A game knows the points, the buttons and the plungers; the help names every kind that gives points."""
+    from silverball.app.scoring import how_to_score
+    from silverball.game.mechanisms import paddle_buttons, plungers, points_by_part
+
+    parts = [part for part in expand(table).parts if part.path != "board"]
+    assert points_by_part(table) == {part.name: part.points for part in parts}
+    assert bool(plungers(table)) == (kind == "plunger")
+    assert paddle_buttons(table) == ({"left", "right"} if kind == "paddle" else set())
+    hits = how_to_score(table, sb.Mode.FREE)[0].text.lower()
+    assert (kind.replace("_", " ") in hits) == any(part.points for part in parts if part.kind == kind)
+
+
+def heard(table: Table, kind: str) -> None:
+    """Every part has the sound of a hit, and of every event that it can cause."""
+    from silverball.app.sound.bank import RECIPES
+    from silverball.app.sound.finishes import MECHANISMS, event_sound, part_sounds
+
+    sounds = part_sounds(table)
+    assert sounds.keys() == set(expand(table).names)
+    causes = {Response.PASS: ("pass", "spin"), Response.HOLD: ("captured", "released"), Response.BOUNCE: ()}
+    for row in expand(table).rows:
+        part = sounds[expand(table).names[row.part]]
+        assert part.blow.name in RECIPES
+        for event in causes[row.primitive.response]:
+            sound = event_sound(event, part.finish)
+            assert sound is not None
+            assert sound.name in RECIPES
+            assert event == "spin" or part.finish in MECHANISMS[event]
+
+
 READERS: dict[str, Callable[[Table, str], None]] = {
     "parse, write and hash": parsed,
     "the format that is required": format_required,
     "expand": numbered,
     "primitives": made_of_known_primitives,
     "compile": compiled,
+    "points, buttons and help of a game": scored,
+    "sounds": heard,
     "reference page": documented,
     "public names": public,
 }

@@ -20,7 +20,7 @@ arguments that a message repeats are escaped: every line goes through `plain`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from silverball.plain import plain
 
@@ -42,10 +42,18 @@ class Problem(NamedTuple):
     Attributes:
         path: The place in the file, for example ``triangular_prism[2].vertices``.
         message: What was expected, what was given and how to fix it, as one sentence.
+        severity: An ``"error"`` keeps a table from being played; a ``"warning"`` is something that its maker
+            may want, for example parts that overlap.
     """
 
     path: str
     message: str
+    severity: Literal["error", "warning"] = "error"
+
+    @property
+    def is_error(self) -> bool:
+        """Whether the table cannot be played."""
+        return self.severity == "error"
 
     def __str__(self) -> str:
         """Return the problem on one line."""
@@ -62,7 +70,7 @@ class TableError(SilverballError):
 
     def __init__(self, source: str, problems: Sequence[Problem]) -> None:
         self.source = plain(source)
-        self.problems = tuple(Problem(*map(plain, problem)) for problem in problems)
+        self.problems = tuple(p._replace(path=plain(p.path), message=plain(p.message)) for p in problems)
         count = len(self.problems)
         head = f"{source}: {count} problem{'' if count == 1 else 's'}"
         super().__init__(head, *(f"  {problem}" for problem in self.problems))

@@ -7,7 +7,8 @@ from typing import Annotated
 import typer
 
 from silverball.cli.completion import complete_table
-from silverball.cli.console import print_lines
+from silverball.cli.console import print_json, print_lines
+from silverball.cli.shared_options import AsJson
 
 
 def check(
@@ -19,17 +20,39 @@ def check(
             autocompletion=complete_table,
         ),
     ],
+    strict: Annotated[bool, typer.Option("--strict", help="Treat warnings as errors.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Check a table and report all of its problems.
 
-    Finds unknown keys, values out of range, parts that overlap, paddles that touch something while they turn,
-    boards on which a ball cannot reach the gutter, and places where a ball could lie forever.
+    Errors keep a table from being played: unknown keys, values out of range, paddles that touch something
+    while they turn, boards that a ball cannot leave. Warnings are what its maker may want: parts that
+    overlap, gaps that a ball barely fits, places where a ball could lie forever.
 
-    Exit codes: 0 no problems, 2 problems.
+    Exit codes: 0 no errors, 2 errors; with `--strict` 2 for warnings too.
 
-    Example: `silverball check mine.toml`
+    Example: `silverball check mine.toml --strict`
     """
-    from silverball.table import load_table
+    from silverball.errors import TableError
+    from silverball.table.file import examine_table
 
-    loaded = load_table(table)
-    print_lines(f"{table}: no problems in {loaded.name!r}")
+    loaded, problems = examine_table(table)
+    errors = [problem for problem in problems if strict or problem.is_error]
+    warnings = [problem for problem in problems if problem not in errors]
+    if as_json:
+        print_json(
+            {
+                "table": table,
+                "errors": sum(problem.is_error for problem in problems),
+                "warnings": sum(not problem.is_error for problem in problems),
+                "problems": [problem._asdict() for problem in problems],
+            }
+        )
+        raise typer.Exit(2 if errors else 0)
+    if warnings:
+        count = f"{len(warnings)} warning{'' if len(warnings) == 1 else 's'}"
+        print_lines(f"{table}: {count}", *(f"  warning: {problem}" for problem in warnings))
+    if errors:
+        raise TableError(table, errors)
+    if loaded is not None and not warnings:
+        print_lines(f"{table}: no problems in {loaded.name!r}")

@@ -28,7 +28,7 @@ from silverball.plain import plain
 from silverball.table.arcade import Arcade
 from silverball.table.kinds import Board, in_order
 from silverball.table.model import Model, is_since_2, key_of
-from silverball.table.table import PART_KINDS, Table, checked_table
+from silverball.table.table import PART_KINDS, Table, check_table, checked_table, examine
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
 SIZE_LIMIT = 2**18  # [bytes] of a table file; chosen: a real table of 150 parts takes a tenth of it
@@ -89,6 +89,20 @@ def parse_table(text: str, source: str = "table", *, folder: Path | None = None)
         TableError: The text has problems; all of them are in `problems`.
     """
     return checked_table(_parse_toml(text, source), source, folder)
+
+
+def examine_table(name_or_path: str) -> tuple[Table | None, list[Problem]]:
+    """Return a table as `load_table` does, or None if it has errors; and all problems, warnings included.
+
+    Raises:
+        UnknownTable: No built-in table has this name.
+        TableError: The file cannot be read or is not TOML.
+    """
+    path = name_or_path or NOTHING
+    if not _looks_like_path(path):
+        table = load_table(path)
+        return table, check_table(table)
+    return examine(_parse_toml(_read(path), path), Path(path).parent)
 
 
 def save_table(table: Table, path: str | os.PathLike[str]) -> None:

@@ -7,8 +7,9 @@ import os
 from numbers import Integral
 
 from silverball.errors import Problem, TableError
-from silverball.table.check import Layout, check_layout
+from silverball.table.check import check_layout
 from silverball.table.file import load_table
+from silverball.table.layout import Layout
 from silverball.table.placement import board_of
 from silverball.table.quantity import shown
 from silverball.table.table import Table
@@ -50,5 +51,5 @@ def generate_table(seed: int, recipe: str | os.PathLike[str] | Table = "random")
 
 @functools.lru_cache(maxsize=16)
 def _parts_problems(table: Table) -> tuple[Problem, ...]:
-    """The problems of the stationary parts and the rules of a recipe, checked once for all seeds."""
-    return tuple(check_layout(Layout.of(table)))
+    """The errors of the parts and the rules of a recipe, checked once for all seeds."""
+    return tuple(problem for problem in check_layout(Layout.of(table)) if problem.is_error)

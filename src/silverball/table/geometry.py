@@ -1,62 +1,290 @@
 """Distances between parts, and between points and parts, for many at once.
 
-Every part is a convex core of up to three points, inflated by a radius: a cylinder is one point, a slant wall
-two, a prism or a paddle three (radius 0). Fewer points are repeated, so that the parts of a table fit in one
-array. Points are (x, z) [u]; corners run counter-clockwise with z to the right and x up.
+Every solid primitive is cut into convex pieces: a core of up to three points, inflated by a radius. A circle
+is one point, a capsule two, a triangle three; fewer points are repeated, so that all pieces fit in one array.
+An arc is a chain of capsules that lies within `ARC_TOLERANCE` of it; a tapered capsule is two circles and the
+two triangles between them. Closed chains are solid inside; their interiors are `Polygon`s.
+
+Points are (x, z) [u]; corners run counter-clockwise with z to the right and x up.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.physics.forms import Response, Shape
+from silverball.table.primitive import Point, Primitive
+
 if TYPE_CHECKING:
-    from silverball.table.kinds import Board, Paddle
-    from silverball.table.model import Outline
-    from silverball.table.primitive import Point
+    from silverball.table.kinds import Board
 
 Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
 Indices: TypeAlias = NDArray[np.signedinteger[Any]]
+Triangle: TypeAlias = tuple[Point, Point, Point]
 
-CHUNK = 4096  # pairs of shapes, or of balls and shapes, measured at once, to bound the memory
+CHUNK = 4096  # pairs of pieces, or of balls and pieces, measured at once, to bound the memory
+COMPARED_AT_ONCE = 2**19  # boxes, or pairs of boxes, that are compared at once, to bound the memory
+ARC_TOLERANCE = 1e-3  # [u] between an arc and its chain; far below the clearances that are checked
+MAX_ARC_STEP = math.pi / 4.0  # [rad] of an arc in one piece of its chain
+MAX_LEVEL = 62  # the levels of a piece are the bits of one integer
 
 
-class Shapes(NamedTuple):
-    """Some parts as cores and radii.
+class Piece(NamedTuple):
+    """A convex piece of a primitive.
 
     Attributes:
-        core: The core points [u], shape [shape, 3, 2].
-        radius: The radius around each core [u], shape [shape].
+        core: Three points; fewer are repeated.
+        radius: The radius around the core [u].
+        outer: For a piece of an arc, the unit direction away from the arc's centre; else zero.
+    """
+
+    core: Triangle
+    radius: float
+    outer: Point = (0.0, 0.0)
+
+
+def is_solid(primitive: Primitive) -> bool:
+    """Return whether balls bounce off a primitive that is not a border."""
+    return primitive.response is Response.BOUNCE and primitive.shape is not Shape.PLANE
+
+
+def pieces_of(primitive: Primitive) -> list[Piece]:
+    """Cut a primitive into convex pieces; sensors and holes count as the area in which they act."""
+    match primitive.shape:
+        case Shape.CIRCLE | Shape.DISC:
+            (center,) = primitive.points
+            return [Piece((center, center, center), primitive.radius)]
+        case Shape.CAPSULE | Shape.LINE:
+            start, end = primitive.points
+            return [Piece((start, end, end), primitive.radius)]
+        case Shape.TRIANGLE:
+            a, b, c = primitive.points
+            return [Piece((a, b, c), primitive.radius)]
+        case Shape.ARC:
+            return _arc_pieces(primitive)
+        case Shape.TAPERED:
+            return _tapered_pieces(primitive)
+        case Shape.PLANE:
+            return []
+    raise ValueError(f"a shape without pieces: {primitive.shape!r}")
+
+
+def arc_points(primitive: Primitive) -> list[Point]:
+    """Return points on an arc, from its start to its end, whose chain lies within the tolerance."""
+    arc = primitive.arc
+    step = min(MAX_ARC_STEP, 4.0 * math.asin(min(1.0, math.sqrt(ARC_TOLERANCE / (2.0 * arc.radius)))))
+    count = max(1, math.ceil(2.0 * arc.half_angle / step))
+    turn = math.copysign(arc.half_angle, primitive.bulge)
+    inner = np.linspace(-turn, turn, count + 1)[1:-1]
+    sine, cosine = np.sin(inner), np.cos(inner)
+    x = arc.center[0] + arc.radius * (arc.middle[0] * cosine + arc.middle[1] * sine)
+    z = arc.center[1] + arc.radius * (arc.middle[1] * cosine - arc.middle[0] * sine)
+    return [primitive.points[0], *zip(x.tolist(), z.tolist(), strict=True), primitive.points[1]]
+
+
+def _arc_pieces(primitive: Primitive) -> list[Piece]:
+    (center_x, center_z), points = primitive.arc.center, arc_points(primitive)
+    pieces = []
+    for start, end in pairwise(points):
+        x, z = 0.5 * (start[0] + end[0]) - center_x, 0.5 * (start[1] + end[1]) - center_z
+        length = math.hypot(x, z) or 1.0
+        pieces.append(Piece((start, end, end), primitive.radius, (x / length, z / length)))
+    return pieces
+
+
+def _tapered_pieces(primitive: Primitive) -> list[Piece]:
+    """Two circles, and the quadrilateral between their common outer tangents as two triangles.
+
+    They touch the circles where the outward normal leans towards the thinner end by asin((r₀ − r₁)/L).
+    """
+    base, tip = primitive.points
+    along_x, along_z = tip[0] - base[0], tip[1] - base[1]
+    length = math.hypot(along_x, along_z)
+    pieces = [
+        Piece((base, base, base), primitive.radius),
+        Piece((tip, tip, tip), primitive.tip_radius),
+    ]
+    lean = (primitive.radius - primitive.tip_radius) / length if length > 0.0 else 1.0
+    if abs(lean) >= 1.0:  # one circle lies within the other
+        return pieces
+    along_x, along_z, rise = along_x / length, along_z / length, math.sqrt(1.0 - lean * lean)
+
+    def at(center: Point, radius: float, side: float) -> Point:
+        normal_x, normal_z = lean * along_x + side * rise * along_z, lean * along_z - side * rise * along_x
+        return center[0] + radius * normal_x, center[1] + radius * normal_z
+
+    left_base, right_base = at(base, primitive.radius, 1.0), at(base, primitive.radius, -1.0)
+    left_tip, right_tip = at(tip, primitive.tip_radius, 1.0), at(tip, primitive.tip_radius, -1.0)
+    pieces.append(Piece((right_base, right_tip, left_base), 0.0))
+    pieces.append(Piece((left_base, right_tip, left_tip), 0.0))
+    return pieces
+
+
+class Polygon(NamedTuple):
+    """The inside of a closed chain: its corners [corner, 2], the part that it belongs to, its levels."""
+
+    corners: Floats
+    part: int
+    levels: int
+
+    def contains(self, points: Floats) -> Bools:
+        """Return whether points [point, 2] lie inside, by the parity of the crossings of a ray."""
+        inside = np.zeros(len(points), dtype=bool)
+        low, high = self.corners.min(axis=0), self.corners.max(axis=0)
+        near = np.nonzero(((points >= low) & (points <= high)).all(axis=1))[0]
+        start, end = self.corners, np.roll(self.corners, -1, axis=0)
+        rise = end[:, 0] - start[:, 0]
+        slope = (end[:, 1] - start[:, 1]) / np.where(rise == 0.0, 1.0, rise)
+        at_once = max(1, COMPARED_AT_ONCE // len(start))
+        for begin in range(0, len(near), at_once):
+            some = near[begin : begin + at_once]
+            x, z = points[some, 0, None], points[some, 1, None]
+            spans = (start[:, 0] > x) != (end[:, 0] > x)
+            right = z < start[:, 1] + (x - start[:, 0]) * slope
+            inside[some] = (spans & right).sum(axis=1) % 2 == 1
+        return inside
+
+
+def closed_corners(primitives: Sequence[Primitive]) -> Floats | None:
+    """Return the corners of the chain that some primitives make, or None if it is open or no chain."""
+    links = [p for p in primitives if p.shape in (Shape.CAPSULE, Shape.ARC) and is_solid(p)]
+    if len(links) < 2 or links[-1].points[1] != links[0].points[0]:
+        return None
+    if any(one.points[1] != other.points[0] for one, other in pairwise(links)):
+        return None
+    corners: list[Point] = []
+    for link in links:
+        corners += arc_points(link)[:-1] if link.shape is Shape.ARC else link.points[:1]
+    return np.array(corners, dtype=np.float64) if len(corners) > 2 else None
+
+
+def level_mask(levels: Iterable[int]) -> int:
+    """Return levels as the bits of an integer."""
+    return sum(1 << level for level in set(levels) if 0 <= level <= MAX_LEVEL)
+
+
+class Pieces(NamedTuple):
+    """The convex pieces of some parts.
+
+    Attributes:
+        core: The core points [u], shape [piece, 3, 2].
+        radius: The radius around each core [u], shape [piece].
+        part: The index of the part that each piece belongs to, shape [piece].
+        levels: The levels of each piece as bits, shape [piece].
+        outer: The direction away from the centre of an arc, or zero, shape [piece, 2].
     """
 
     core: Floats
     radius: Floats
+    part: Indices
+    levels: Indices
+    outer: Floats
 
     @classmethod
-    def of(cls, outlines: list[Outline]) -> Shapes:
-        """Make the shapes of a list of outlines."""
-        core = np.array([points for points, _ in outlines], dtype=np.float64).reshape(-1, 3, 2)
-        return cls(core, np.array([radius for _, radius in outlines], dtype=np.float64))
+    def of(cls, bodies: Iterable[Iterable[Primitive]]) -> Pieces:
+        """Cut the primitives of some parts into pieces."""
+        return cls.of_pieces(
+            [
+                (piece, part, level_mask(primitive.levels))
+                for part, primitives in enumerate(bodies)
+                for primitive in primitives
+                for piece in pieces_of(primitive)
+            ]
+        )
+
+    @classmethod
+    def of_pieces(cls, found: Sequence[tuple[Piece, int, int]]) -> Pieces:
+        """Gather pieces, each with the index of its part and its levels as bits."""
+        return cls(
+            np.array([piece.core for piece, _, _ in found], dtype=np.float64).reshape(-1, 3, 2),
+            np.array([piece.radius for piece, _, _ in found], dtype=np.float64),
+            np.array([part for _, part, _ in found], dtype=np.int64),
+            np.array([levels for _, _, levels in found], dtype=np.int64),
+            np.array([piece.outer for piece, _, _ in found], dtype=np.float64).reshape(-1, 2),
+        )
+
+    def only(self, which: Bools | Indices) -> Pieces:
+        """Return some of the pieces."""
+        core, radius, part, levels, outer = self
+        return Pieces(core[which], radius[which], part[which], levels[which], outer[which])
+
+    def on_level(self, level: int) -> Pieces:
+        """Return the pieces that balls on a level meet."""
+        return self.only(self.levels >> level & 1 == 1)
+
+    def joined(self, other: Pieces) -> Pieces:
+        """Return these pieces followed by others."""
+        return Pieces(
+            np.concatenate([self.core, other.core]),
+            np.concatenate([self.radius, other.radius]),
+            np.concatenate([self.part, other.part]),
+            np.concatenate([self.levels, other.levels]),
+            np.concatenate([self.outer, other.outer]),
+        )
 
     def bounds(self) -> tuple[Floats, Floats]:
-        """Return a bounding circle of each shape: centres [shape, 2] and radii [shape], in [u]."""
+        """Return a bounding circle of each piece: centres [piece, 2] and radii [piece], in [u]."""
         center = 0.5 * (self.core.max(axis=1) + self.core.min(axis=1))
         spread = np.sqrt(((self.core - center[:, None, :]) ** 2).sum(axis=2).max(axis=1))
         return center, spread + self.radius
 
+    def boxes(self) -> tuple[Floats, Floats]:
+        """Return the least and the greatest coordinates of each piece [u], shape [piece, 2] each."""
+        margin = self.radius[:, None]
+        return self.core.min(axis=1) - margin, self.core.max(axis=1) + margin
 
-def paddle_cores(paddle: Paddle, angles: Floats) -> Floats:
-    """Return the corners of a paddle at many angles [deg], shape [angle, 3, 2], as `Paddle.corners` does."""
-    turn = np.radians(angles)
-    sine, cosine = np.sin(turn)[:, None], np.cos(turn)[:, None]
-    across, along = np.array(paddle.local_corners()).T
-    x = paddle.pivot[0] + (across * cosine + along * sine)
-    z = paddle.pivot[1] + paddle.direction * (along * cosine - across * sine)
-    corners = np.stack([x, z], axis=-1)
-    return corners if paddle.direction > 0.0 else corners[:, ::-1, :]
+
+def moving_reach(paddle: Primitive) -> float:
+    """Return the largest distance [u] of a point of a paddle from its pivot."""
+    return max(math.hypot(*point) + piece.radius for piece in pieces_of(paddle) for point in piece.core)
+
+
+def moving_pieces(paddle: Primitive, angles: Floats) -> tuple[Floats, Floats]:
+    """Return the pieces of a paddle at many angles.
+
+    Args:
+        paddle: A primitive with a mover; its points are relative to the pivot.
+        angles: Angles [rad], shape [angle].
+
+    Returns:
+        The cores [u], shape [angle, piece, 3, 2], and the radii [u], shape [piece].
+    """
+    assert paddle.mover is not None
+    pieces = pieces_of(paddle)
+    (pivot_x, pivot_z), direction = paddle.mover.pivot, paddle.mover.direction
+    sine, cosine = np.sin(angles)[:, None, None], np.cos(angles)[:, None, None]
+    across, along = np.moveaxis(np.array([piece.core for piece in pieces], dtype=np.float64), -1, 0)
+    x = pivot_x + (across * cosine + along * sine)
+    z = pivot_z + direction * (along * cosine - across * sine)
+    cores = np.stack([x, z], axis=-1)
+    if direction < 0.0:  # the mirror image of a triangle runs the other way round
+        cores = cores[:, :, ::-1, :]
+    return cores, np.array([piece.radius for piece in pieces], dtype=np.float64)
+
+
+def paddle_at(paddle: Primitive, angle: float) -> list[Piece]:
+    """Return the pieces of a paddle at one angle [rad]."""
+    assert paddle.mover is not None
+    (pivot_x, pivot_z), direction = paddle.mover.pivot, paddle.mover.direction
+    sine, cosine = math.sin(angle), math.cos(angle)
+    pieces = []
+    for piece in pieces_of(paddle):
+        a, b, c = (
+            (
+                pivot_x + (across * cosine + along * sine),
+                pivot_z + direction * (along * cosine - across * sine),
+            )
+            for across, along in piece.core
+        )
+        pieces.append(Piece((a, b, c) if direction > 0.0 else (c, b, a), piece.radius))
+    return pieces
 
 
 def offsets(points: Floats, core: Floats) -> Floats:
@@ -99,37 +327,65 @@ def core_distances(first: Floats, second: Floats) -> Floats:
     return np.where(_edges_cross(first, second), 0.0, ends)
 
 
-def near_pairs(shapes: Shapes, widest: float) -> tuple[Indices, Indices, Floats]:
-    """Find the pairs of shapes with less than a given gap [u] between them.
+def near_pairs(pieces: Pieces, widest: float, limit: int) -> tuple[Indices, Indices, Floats, bool]:
+    """Find the pairs of pieces of one level with less than a given gap [u] between them.
 
-    The pairs are measured in chunks: 700 shapes with large bounding circles make 250,000 pairs.
+    Args:
+        pieces: The pieces; those of one part make pairs too.
+        widest: The gap [u].
+        limit: The search ends after about this many pairs, to bound time and memory.
 
     Returns:
-        The first and the second shape of each pair [pair], and the gap [u] [pair].
+        The first and the second piece of each pair [pair], in order; the gap [u] [pair]; and whether these
+        are all pairs.
     """
-    center, bound = shapes.bounds()
-    apart = np.sqrt(((center[:, None] - center[None]) ** 2).sum(axis=-1)) - bound[:, None] - bound[None]
-    first, second = np.nonzero(np.triu(apart < widest, 1))
-    gap = np.empty(len(first))
-    for begin in range(0, len(first), CHUNK):
-        one, other = first[begin : begin + CHUNK], second[begin : begin + CHUNK]
-        between = core_distances(shapes.core[one], shapes.core[other])
-        gap[begin : begin + CHUNK] = between - (shapes.radius[one] + shapes.radius[other])
-    near = gap < widest
-    return first[near], second[near], gap[near]
+    low, high = pieces.boxes()
+    order = np.argsort(low[:, 0], kind="stable")
+    ends = np.searchsorted(low[order, 0], high[order, 0] + widest)
+    found: list[tuple[Indices, Indices, Floats]] = []
+    count = 0
+    at_once = max(1, COMPARED_AT_ONCE // max(1, len(order)))
+    for begin in range(0, len(order), at_once):
+        rows = slice(begin, begin + at_once)
+        one, others = order[rows], order[begin : int(ends[rows].max())]
+        meets = low[others, 1] - high[one, None, 1] < widest
+        meets &= low[one, None, 1] - high[others, 1] < widest
+        meets &= low[others, 0] - high[one, None, 0] < widest
+        meets &= pieces.levels[one, None] & pieces.levels[others] != 0
+        row, column = np.nonzero(np.triu(meets, 1))
+        pair = np.sort(np.stack([one[row], others[column]]), axis=0)
+        for part in range(0, pair.shape[1], CHUNK):
+            a, b = pair[:, part : part + CHUNK]
+            gap = core_distances(pieces.core[a], pieces.core[b]) - (pieces.radius[a] + pieces.radius[b])
+            near = gap < widest
+            found.append((a[near], b[near], gap[near]))
+            count += int(near.sum())
+            if count > limit:
+                return (*_in_order(found), False)
+    return (*_in_order(found), True)
 
 
-def clear_of(balls: Floats, ball_radius: float, shapes: Shapes, slack: float) -> Bools:
-    """Return whether balls overlap no shape by more than a slack [u], bool [ball]."""
-    center, bound = shapes.bounds()
+def _in_order(found: list[tuple[Indices, Indices, Floats]]) -> tuple[Indices, Indices, Floats]:
+    """Pairs sorted by the first and then by the second piece."""
+    if not found:
+        return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0)
+    first, second, gap = (np.concatenate(field) for field in zip(*found, strict=True))
+    order = np.lexsort((second, first))
+    return first[order], second[order], gap[order]
+
+
+def clear_of(balls: Floats, ball_radius: float, pieces: Pieces, slack: float) -> Bools:
+    """Return whether balls overlap no piece by more than a slack [u], bool [ball]."""
+    low, high = pieces.boxes()
+    low, high = low - ball_radius, high + ball_radius
     is_clear = np.ones(len(balls), dtype=bool)
-    for begin in range(0, len(balls), CHUNK):
-        some = balls[begin : begin + CHUNK]
-        reach = bound + ball_radius
-        away = ((some[:, None, 0] - center[:, 0]) ** 2) + ((some[:, None, 1] - center[:, 1]) ** 2)
-        ball, shape = np.nonzero(away < reach**2)
+    at_once = max(1, COMPARED_AT_ONCE // max(1, len(low)))
+    for begin in range(0, len(balls), at_once):
+        some = balls[begin : begin + at_once]
+        x, z = some[:, 0, None], some[:, 1, None]
+        ball, piece = np.nonzero((x > low[:, 0]) & (x < high[:, 0]) & (z > low[:, 1]) & (z < high[:, 1]))
         for few in np.array_split(np.arange(len(ball)), len(ball) // CHUNK + 1):
-            gap = distances(some[ball[few]], shapes.core[shape[few]]) - shapes.radius[shape[few]]
+            gap = distances(some[ball[few]], pieces.core[piece[few]]) - pieces.radius[piece[few]]
             is_clear[begin + ball[few][gap - ball_radius <= -slack]] = False
     return is_clear
 
@@ -151,7 +407,7 @@ def side_of(start: Floats, end: Floats, point: Floats) -> Floats:
 
 
 def outward_normals(core: Floats) -> Floats:
-    """Return the unit normals of the three edges, shape [shape, 3, 2]; zero for an edge without length.
+    """Return the unit normals of the three edges, shape [piece, 3, 2]; zero for an edge without length.
 
     A core of two points has its edge in both directions, so that both sides have a normal.
     """

@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from silverball.errors import Problem, TableError
-from silverball.table.check import Layout, check_layout
+from silverball.table.check import check_layout
 from silverball.table.geometry import Floats
 from silverball.table.kinds import Cylinder, TriangularPrism
+from silverball.table.layout import Layout
 from silverball.table.placement_rules import Surroundings, allowed_rotations, circle_distances
 from silverball.table.recipe import RandomRecipe
 
@@ -57,6 +58,7 @@ class _Prepared(NamedTuple):
     recipe: RandomRecipe
     around: Surroundings
     rotations: Floats
+    warnings: frozenset[Problem]  # of the recipe itself; a board must not add any
 
 
 def board_of(recipe: Table, seed: int, layouts: int = LAYOUTS, boards: int = BOARDS) -> Table:
@@ -76,7 +78,7 @@ def board_of(recipe: Table, seed: int, layouts: int = LAYOUTS, boards: int = BOA
     problems: list[Problem] = []
     for _ in range(boards):
         table = _finish(prepared, seed, _layout(prepared, stream, layouts))
-        problems = check_layout(Layout.of(table))
+        problems = [p for p in check_layout(Layout.of(table)) if p not in prepared.warnings]
         if not problems:
             return table
     raise TableError(prepared.table.name, [_no_board(problems[0], boards)])
@@ -90,7 +92,7 @@ def try_recipe(table: Table) -> list[Problem]:
     """
     if table.random is None:
         return []
-    for seed in range(TRIAL_SEEDS if len(table.stationary_parts) < MANY_PARTS else FEW_TRIAL_SEEDS):
+    for seed in range(TRIAL_SEEDS if len(table.parts()) < MANY_PARTS else FEW_TRIAL_SEEDS):
         try:
             board_of(table, seed, layouts=LAYOUTS // TRIAL_SHARE, boards=BOARDS // TRIAL_SHARE)
         except TableError as error:
@@ -102,8 +104,10 @@ def try_recipe(table: Table) -> list[Problem]:
 def _prepare(table: Table) -> _Prepared:
     """Prepare a recipe, once for all seeds."""
     assert table.random is not None
-    around = Surroundings.of(table.board, table.stationary_parts, table.paddle)
-    return _Prepared(table, table.random, around, np.array(allowed_rotations(table.random)))
+    layout = Layout.of(table)
+    warnings = frozenset(check_layout(layout._replace(random=None)))
+    rotations = np.array(allowed_rotations(table.random))
+    return _Prepared(table, table.random, Surroundings.of(layout), rotations, warnings)
 
 
 def _layout(prepared: _Prepared, stream: np.random.PCG64, layouts: int) -> list[_Placed]:

@@ -9,16 +9,28 @@ touches an obstacle and something else at once, and no obstacle makes a pocket. 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from silverball.errors import Problem
-from silverball.table.geometry import Floats, Shapes, border_gaps, distances
-from silverball.table.kinds import Board, Paddle, SlantWall, StationaryPart
+from silverball.physics.forms import Shape
+from silverball.table.geometry import (
+    Floats,
+    Pieces,
+    Polygon,
+    border_gaps,
+    distances,
+    is_solid,
+    moving_reach,
+)
+from silverball.table.layout import Layout
+from silverball.table.primitive import Primitive
 from silverball.table.reach import PASSAGE_MARGIN
-from silverball.table.recipe import RandomRecipe
+
+if TYPE_CHECKING:
+    from silverball.table.kinds import Board
+    from silverball.table.recipe import RandomRecipe
 
 EDGE_ANGLE = 10  # [deg] least angle between an edge of a placed prism and an axis
 _TRIALS = 48  # sample points along each side of the area
@@ -28,42 +40,63 @@ _TENTHS = 10
 
 
 class Surroundings(NamedTuple):
-    """The parts on the board before anything is placed.
+    """What is on the playfield before anything is placed.
 
     Attributes:
         board: The board, for its borders.
-        walls: The slant walls.
+        walls: Walls and everything else that is not an obstacle, and the area in which sensors and holes act.
+        polygons: The insides of closed walls.
         paddle_circles: A circle around the reach of each paddle: x, z, radius, [paddle, 3].
-        obstacle_circles: The bounding circles of the obstacles: x, z, radius, [obstacle, 3].
+        obstacle_circles: The bounding circles of the obstacles, single circles and triangles: x, z, radius,
+            [obstacle, 3].
     """
 
     board: Board
-    walls: Shapes
+    walls: Pieces
+    polygons: list[Polygon]
     paddle_circles: Floats
     obstacle_circles: Floats
 
     @classmethod
-    def of(
-        cls,
-        board: Board,
-        parts: Sequence[StationaryPart],
-        paddles: Sequence[Paddle],
-    ) -> Surroundings:
-        """Return the surroundings made of some parts and paddles."""
-        walls = Shapes.of([part.outline() for part in parts if isinstance(part, SlantWall)])
-        others = Shapes.of([part.outline() for part in parts if not isinstance(part, SlantWall)])
-        center, radius = others.bounds()
+    def of(cls, layout: Layout) -> Surroundings:
+        """Return the surroundings that a layout makes."""
+        board = layout.board
+        obstacles, others = [], []
+        for part in layout.parts:
+            primitives = [p for p in part.primitives if p.shape is not Shape.PLANE and 0 in p.levels]
+            is_obstacle = len(primitives) == 1 and is_solid(primitives[0])
+            if is_obstacle and primitives[0].shape in (Shape.CIRCLE, Shape.TRIANGLE):
+                obstacles.append(primitives)
+            else:
+                exits = [p.hold.exit for p in primitives if p.hold is not None and p.hold.exit_level == 0]
+                arriving = [Primitive(Shape.DISC, (point,), board.ball_radius) for point in exits]
+                others.append([*primitives, *arriving])
+        center, radius = Pieces.of(obstacles).bounds()
         circles = np.concatenate([center, radius[:, None]], axis=1)
-        turning = [(*paddle.pivot, paddle.reach) for paddle in paddles]
-        return cls(board, walls, np.array(turning, dtype=np.float64).reshape(-1, 3), circles)
+        paddles = [paddle for _, paddle in layout.moving() if paddle.mover is not None and 0 in paddle.levels]
+        turning = [(*paddle.mover.pivot, moving_reach(paddle)) for paddle in paddles if paddle.mover]
+        polygons = [polygon for polygon in layout.polygons() if polygon.levels & 1]
+        return cls(
+            board,
+            Pieces.of(others),
+            polygons,
+            np.array(turning, dtype=np.float64).reshape(-1, 3),
+            circles,
+        )
 
     def wall_distances(self, points: Floats) -> Floats:
-        """Return the distances [u] of points [..., 2] to the nearest wall or paddle circle, shape [...]."""
+        """Return the distances [u] of points [..., 2] to the nearest wall or paddle circle, shape [...].
+
+        Inside a closed wall they are negative.
+        """
         nearest = border_gaps(points, self.board).min(axis=-1)
         nearest = np.minimum(nearest, points[..., 0] - self.board.gutter)
         if len(self.walls.radius):
             to_walls = distances(points[..., None, :], self.walls.core) - self.walls.radius
             nearest = np.minimum(nearest, to_walls.min(axis=-1))
+        for polygon in self.polygons:
+            inside = polygon.contains(points.reshape(-1, 2)).reshape(points.shape[:-1])
+            nearest = np.where(inside, -math.inf, nearest)
         return np.asarray(np.minimum(nearest, circle_distances(points, self.paddle_circles)))
 
 
@@ -86,13 +119,10 @@ def allowed_rotations(recipe: RandomRecipe) -> list[float]:
     return [tenth / _TENTHS for tenth in tenths if least <= tenth % period <= period - least]
 
 
-def recipe_problems(
-    board: Board,
-    parts: Sequence[StationaryPart],
-    paddles: Sequence[Paddle],
-    recipe: RandomRecipe,
-) -> list[Problem]:
+def recipe_problems(layout: Layout) -> list[Problem]:
     """Find the rules of a recipe that no layout can meet."""
+    board, recipe = layout.board, layout.random
+    assert recipe is not None
     problems = []
     least = (2.0 + PASSAGE_MARGIN) * board.ball_radius
     for key in ("gap", "wall_gap"):
@@ -117,7 +147,7 @@ def recipe_problems(
     sizes += [recipe.cylinder_radius[0]] * (recipe.cylinders > 0)
     if not sizes:
         return problems
-    around = Surroundings.of(board, parts, paddles)
+    around = Surroundings.of(layout)
     x, z = np.linspace(low_x, high_x, _TRIALS), np.linspace(low_z, high_z, _TRIALS)
     rows = (np.stack([np.full_like(z, height), z], axis=-1) for height in x)  # to bound the memory
     widest = max(float(around.wall_distances(row).max()) for row in rows)

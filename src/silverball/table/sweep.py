@@ -12,40 +12,59 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from silverball.table.geometry import Floats, border_gaps, core_distances, distances, paddle_cores
-from silverball.table.kinds import Board, Paddle
-from silverball.table.model import Triangle
+from silverball.table.geometry import (
+    Floats,
+    Indices,
+    Pieces,
+    Triangle,
+    border_gaps,
+    core_distances,
+    distances,
+    level_mask,
+    moving_pieces,
+    moving_reach,
+)
+from silverball.table.primitive import Mover, Primitive
+
+if TYPE_CHECKING:
+    from silverball.table.kinds import Board
 
 CLEARANCE = 0.02  # [u] least gap to a turning paddle; chosen: far above rounding, far below a ball
 MIN_MOTION = 1e-4  # [u] least motion that is still bisected
-CACHED = 256  # cached results; the boards of a recipe share their stationary parts
-SPLITS = 40  # halvings at most; from 170° and a reach of 10 u, twenty are enough
+CACHED = 4096  # cached results; the boards of a recipe share the parts of the recipe
+SPLITS = 40  # halvings at most; from 240° and a reach of 10 u, twenty-one are enough
 
 
-def sweep_angles(paddle: Paddle) -> tuple[float, float]:
-    """Return the angles [deg] between which a paddle turns."""
-    return paddle.rest_angle, paddle.up_angle
+def near_paddle(paddle: Primitive, pieces: Pieces) -> Indices:
+    """Return the indices of the pieces that a paddle could touch, by its reach and its levels."""
+    away = distances(np.array(_mover(paddle).pivot), pieces.core) - pieces.radius
+    meets = pieces.levels & level_mask(paddle.levels) != 0
+    return np.nonzero(meets & (away <= moving_reach(paddle) + CLEARANCE))[0]
 
 
 @functools.lru_cache(maxsize=CACHED)
-def touches_shape(paddle: Paddle, core: Triangle, radius: float) -> float | None:
-    """Return an angle [deg] at which a paddle is too close to a stationary part, or None."""
+def touches_piece(paddle: Primitive, core: Triangle, radius: float) -> float | None:
+    """Return an angle [deg] at which a paddle is too close to a piece of a part, or None."""
     other = np.array(core)
-    if float(distances(np.array(paddle.pivot), other)) - radius > paddle.reach + CLEARANCE:
-        return None
-    return _nearest_below(paddle, lambda cores: core_distances(cores, other[None]) - radius)
+
+    def gap(cores: Floats, radii: Floats) -> Floats:
+        nearest: Floats = (core_distances(cores, other) - radii - radius).min(axis=-1)
+        return nearest
+
+    return _nearest_below(paddle, gap)
 
 
 @functools.lru_cache(maxsize=CACHED)
-def touches_border(paddle: Paddle, board: Board) -> tuple[float, int] | None:
+def touches_border(paddle: Primitive, board: Board) -> tuple[float, int] | None:
     """Return an angle [deg] at which a paddle is too close to a border, and the border; or None."""
     for border in range(3):
 
-        def gap(cores: Floats, border: int = border) -> Floats:
-            nearest: Floats = border_gaps(cores, board)[..., border].min(axis=-1)
+        def gap(cores: Floats, radii: Floats, border: int = border) -> Floats:
+            nearest: Floats = (border_gaps(cores, board)[..., border].min(axis=-1) - radii).min(axis=-1)
             return nearest
 
         angle = _nearest_below(paddle, gap)
@@ -55,20 +74,26 @@ def touches_border(paddle: Paddle, board: Board) -> tuple[float, int] | None:
 
 
 @functools.lru_cache(maxsize=CACHED)
-def touches_paddle(first: Paddle, second: Paddle) -> tuple[float, float] | None:
+def touches_paddle(first: Primitive, second: Primitive) -> tuple[float, float] | None:
     """Return the angles [deg] of two paddles at which they are too close to each other, or None."""
-    if math.dist(first.pivot, second.pivot) > first.reach + second.reach + CLEARANCE:
+    one, other = _mover(first), _mover(second)
+    reach = np.array([moving_reach(first), moving_reach(second)])
+    if not level_mask(first.levels) & level_mask(second.levels):
         return None
-    low = np.array([[first.rest_angle, second.rest_angle]])
-    high = np.array([[first.up_angle, second.up_angle]])
-    reach = np.array([first.reach, second.reach])
+    if math.dist(one.pivot, other.pivot) > reach.sum() + CLEARANCE:
+        return None
+    low = np.array([[one.rest_angle, other.rest_angle]])
+    high = np.array([[one.up_angle, other.up_angle]])
     for _ in range(2 * SPLITS):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        gap = core_distances(paddle_cores(first, middle[:, 0]), paddle_cores(second, middle[:, 1]))
+        cores, radii = moving_pieces(first, middle[:, 0])
+        other_cores, other_radii = moving_pieces(second, middle[:, 1])
+        between = core_distances(cores[:, :, None], other_cores[:, None]) - radii[:, None] - other_radii
+        gap = between.min(axis=(1, 2))
         if (gap < CLEARANCE).any():
             worst = int(np.argmin(gap))
-            return float(middle[worst, 0]), float(middle[worst, 1])
-        motion = np.radians(half) * reach
+            return math.degrees(middle[worst, 0]), math.degrees(middle[worst, 1])
+        motion = half * reach
         open_ = (gap - motion.sum(axis=1) < CLEARANCE) & (motion.sum(axis=1) > MIN_MOTION)
         if not open_.any():
             return None
@@ -81,16 +106,22 @@ def touches_paddle(first: Paddle, second: Paddle) -> tuple[float, float] | None:
     return None
 
 
-def _nearest_below(paddle: Paddle, gap_at: Callable[[Floats], Floats]) -> float | None:
+def _mover(paddle: Primitive) -> Mover:
+    assert paddle.mover is not None
+    return paddle.mover
+
+
+def _nearest_below(paddle: Primitive, gap_at: Callable[[Floats, Floats], Floats]) -> float | None:
     """An angle [deg] at which the gap is below the clearance, near the smallest gap; or None."""
-    edges = np.linspace(*sweep_angles(paddle), 17)
+    reach = moving_reach(paddle)
+    edges = np.linspace(_mover(paddle).rest_angle, _mover(paddle).up_angle, 17)
     low, high = edges[:-1], edges[1:]
     for _ in range(SPLITS):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        gap = gap_at(paddle_cores(paddle, middle))
+        gap = gap_at(*moving_pieces(paddle, middle))
         if (gap < CLEARANCE).any():
-            return float(middle[np.argmin(gap)])
-        motion = np.radians(half) * paddle.reach
+            return math.degrees(middle[np.argmin(gap)])
+        motion = half * reach
         open_ = (gap - motion < CLEARANCE) & (motion > MIN_MOTION)
         if not open_.any():
             return None

@@ -7,7 +7,7 @@ validates the fields only, so that unusual boards are possible; `check_table` li
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -15,9 +15,10 @@ from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_v
 
 from silverball.errors import Problem, TableError
 from silverball.table.arcade import Arcade
-from silverball.table.check import Layout, check_layout
+from silverball.table.check import check_layout
 from silverball.table.explain import explain, path_of
 from silverball.table.kinds import (
+    LEVELS,
     Board,
     Cylinder,
     DropTarget,
@@ -38,6 +39,7 @@ from silverball.table.kinds import (
     TriangularPrism,
     Wall,
 )
+from silverball.table.layout import Layout
 from silverball.table.model import SINCE_2, Model, Name, is_since_2, list_sections, places_of_format_2
 from silverball.table.placement import try_recipe
 from silverball.table.quantity import refuse, shown
@@ -234,21 +236,22 @@ def check_table(table: Table) -> list[Problem]:
     """Find every problem of a table.
 
     Returns:
-        The problems, each with its path in the file and a sentence; an empty list for a table that can be
-        played. Tables of `load_table`, `generate_table` and `Table.replace` have none.
+        The problems, each with its path in the file, a sentence and a severity. Tables of `load_table`,
+        `generate_table` and `Table.replace` have no errors, but perhaps warnings: parts that overlap, gaps
+        that a ball barely fits, places where a ball would lie forever.
 
     Examples:
         >>> import silverball as sb
         >>> sb.check_table(sb.load_table("classic"))
         []
         >>> outside = sb.parts.Cylinder(center=(20.0, 0.0), radius=0.5)
-        >>> [problem.path for problem in sb.check_table(sb.Table(cylinder=(outside,)))]
-        ['cylinder[0].center']
+        >>> [(p.path, p.severity) for p in sb.check_table(sb.Table(cylinder=(outside,)))]
+        [('cylinder[0].center', 'error')]
     """
     parts = [(path, part) for path, _, part in table.parts()]
-    problems = check_layout(Layout.of(table)) + _count_problems(table.board, parts)
+    problems = _count_problems(table.board, parts) or check_layout(Layout.of(table))
     problems += _format_problems(table) if table.format == 1 else _name_problems(parts)
-    return problems or try_recipe(table)
+    return problems if _has_error(problems) else problems + try_recipe(table)
 
 
 def checked_table(
@@ -263,16 +266,28 @@ def checked_table(
         may_upgrade: Whether keys of format 2 are allowed without `format = 2`.
 
     Raises:
-        TableError: The data have problems; all of them are in `problems`.
+        TableError: The data have errors; all of them are in `problems`. Warnings are not.
     """
+    table, problems = examine(data, folder, may_upgrade=may_upgrade)
+    if table is None:
+        raise TableError(source, [problem for problem in problems if problem.is_error])
+    return table
+
+
+def examine(
+    data: Mapping[str, Any], folder: Path | None = None, *, may_upgrade: bool = False
+) -> tuple[Table | None, list[Problem]]:
+    """Return the table that the data of a table file make, or None if they have errors; and all problems."""
     table: Table | None = None
     board: Board | None = None
     recipe: RandomRecipe | None = None
     parts: list[tuple[str, Part]] = []
+    levels: Iterable[int] = range(LEVELS)  # whether a part is on one of them is known for valid data only
     problems: list[Problem] = []
     try:
         table = Table.model_validate(data)
         board, recipe, parts = table.board, table.random, [(path, part) for path, _, part in table.parts()]
+        levels = [level.number for level in table.level]
     except ValidationError as error:
         problems += explain(error, Table)
         board = _valid_board(data, error)
@@ -287,15 +302,19 @@ def checked_table(
         parts, footprint_problems = _with_footprints(parts, folder or Path())
         problems += footprint_problems
         too_many = _count_problems(board, parts)
-        problems += too_many or check_layout(Layout.of_parts(board, parts, recipe))
-    if problems or table is None:
-        raise TableError(source, problems)
+        problems += too_many or check_layout(
+            Layout.of_parts(board, parts, recipe, levels, 1 if is_first else 2)
+        )
+    if table is None or _has_error(problems):
+        return None, problems
     if table.has_mesh:
         table = table._with_parts(dict(parts))
-    problems = try_recipe(table)
-    if problems:
-        raise TableError(source, problems)
-    return table
+    recipe_problems = try_recipe(table)
+    return (None if recipe_problems else table), problems + recipe_problems
+
+
+def _has_error(problems: list[Problem]) -> bool:
+    return any(problem.is_error for problem in problems)
 
 
 def _needs_format_2(table: Table) -> bool:

@@ -24,9 +24,10 @@ from silverball.table import (
     generate_table,
     parse_table,
 )
-from silverball.table.geometry import Shapes, core_distances, distances, paddle_cores
-from silverball.table.reach import space
-from silverball.table.traps import pockets
+from silverball.table.geometry import core_distances, distances, moving_pieces
+from silverball.table.layout import Layout
+from silverball.table.reach import resting_pieces, space
+from silverball.table.traps import Terrain, pockets
 
 EMPTY = RANDOM.model_copy(update={"random": None})  # guides, corners and paddles
 
@@ -129,7 +130,8 @@ def test_a_gap_that_a_ball_only_just_fits_is_reported_and_a_closed_or_a_wide_one
 def test_a_paddle_as_fast_as_the_cap_is_refused_with_a_stroke_that_works():
     fast = EMPTY.paddle[0].model_copy(update={"stroke": 0.06})
     table = EMPTY.model_copy(update={"paddle": (fast, EMPTY.paddle[1])})
-    ((path, message),) = check_table(table)
+    ((path, message, severity),) = check_table(table)
+    assert severity == "error"
     assert path == "paddle[0].stroke"
     assert f"{math.radians(55) / 0.06 * 2.1:.1f} u/s" in message
     assert "22 u/s" in message
@@ -144,7 +146,7 @@ def test_a_paddle_as_fast_as_the_cap_is_refused_with_a_stroke_that_works():
 
 def test_the_way_back_is_a_stroke_too():
     fast = EMPTY.paddle[1].model_copy(update={"return_stroke": 0.05})
-    ((path, _),) = check_table(EMPTY.model_copy(update={"paddle": (EMPTY.paddle[0], fast)}))
+    ((path, *_),) = check_table(EMPTY.model_copy(update={"paddle": (EMPTY.paddle[0], fast)}))
     assert path == "paddle[1].return_stroke"
 
 
@@ -321,11 +323,10 @@ def random_clutter(seed):
 
 
 def exact_pockets(table):
-    stationary = [part.outline() for part in (*table.slant_wall, *table.triangular_prism, *table.cylinder)]
-    resting = [(paddle.corners(paddle.rest_angle), 0.0) for paddle in table.paddle]
-    shapes = Shapes.of(stationary + resting)
-    where = space(table.board, table.paddle, stationary)
-    return where, pockets(shapes, table.board, where)
+    layout = Layout.of(table)
+    where = space(layout)
+    pieces = layout.solids().joined(resting_pieces(layout))
+    return where, pockets(Terrain(pieces, [], table.board, where))
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -333,9 +334,10 @@ def test_pockets_are_those_that_a_ball_going_only_down_and_sideways_cannot_leave
     """Against a flood of the samples that climbs from the gutter: what it misses, no ball leaves."""
     table = random_clutter(seed)
     where, found = exact_pockets(table)
-    drains = np.zeros_like(where.reached)
-    row = where.reached[0].copy()
-    for index, free in enumerate(where.reached):
+    reached = where.reached[0]
+    drains = np.zeros_like(reached)
+    row = reached[0].copy()
+    for index, free in enumerate(reached):
         row = free & (row if index == 0 else row | np.roll(row, 1) | np.roll(row, -1))
         for _ in range(len(row)):  # along the row, both ways
             wider = free & (row | np.roll(row, 1) | np.roll(row, -1))
@@ -344,7 +346,7 @@ def test_pockets_are_those_that_a_ball_going_only_down_and_sideways_cannot_leave
             row = wider
         drains[index] = row
     step = where.grid.step
-    trapped = np.argwhere(where.reached & ~drains)
+    trapped = np.argwhere(reached & ~drains)
     centers = np.stack([where.grid.x[trapped[:, 0]], where.grid.z[trapped[:, 1]]], axis=1)
     deep = [center for center in centers if _is_lowest(center, centers, step)]
     for center in deep:  # the lowest sample of each trapped region lies just above an exact pocket
@@ -423,8 +425,8 @@ def test_the_vectorised_paddle_is_the_paddle():
     for side in ("left", "right"):
         paddle = Paddle(side=side, pivot=(-7.2, -2.5), base=0.7)
         angles = np.linspace(-80.0, 80.0, 33)
-        cores = paddle_cores(paddle, angles)
-        for angle, core in zip(angles, cores, strict=True):
+        cores, _ = moving_pieces(paddle.primitives(Board())[0], np.radians(angles))
+        for angle, core in zip(angles, cores[:, 0], strict=True):
             assert core == pytest.approx(np.array(paddle.corners(angle)), abs=1e-14)
 
 
