@@ -14,7 +14,9 @@ import silverball as sb
 from silverball.errors import TableError
 from silverball.physics.forms import Response, Shape
 from silverball.table import Table, dump_table, expand, parse_table, table_digest
+from silverball.table.geometry import pieces_of
 from silverball.table.kinds import Level, Part
+from silverball.table.layout import Layout
 from silverball.table.model import is_since_2
 from silverball.table.primitive import Finish, Primitive
 from silverball.table.table import PART_KINDS
@@ -138,6 +140,17 @@ def compiled(table: Table, kind: str) -> None:
         assert part.name in numbers
 
 
+def checked(table: Table, kind: str) -> None:
+    """Every solid primitive has pieces to check, and every problem of the part names a place in it."""
+    layout = Layout.of(table)
+    for part in (*layout.parts, *layout.paddles):
+        assert all(pieces_of(primitive) for primitive in part.primitives), part.path
+        assert part.place.startswith(part.path)
+    for problem in sb.check_table(table):
+        section = problem.path.partition("[")[0].partition(".")[0]
+        assert section in (*PART_KINDS, "board", ""), problem
+
+
 def documented(table: Table, kind: str) -> None:
     """The reference page has a section for the kind, with every key."""
     spec = importlib.util.spec_from_file_location("make_reference", DOCS / "make_reference.py")
@@ -200,6 +213,7 @@ READERS: dict[str, Callable[[Table, str], None]] = {
     "compile": compiled,
     "points, buttons and help of a game": scored,
     "sounds": heard,
+    "check": checked,
     "reference page": documented,
     "public names": public,
 }
