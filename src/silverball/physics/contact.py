@@ -90,7 +90,7 @@ def next_crossing(geometry: BoardGeometry, ball: BallRecord, off: int, start: fl
         if is_culled(c, state, speed, travel, sagitta):
             continue
         is_past_start = grid[entry] <= ball.passed_row and start == ball.passed_age
-        if c.shape == Shape.LINE:
+        if c.form == Shape.LINE:
             at, direction = line_crossing(c, ball, start, is_past_start, time)
             is_crossed = direction != 0
         else:

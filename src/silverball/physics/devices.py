@@ -69,7 +69,7 @@ def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int
     speed = at.vx * c.inward_x + at.vz * c.inward_z
     is_to_left = speed > 0.0
     side = 1.0 if is_to_left else -1.0
-    if c.device == Device.HOLE or c.device == Device.DRAIN or c.device == Device.PLUNGER:
+    if c.device in (Device.HOLE, Device.DRAIN, Device.PLUNGER):
         _enter_hole(lane, geometry, ball, row, time, tick)
         return
     if c.device == Device.PASSAGE:
@@ -110,7 +110,7 @@ def _has_room(
     reach = 2.0 * board.ball_radius + FREE_GAP
     for slot in range(board.max_balls):
         other = world.ball[slot]
-        if other.id != 0 and other.id != ball.id and other.level == level:
+        if other.id not in (0, ball.id) and other.level == level:
             at = state_at(other, other.age + time)
             if (at.x - x) * (at.x - x) + (at.z - z) * (at.z - z) < reach * reach:
                 return False
@@ -188,7 +188,7 @@ def _drive_spinner(
     time: float,
     tick: float,
 ) -> None:
-    """Set the speed of a spinner's blade by a ball that crosses it with this speed along its normal [u/s]."""
+    """Set the speed of a spinner's blade by a ball that crosses it with this normal speed [u/s]."""
     spinner = world.spinner[c.number]
     elapsed = (world.tick - spinner.tick) * tick + (time - spinner.offset)
     spinner.angle = blade_angle(spinner.angle, spinner.speed, c.damping, max(elapsed, 0.0), spinner.turns)
@@ -424,9 +424,9 @@ def validate_devices(world: WorldRecord, geometry: BoardGeometry, tick: float) -
     world.launch_held = min(max(world.launch_held, 0), world.tick) if board.plungers != 0 else 0
     for number in range(board.banks):
         mask = board.bank_switches[number]
-        if world.banks_due >> number & 1 != 0:
-            if world.off & mask != mask or not 0.0 <= world.bank_offset[number] <= tick:
-                world.banks_due &= ~(1 << number)
+        is_possible = world.off & mask == mask and 0.0 <= world.bank_offset[number] <= tick
+        if not is_possible:
+            world.banks_due &= ~(1 << number)
         if world.off & mask == mask and world.banks_due >> number & 1 == 0:
             world.banks_due |= 1 << number
             due, offset = later(world.tick, board.bank_time[number], tick)
@@ -459,7 +459,7 @@ def is_possible_capture(ball: BallRecord, board: BoardRecord, colliders: Collide
         return False
     c = colliders[board.collider_first + ball.holder]
     return bool(
-        (c.device == Device.HOLE or c.device == Device.PLUNGER)
+        c.device in (Device.HOLE, Device.PLUNGER)
         and ball.x == c.x
         and ball.z == c.z
         and ball.start_x == c.x
