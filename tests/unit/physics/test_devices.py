@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from boards import PADDLES
-from silverball.errors import NoRoom
 from silverball.physics import records
 from silverball.physics.records import NO_CLOCK
 from silverball.table import Board, Table
@@ -278,10 +277,8 @@ def everything() -> Table:
 def play(world: World, tick: int, rng: np.random.Generator) -> None:
     """One tick of random play."""
     if tick % 20 == 0 and len(world.balls) < 5:
-        try:
+        with contextlib.suppress(Exception):
             world.create_ball()
-        except Exception:
-            pass
     if tick % 97 == 0:
         world.open_gate("door", tick % 2 == 0)
     left, right, jitter, launch = (rng.random(4) < (0.3, 0.3, 0.02, 0.8)).tolist()
