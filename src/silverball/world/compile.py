@@ -153,7 +153,7 @@ def compile_parts(table: Table) -> NDArray[Any]:
         if primitive.bank is not None or primitive.is_gate:
             row["switch"] = 1 << switches
             switches += 1
-        row["device"] = device = _device(primitive)
+        row["role"] = device = _device(primitive)
         if primitive.bank is not None:
             row["number"] = banks.index(primitive.bank)
         elif device == Device.SPINNER:
@@ -233,9 +233,9 @@ def _set_devices(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:
     """Set what the devices of a board are, and where."""
     row["sensors"] = np.count_nonzero(rows["response"] != Response.BOUNCE)
     row["switches"] = int(np.bitwise_or.reduce(rows["switch"]))
-    plungers = np.flatnonzero(rows["device"] == Device.PLUNGER)
+    plungers = np.flatnonzero(rows["role"] == Device.PLUNGER)
     row["plungers"], row["plunger_row"] = len(plungers), plungers[0] if len(plungers) else 0
-    spinners = np.flatnonzero(rows["device"] == Device.SPINNER)
+    spinners = np.flatnonzero(rows["role"] == Device.SPINNER)
     row["spinners"], row["spinner_row"][: len(spinners)] = len(spinners), spinners
     row["banks"] = len(_banks(expansion))
     for collider, (_, primitive) in zip(rows, expansion.rows, strict=True):
