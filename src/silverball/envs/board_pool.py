@@ -148,7 +148,7 @@ def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     items["switches"] = int(boards.board["switches"].max())
     items["spinners"] = int(boards.board["spinners"].max())
     items["plunger"] = int(boards.board["plungers"].max() > 0)
-    if np.isin(boards.collider["device"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
+    if np.isin(boards.collider["role"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
         items["ball_places"] = items["balls"]
     for group, kind in SHOWN_KINDS.items():
         items[group] = max(len(getattr(table, kind)) for table in tables)

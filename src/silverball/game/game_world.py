@@ -52,7 +52,7 @@ class GameWorld:
         mask = self._gate_masks.get(part)
         if mask is None:
             rows = self.world.records[2]
-            is_gate = (rows["part"] == list(self.world.hits).index(part)) & (rows["device"] == Device.GATE)
+            is_gate = (rows["part"] == list(self.world.hits).index(part)) & (rows["role"] == Device.GATE)
             mask = self._gate_masks[part] = int(np.bitwise_or.reduce(rows["switch"][is_gate]))
         return int(self._record["off"]) & mask == mask
 
