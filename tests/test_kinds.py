@@ -190,9 +190,9 @@ def scored(table: Table, kind: str) -> None:
 def heard(table: Table, kind: str) -> None:
     """Every part has the sound of a hit, and of every event that it can cause."""
     from silverball.app.sound.bank import RECIPES
-    from silverball.app.sound.finishes import MECHANISMS, event_sound, part_sounds
+    from silverball.app.sound.part_sounds import MECHANISMS, event_sound, sounds_of_parts
 
-    sounds = part_sounds(table)
+    sounds = sounds_of_parts(table)
     assert sounds.keys() == set(expand(table).names)
     causes = {Response.PASS: ("pass", "spin"), Response.HOLD: ("captured", "released"), Response.BOUNCE: ()}
     for row in expand(table).rows:
