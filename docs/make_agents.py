@@ -48,7 +48,7 @@ def card(id_: str) -> str:
     sample = PinballEnv(**{**given, "boards": 1})
     texts = (
         f"{DESCRIPTIONS[id_]} {GOAL}",
-        _actions(options, sample),
+        _actions(sample),
         _observations(options, sample),
         _rewards(),
         _start(options),
@@ -68,18 +68,21 @@ def slot_table(layout: tuple[Field, ...]) -> str:
     for field in layout:
         width = len(field.group.slots)
         for slot, (least, meaning) in zip(field.group.slots, field.group.means, strict=True):
-            columns = ", ".join(str(field.first + slot + item * width) for item in range(max(1, field.items)))
+            columns = ", ".join(str(field.first + slot + item * width) for item in range(field.items)) or "–"
             name = f"`{slot.name.lower()}`"
             rows.append(f"| `{field.group.name}` | {columns} | {name} | {least:g} … 1 | {meaning} |")
     return "\n".join(rows)
 
 
-def _actions(options: Options, sample: PinballEnv) -> str:
-    names = [name.lower().replace("+", " and ").replace("noop", "nothing") for name in options.meanings]
+def _actions(sample: PinballEnv) -> str:
+    names = [
+        name.lower().replace("+", " and ").replace("noop", "nothing") for name in sample.get_action_meanings()
+    ]
     listed = ", ".join(f"{number}: {name}" for number, name in enumerate(names))
     return (
         f"`{sample.action_space}`: the buttons that are held during the step, as bits ({listed}). Further "
-        f'buttons take the next bits: {BUTTONS[2]} with `jitter=True`, {BUTTONS[3]} with `create="button"`. '
+        f'buttons take the next bits: {BUTTONS[2]} with `jitter=True`, {BUTTONS[3]} with `create="button"`, '
+        f"{BUTTONS[4]} on a table with a plunger. "
         'With `actions="multibinary"` an action has one bit for each button.'
     )
 

@@ -174,15 +174,95 @@ def public(table: Table, kind: str) -> None:
     assert model.__name__ in sb.parts.__all__
 
 
+def scored(table: Table, kind: str) -> None:
+    """A game knows the points, the buttons and the plungers; the help names every kind that gives points."""
+    from silverball.app.scoring import how_to_score
+    from silverball.game.mechanisms import paddle_buttons, plungers, points_by_part
+
+    parts = [part for part in expand(table).parts if part.path != "board"]
+    assert points_by_part(table) == {part.name: part.points for part in parts}
+    assert bool(plungers(table)) == (kind == "plunger")
+    assert paddle_buttons(table) == ({"left", "right"} if kind == "paddle" else set())
+    hits = how_to_score(table, sb.Mode.FREE)[0].text.lower()
+    assert (kind.replace("_", " ") in hits) == any(part.points for part in parts if part.kind == kind)
+
+
+def heard(table: Table, kind: str) -> None:
+    """Every part has the sound of a hit, and of every event that it can cause."""
+    from silverball.app.sound.bank import RECIPES
+    from silverball.app.sound.part_sounds import MECHANISMS, event_sound, sounds_of_parts
+
+    sounds = sounds_of_parts(table)
+    assert sounds.keys() == set(expand(table).names)
+    causes = {Response.PASS: ("pass", "spin"), Response.HOLD: ("captured", "released"), Response.BOUNCE: ()}
+    for row in expand(table).rows:
+        part = sounds[expand(table).names[row.part]]
+        assert part.blow.name in RECIPES
+        for event in causes[row.primitive.response]:
+            sound = event_sound(event, part.finish)
+            assert sound is not None
+            assert sound.name in RECIPES
+            assert event == "spin" or part.finish in MECHANISMS[event]
+
+
+def drawn(table: Table, kind: str) -> None:
+    """Each part is seen in the baked picture, in the sketch and in the pictures for agents."""
+    import numpy as np
+
+    from silverball.drawing import Moment, Renderer
+    from silverball.drawing.layout import Layout
+    from silverball.drawing.sketch import SketchPainter
+    from silverball.envs.board_pool import make_pool
+    from silverball.envs.sprites import make_pictures
+
+    layout, bare = Layout.of(table), Table(name=kind)
+    if not layout.rows:
+        assert kind == "level"
+        return
+    size = (150, 240)
+    renderers = [Renderer(one, size) for one in (table, bare)]
+    pictures = [renderer.array(Moment.before(renderer.table)).astype(int) for renderer in renderers]
+    sketches = []
+    for renderer in renderers:
+        painter = SketchPainter(renderer.table, renderer.camera, renderer.theme)
+        surface = painter.compose(Moment.before(renderer.table), renderer.effects)
+        sketches.append(np.frombuffer(surface.get_buffer().raw, np.uint8).reshape(240, 150, 3).astype(int))
+    camera = renderers[0].camera
+    for _, primitive in layout.rows:
+        x, z = np.mean(primitive.points, axis=0)
+        if primitive.mover is not None:
+            x, z = primitive.mover.pivot
+        left, top, right, bottom = camera.box(x - 0.6, x + 0.6, z - 0.6, z + 0.6, 0.0, 1.0)
+        for one, other in (pictures, sketches):
+            assert np.abs(one - other)[top:bottom, left:right].max() > 20, primitive
+    small = [make_pictures(make_pool(one, 1, 0), (84, 84), True) for one in (table, bare)]
+    seen = small[0].backgrounds[0] != small[1].backgrounds[0]
+    assert seen.any() or len(small[0].paddles) > 1 or len(small[0].pieces)
+
+
+def coloured(table: Table, kind: str) -> None:
+    """Each finish has a look in the picture and a colour in the pictures for agents."""
+    from silverball.drawing.finishes import LOOKS
+    from silverball.envs.sprites import COLORS
+
+    for row in expand(table).rows:
+        assert row.primitive.finish in LOOKS
+        assert row.primitive.finish in COLORS
+
+
 READERS: dict[str, Callable[[Table, str], None]] = {
     "parse, write and hash": parsed,
     "the format that is required": format_required,
     "expand": numbered,
     "primitives": made_of_known_primitives,
     "compile": compiled,
+    "points, buttons and help of a game": scored,
+    "sounds": heard,
     "check": checked,
     "reference page": documented,
     "public names": public,
+    "pictures": drawn,
+    "finishes": coloured,
 }
 """What reads a table; a new reader needs a line here."""
 

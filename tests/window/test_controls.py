@@ -34,7 +34,10 @@ def test_every_default_key_and_button_is_one_that_pygame_names():
             thing, number, *way = name.split()
             assert int(number) >= 1
             assert (
-                way in {"button": [[]], "hat": [["left"], ["right"], ["up"]], "axis": [["-"], ["+"]]}[thing]
+                way
+                in {"button": [[]], "hat": [["left"], ["right"], ["up"], ["down"]], "axis": [["-"], ["+"]]}[
+                    thing
+                ]
             )
 
 
@@ -76,7 +79,7 @@ def test_a_tap_counts_in_the_first_tick_only():
     buttons.press("key d", Action.RIGHT)
     buttons.release("key d")
     held = buttons.poll()
-    assert held == ((False, True), (False, False))
+    assert held == ((False, True), (False, False), (False, False))
     assert buttons.poll().first == (False, False)
 
 
@@ -109,3 +112,15 @@ def test_the_clock_gives_ticks_by_its_speed_and_never_too_many_at_once(speed):
     assert sum(ticks) == pytest.approx(2400 * speed, abs=1)
     assert clock.advance(10.0) <= max(12, 12 * speed)
     assert 0.0 <= clock.fraction < 1.0
+
+
+def test_the_launch_button_is_held_and_tapped_like_a_paddle_button():
+    buttons = PaddleButtons()
+    buttons.press("key return", Action.LAUNCH)
+    held = buttons.poll()
+    assert held == ((False, False), (False, False), (True, True))
+    buttons.release("key return")
+    buttons.press("key return", Action.LAUNCH)
+    buttons.release("key return")
+    assert buttons.poll().launch == (True, False)
+    assert held.later.launch == (True, True)

@@ -157,11 +157,11 @@ def test_any_button_of_an_unknown_joystick_can_be_chosen_and_is_kept_for_this_ma
     ("name", "move", "back"),
     [
         ("axis 4 -", lambda device: device.axis(3, -32000), lambda device: device.axis(3, 0)),
-        ("hat 1 down", lambda device: device.hat(0, 4), lambda device: device.hat(0, 0)),
+        ("hat 2 down", lambda device: device.hat(1, 4), lambda device: device.hat(1, 0)),
     ],
 )
 def test_an_axis_or_a_hat_can_be_chosen_too(player, plug_in, name, move, back):
-    device = plug_in(axes=4)
+    device = plug_in(axes=4, hats=2)
     gamepad_page(player)
     choose(player, "JITTER")
     choose(player, "NEW BUTTON")

@@ -31,7 +31,7 @@ LAYOUTS = """
     us us:dvorak gb fr fr:bepo fr:geo be ch de de:neo es cz tr tr:f jp ru ua bg rs gr il ara ge am th in
 """.split()
 SPECIAL = {"left": 113, "right": 114, "left shift": 50, "right shift": 62, "space": 65}
-SPECIAL |= {"f1": 67, "f3": 69, "f11": 95}
+SPECIAL |= {"f1": 67, "f3": 69, "f11": 95, "return": 36}
 """X's numbers of the keys that are the same on every layout."""
 US_KEYS = {
     sign: key

@@ -63,6 +63,7 @@ ACTIONS = (
     ),
     ActionBinding("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
     ActionBinding("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
+    ActionBinding("launch", "LAUNCH BALL", ("return",), ("dpdown",), joystick=("button 11", "hat 1 down")),
     ActionBinding("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
     ActionBinding("new_board", "NEW BOARD", ("r",)),
     ActionBinding("mute", "MUTE", ("m",)),

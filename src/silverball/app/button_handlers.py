@@ -9,6 +9,7 @@ from silverball.app.controls import MENU_BUTTONS, PADDLES, Action
 from silverball.app.menus import Button
 from silverball.app.sessions import GameSession
 from silverball.errors import BoardFull, NoRoom, SilverballError
+from silverball.game.mechanisms import paddle_buttons, plungers
 
 if TYPE_CHECKING:
     from silverball.app.program import Program
@@ -71,8 +72,10 @@ def _press_in_game(program: Program, session: GameSession, action: Action, same_
         program.menus.open_pause()
     elif action is Action.NEW_BOARD:
         program.start_new_board(same_board)
-    elif action in PADDLES and all(paddle.side != str(action) for paddle in program.board.table.paddle):
+    elif action in PADDLES and str(action) not in paddle_buttons(program.board.table):
         program.show_message(f"this table has no {action} paddle")
+    elif action is Action.LAUNCH and not plungers(program.board.table):
+        program.show_message("this table has no plunger: balls start by themselves")
 
 
 def _try(program: Program, request: Callable[[], object]) -> None:
@@ -83,6 +86,8 @@ def _try(program: Program, request: Callable[[], object]) -> None:
         count = program.board.table.board.max_balls
         program.show_message("only one ball at a time" if count == 1 else f"at most {count} balls at a time")
     except NoRoom:
-        program.show_message("there is no space for a ball right now")
+        is_on_plunger = bool(plungers(program.board.table))
+        where = "on the plunger" if is_on_plunger else "for a ball right now"
+        program.show_message(f"there is no space {where}")
     except SilverballError as error:
         program.show_message(str(error))

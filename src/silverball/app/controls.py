@@ -25,6 +25,7 @@ class Action(StrEnum):
     RIGHT = "right"
     CREATE = "create"
     JITTER = "jitter"
+    LAUNCH = "launch"
     PAUSE = "pause"
     NEW_BOARD = "new_board"
     MUTE = "mute"
@@ -38,10 +39,13 @@ class Action(StrEnum):
 
 
 PADDLES = (Action.LEFT, Action.RIGHT)
+HELD = (*PADDLES, Action.LAUNCH)
+"""The actions whose buttons are held in play; all others act when they are pressed."""
 MENU_BUTTONS = {
     Action.LEFT: Button.LEFT,
     Action.RIGHT: Button.RIGHT,
     Action.CREATE: Button.START,
+    Action.LAUNCH: Button.START,
     Action.BACK: Button.BACK,
     Action.PAUSE: Button.BACK,
 }
@@ -100,19 +104,26 @@ def is_printable(key: int) -> bool:
 
 
 class PaddleInput(NamedTuple):
-    """The paddle buttons (left, right) over the ticks of one input poll.
+    """The held buttons over the ticks of one input poll.
 
     Attributes:
-        first: Buttons held in the first tick, including taps since the last poll.
-        rest: Buttons held in all later ticks.
+        first: Paddle buttons (left, right) held in the first tick, including taps since the last poll.
+        rest: Paddle buttons held in all later ticks.
+        launch: Whether the launch button is held in the first tick, and in all later ones.
     """
 
     first: tuple[bool, bool]
     rest: tuple[bool, bool]
+    launch: tuple[bool, bool] = (False, False)
+
+    @property
+    def later(self) -> PaddleInput:
+        """The buttons after the first tick."""
+        return PaddleInput(self.rest, self.rest, (self.launch[1], self.launch[1]))
 
 
 class PaddleButtons:
-    """The paddle buttons that are down, and those tapped since the last tick, however briefly.
+    """The buttons of `HELD` that are down, and those tapped since the last tick, however briefly.
 
     A button is identified by its source, for example "key a" or "pad 0 leftshoulder": two keys may hold one
     paddle.
@@ -123,7 +134,7 @@ class PaddleButtons:
         self._tapped: set[Action] = set()
 
     def press(self, source: str, side: Action) -> None:
-        """Handle a paddle button that went down."""
+        """Handle a button that went down."""
         self._down[source] = side
         self._tapped.add(side)
 
@@ -150,8 +161,10 @@ class PaddleButtons:
         """Return what is held now, and consume the taps."""
         left, right = self.held
         first = (left or Action.LEFT in self._tapped, right or Action.RIGHT in self._tapped)
+        is_launch_held = Action.LAUNCH in self._down.values()
+        launch = (is_launch_held or Action.LAUNCH in self._tapped, is_launch_held)
         self._tapped.clear()
-        return PaddleInput(first, (left, right))
+        return PaddleInput(first, (left, right), launch)
 
 
 _BINDINGS: dict[str, ActionBinding] = {binding.action: binding for binding in ACTIONS}

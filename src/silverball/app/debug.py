@@ -16,9 +16,11 @@ import pygame
 from silverball.app.timing import FrameTimes, LatencyMeter, median
 from silverball.drawing import themes
 from silverball.drawing.text import line
+from silverball.table import Paddle
 
 if TYPE_CHECKING:
     from silverball.drawing import Camera
+    from silverball.table import Table
     from silverball.world import Event, World
 
 VELOCITY_SECONDS = 0.12  # [s] of motion that an arrow shows
@@ -31,6 +33,7 @@ NORMAL = (255, 210, 80)
 TOUCH = (150, 160, 190)
 OUTLINE = (255, 90, 150)
 _TOUCH_KINDS = ("touch", "ball_touch")
+_CONTACT_KINDS = ("hit", "ball_hit", *_TOUCH_KINDS)  # with a normal to draw
 
 
 class _TimedEvent(NamedTuple):
@@ -62,14 +65,12 @@ class DebugView:
     def draw(self, target: pygame.Surface, camera: Camera, world: World) -> None:
         """Draw velocities and contacts onto a picture through its camera."""
         radius = world.table.board.ball_radius
-        for paddle, moving in zip(("left", "right"), world.paddles, strict=True):
-            for part in world.table.paddle:
-                if part.side == paddle:
-                    corners = part.corners(math.degrees(moving.angle))
-                    pygame.draw.aalines(target, OUTLINE, True, [camera.to_pixel(*c) for c in corners])
+        for part, number in paddle_numbers(world.table):
+            corners = part.corners(math.degrees(world.paddles[number].angle))
+            pygame.draw.aalines(target, OUTLINE, True, [camera.to_pixel(*c) for c in corners])
         recent = (one for one in self._contacts if 0.0 <= world.time - one.time < CONTACT_SECONDS)
         for _, event in recent:
-            if event.kind in ("created", "gutter", "jitter", "jam"):
+            if event.kind not in _CONTACT_KINDS:
                 continue
             x, _, z = event.position
             nx, _, nz = event.normal
@@ -130,6 +131,19 @@ class DebugView:
             target.blit(
                 line(text, size, themes.TEXT), (area.left + size // 2, area.top + size // 2 + row * height)
             )
+
+
+def paddle_numbers(table: Table) -> list[tuple[Paddle, int]]:
+    """Return the paddles of a table, each with its number in `World.paddles`."""
+    from silverball.physics.records import Part
+    from silverball.world.compile import part_numbers
+
+    numbers = part_numbers(table)
+    return [
+        (one.part, numbers[one.name] - Part.FIRST_PADDLE)
+        for one in table.parts()
+        if isinstance(one.part, Paddle)
+    ]
 
 
 _CIRCLE = [(math.cos(math.pi * i / 12), math.sin(math.pi * i / 12)) for i in range(24)]

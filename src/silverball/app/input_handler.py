@@ -14,6 +14,7 @@ import pygame
 from silverball.app import button_handlers
 from silverball.app.bindings import upper_label
 from silverball.app.controls import (
+    HELD,
     MENU_KEYS,
     PADDLES,
     Action,
@@ -51,7 +52,7 @@ class InputHandler:
     """Handles the events of a window.
 
     Attributes:
-        buttons: The paddle buttons that are held.
+        buttons: The paddle buttons and the launch button, as far as they are held.
         gamepads: The gamepads and joysticks.
         keyboard: The keyboard.
         controls: The current key bindings.
@@ -193,10 +194,11 @@ class InputHandler:
         elif action is Action.MUTE:
             program.settings.change(muted=not program.settings.current.muted)
             self._messages.show("sounds are off" if program.settings.current.muted else "sounds are on")
-        elif action in PADDLES:
+        elif action in HELD:
             self.buttons.press(source, action)
             if program.is_playing and not self.shows_help:
-                self._latency.record_press()
+                if action in PADDLES:
+                    self._latency.record_press()
             else:
                 self.buttons.forget_taps()
             self._press_in_program(action)
@@ -225,12 +227,12 @@ class InputHandler:
 
     def _press_in_help(self, action: Action) -> None:
         """Turn the pages with the paddles and Space; for other buttons, show how to close the help."""
-        if action in (*PADDLES, Action.CREATE):
+        if action in (*HELD, Action.CREATE):
             self._turn_help()
         key = self._help_key("Esc")
         if self._program.has_game and action not in PADDLES:
             self._messages.show(f"game paused while help is open; press {key} to continue")
-        elif action not in (*PADDLES, Action.CREATE):
+        elif action not in (*HELD, Action.CREATE):
             self._messages.show(f"press {key} to close the help")
 
     def _turn_help(self) -> None:

@@ -23,6 +23,7 @@ from silverball.app.sessions import DemoSession, GameSession, ReplaySession, Ses
 from silverball.app.settings import PlayerSettings, Settings
 from silverball.app.startup import Progress, draw_line, draw_page
 from silverball.errors import SilverballError
+from silverball.game.mechanisms import plungers
 from silverball.game.view import Mode
 
 if TYPE_CHECKING:
@@ -245,6 +246,8 @@ class Program:
         question = session.create_ball(self._key_label(Action.CREATE))
         if question:
             self.display.show_message(question, replace=True)
+        elif plungers(session.game.table):
+            self.display.show_message(f"HOLD {self._key_label(Action.LAUNCH)}, THEN LET GO", replace=True)
 
     def skip_game_over(self) -> None:
         """Open the page after a game now; the score must have been saved."""

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from silverball.game import tilt
+from silverball.game.mechanisms import points_by_part
 from silverball.game.view import Mode
 from silverball.table import Arcade, Table
 
-KINDS = ("cylinder", "triangular prism", "slant wall", "paddle")
+FIRST_KINDS = ("cylinder", "triangular_prism", "slant_wall", "paddle")
+"""The order in which kinds of parts are listed; others follow in the order of the table file."""
 TIMES = {1: "once", 2: "twice"}
 MAX_SHOVES = 1002  # more than any table allows
 
@@ -43,7 +46,8 @@ def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
     arcade = table.arcade
     rules = [hits, Rule("Combo", _combo(arcade))]
     if arcade.double > 1 and arcade.balls > 1 and most > 1:
-        text = f"While two balls are on the board every hit counts ×{arcade.double}"
+        two = "two" if most == 2 else "two or more"
+        text = f"While {two} balls are on the board every hit counts ×{arcade.double}"
         rules.append(Rule("Double", f"{text}; the second ball is one of your {arcade.balls}"))
     balls = "One ball" if arcade.balls == 1 else f"{arcade.balls} balls"
     return [
@@ -55,17 +59,11 @@ def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
 
 
 def _hits(table: Table) -> str:
-    points = (
-        [part.points for part in table.cylinder],
-        [part.points for part in table.triangular_prism],
-        [part.points for part in table.slant_wall],
-        [part.points for part in table.paddle],
-    )
-    worth = [
-        f"{kind} {_range(some)}"
-        for kind, all_ in zip(KINDS, points, strict=True)
-        if (some := [*filter(None, all_)])
-    ]
+    points: dict[str, list[int]] = {kind: [] for kind in FIRST_KINDS}
+    for path, worth_of_part in points_by_part(table).items():
+        if worth_of_part:
+            points.setdefault(re.split(r"[\[.]", path)[0], []).append(worth_of_part)
+    worth = [f"{kind.replace('_', ' ')} {_range(some)}" for kind, some in points.items() if some]
     if not worth:
         return "Nothing on this table gives points"
     words = _joined(worth)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from silverball.players import Player
     from silverball.table import Table
 
+DEMO_BALLS = 2  # balls of a demo at once, if the table allows them
 DEMO_SECOND_BALL_DELAY = 4.0  # [s] between the first and the second ball of a demo
 DEMO_BALL_DELAY = 1.0  # [s] between two balls of a demo
 NEW_BALL_LOCK = 1.0  # [s] after a new ball in arcade, in which no other can be requested
@@ -88,14 +89,15 @@ class GameSession:
         return ""
 
     def advance(self, held: PaddleInput, ticks: int) -> None:
-        """Advance with the paddle buttons held; a tap holds a paddle for one tick."""
+        """Advance with the buttons held; a tap holds a paddle for one tick."""
         if ticks <= 0:
             return
-        if held.first != held.rest:
-            self.game.step(*held.first, 1)
+        launch_first, launch_rest = held.launch
+        if held.first != held.rest or launch_first != launch_rest:
+            self.game.step(*held.first, 1, launch=launch_first)
             ticks -= 1
         if ticks > 0:
-            self.game.step(*held.rest, ticks)
+            self.game.step(*held.rest, ticks, launch=launch_rest)
 
 
 class DemoSession:
@@ -110,22 +112,31 @@ class DemoSession:
 
     def __init__(self, table: Table, seed: int, player: Player) -> None:
         from silverball.game.game import Game
+        from silverball.game.mechanisms import plungers
 
         self.game = Game(table, seed, Mode.FREE)
         self.player = player
+        self._has_plunger = bool(plungers(self.game.table))
         self._delay = 0.0  # [s] until the next ball may be created
 
     def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance by a number of ticks; `held` is ignored."""
         for _ in range(ticks):
             self._create_balls()
-            self.game.step(*self.player.press(self.game.world), 1)
+            self.game.step(*self.player.press(self.game.world), 1, launch=self._holds_launch())
+
+    def _holds_launch(self) -> bool:
+        """Whether the launch button is held in the next tick; a player presses the paddle buttons only."""
+        from silverball.players.simple import holds_launch
+
+        world = self.game.world
+        return self._has_plunger and bool(holds_launch(world.records[0], 1.0 / world.tick_rate))
 
     def _create_balls(self) -> None:
         world = self.game.world
         self._delay = max(0.0, self._delay - 1.0 / world.tick_rate)
         count = len(world.balls)
-        if count >= world.table.board.max_balls or self._delay > 0.0:
+        if count >= min(world.table.board.max_balls, DEMO_BALLS) or self._delay > 0.0:
             return
         with contextlib.suppress(BoardFull, NoRoom):
             self.game.create_ball()

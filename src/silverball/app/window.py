@@ -30,7 +30,7 @@ from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
-from silverball.app.sound.voices import part_kinds
+from silverball.app.sound.part_sounds import PartSound, sounds_of_parts
 from silverball.app.startup import Startup, compiling_message
 from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
@@ -119,7 +119,7 @@ class Window:
         self.program.settings.subscribe(self._apply_settings)
         self._session: Session | None = None
         self._before: Moment | None = None  # the moment one tick earlier, for interpolation
-        self._part_kinds: dict[str, str] = {}  # of the session's table, by name in events
+        self._parts: dict[str, PartSound] = {}  # of the session's table, by path in events
         self._seconds = self._drawn_at = 0.0  # [s] real time at the last poll, and at the last frame
         self._moved_at = 0.0  # [s] real time at the last frame before the session ended
         for warning in filter(None, (self.store.warning, self.sounds.warning)):
@@ -316,7 +316,7 @@ class Window:
         with program.stopping_on_error():
             if ticks > 1:
                 session.advance(held, ticks - 1)
-                held = held._replace(first=held.rest)
+                held = held.later
             self._before = Moment.of(session.game.world)
             session.advance(held, 1)
         self.latency.record_tick()
@@ -336,7 +336,8 @@ class Window:
             self.sounds.play_events(events, world.tick_rate, world.table.board.width)
         if session.is_played:
             for event in events:
-                if event.kind == "hit" and self._part_kinds.get(event.part) == "cylinder":
+                part = self._parts.get(event.part)
+                if event.kind == "hit" and part is not None and part.has_coil:
                     strength = min(event.speed / RUMBLE_SPEED, 1.0)
                     self.input_handler.gamepads.rumble(strength, RUMBLE_SECONDS)
 
@@ -350,7 +351,7 @@ class Window:
         self.debug.reset()
         self._clock = TickClock(session.game.tick_rate if session is not None else TICK_RATE)
         if session is not None:
-            self._part_kinds = part_kinds(session.game.world.table)
+            self._parts = sounds_of_parts(session.game.world.table)
             self.sounds.begin_game(session.game.world.table)
 
     def _apply_settings(self, before: Settings, settings: Settings) -> None:
@@ -368,7 +369,8 @@ class Window:
             return
         sounds.resume()
         game = session.game
-        sounds.set_buttons(*((False, False) if game.view.tilted else game.held))
+        held = (False, False) if game.view.tilted else game.held
+        sounds.set_buttons(*held, game.is_launch_held)
         width = game.world.table.board.width
         sounds.set_rolling(rolling_balls(game.world), elapsed * program.speed, width)
 

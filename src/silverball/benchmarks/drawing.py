@@ -48,7 +48,7 @@ def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None
         renderer = _bake(first, size, cache)
         assert renderer._provider is not None
         provider = renderer._provider
-        figures.append(Figure("all angles of the paddles, once", _seconds(provider.bake_paddles), "s"))
+        figures.append(Figure("all angles of the paddles, once", _seconds(provider.bake_sprites), "s"))
         figures.append(Figure("the empty board, once", _seconds(provider.bake_empty), "s"))
         advance("baking another board")
         figures.append(

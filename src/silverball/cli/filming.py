@@ -106,7 +106,8 @@ def session_pictures(
         display.add_events(game_events)
         renderer.add_events(events, world.tick_rate)
         if sound is not None:
-            sound.add_picture(world, events, session.game.held, game_events)
+            game = session.game
+            sound.add_picture(world, events, (*game.held, game.is_launch_held), game_events)
         dots, moment = display.frame(session.game.view, number / rate), Moment.of(world)
         if not only_last or number == count:
             yield renderer.array(moment, dots)

@@ -2,14 +2,17 @@
 
     renderer.py                           `Renderer`, and what `World.render` calls
     camera.py, dimensions.py, themes.py   projection, heights of the parts, colours
-    scene.py                              a table as arrays for the kernels, next to the physics' own shapes
+    layout.py, finishes.py                the primitives of a table, and the look of each finish
+    scene.py, solids.py                   a table as arrays for the kernels
+    moving.py, poses.py                   what moves, and its pose at a moment of play
     kernels/                              rays, surfaces and light, compiled
-    bake_table.py, bake_paddles.py        the table without moving parts; the paddles at every angle
+    bake_table.py                         the playfield without moving parts
+    bake_sprites.py, bake_levels.py       moving parts in every pose; upper levels
     bake_threads.py                       the threads that bake
     picture_provider.py                   baked pictures, cached by picture_cache.py, pictures.py
     sketch.py                             a picture without compiled code, until the table is baked
     background.py, warm_up.py             baking and compiling while a game is played
-    compose.py, effects.py                one frame: flashes, paddles, shadows, trails, balls, sparks
+    compose.py, effects.py                one frame: flashes, moving parts, shadows, trails, balls, sparks
     text.py, dotmatrix/                   texts, and the score display
 
 `Renderer(table, height=480).render(world)` is an RGB array.

@@ -1,6 +1,6 @@
 """Baking in the background while a game is played: a thread bakes, and another process compiles.
 
-    compile, if the machine code is not cached  →  the table  →  its paddles  →  the empty table
+    compile, if the machine code is not cached  →  the table  →  its moving parts  →  the empty table
 
 Compiling holds Python's lock, so it runs in a process of its own, at low priority. If it fails, the sketch
 remains.
@@ -78,15 +78,17 @@ class Background:
         bake_threads = BakeThreads(stop=self._stop, in_background=True)
         try:
             provider = PictureProvider(self._table, self._camera, self._theme, self._cache, bake_threads)
-            painter = Composer(self._table, self._camera, self._theme, provider.table(), provider.paddle)
+            painter = Composer(
+                self._table, self._camera, self._theme, provider.table(), provider.levels(), provider.sprite
+            )
             if self._stop.is_set():
                 return
             self.painter = painter
-            provider.bake_paddles()
+            provider.bake_sprites()
             if self._is_random:
                 provider.bake_empty()
         except BakeCancelled:
-            provider.save_paddles()
+            provider.save_sprites()
         except Exception as error:  # the game continues with the present picture
             self.error = error
 

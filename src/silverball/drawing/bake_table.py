@@ -13,32 +13,34 @@ from numpy.typing import NDArray
 
 from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
+from silverball.drawing.finishes import LOOKS
 from silverball.drawing.kernels import bake
 from silverball.drawing.kernels.bake import Canvas, new_canvas
-from silverball.drawing.kernels.stage import HALO, Form, Scene
+from silverball.drawing.kernels.stage import HALO, Material, Scene
+from silverball.drawing.layout import Layout
 from silverball.drawing.pictures import BakedTable, HitFlash
-from silverball.drawing.scene import make_scene
+from silverball.drawing.scene import TableScene
 from silverball.drawing.themes import Theme
-from silverball.table import Table
-from silverball.world.compile import part_numbers
 
 SLACK = 0.05  # [u] added to a reach, for the heights between two that are tested
-FLASH_REACH = 1.9  # [u] around a part within which its flash is baked
+RECIPE_MATERIALS = (Material.ACRYLIC, Material.BUMPER)
+"""Materials of what a recipe places at random, see `Layout.without_obstacles`."""
 
 
 def bake_table(
-    table: Table, camera: Camera, theme: Theme, bake_threads: BakeThreads, empty: BakedTable | None = None
+    layout: Layout, camera: Camera, theme: Theme, bake_threads: BakeThreads, empty: BakedTable | None = None
 ) -> BakedTable:
-    """Bake a table without paddles and balls.
+    """Bake the playfield of a table, without moving parts, upper levels and balls.
 
     Args:
-        table: A finished table.
+        layout: The table.
         camera: The view of it.
         theme: Its colours.
         bake_threads: The threads to use.
         empty: The baked picture of the same table without prisms and cylinders, if there is one.
     """
-    scene = make_scene(table, camera, theme)
+    table = TableScene(layout, camera, theme)
+    scene = table.scene
     canvas = new_canvas(camera.size)
     inner = None
     if empty is not None:
@@ -46,16 +48,11 @@ def bake_table(
         canvas.mask[:] = _one_wider(inner)
     bake_threads.plan(2 * int(canvas.mask.any(axis=1).sum()))
     bake_threads.bake(scene, canvas, inner)
-    pixels, height = to_bytes(canvas.shown), _rounded(canvas.height)
+    pixels, height = to_bytes(canvas.shown), rounded(canvas.height)
     if empty is not None and inner is not None:
         pixels = np.where(inner[:, :, None], pixels, empty.pixels)
         height = np.where(inner, height, empty.height)
-    return BakedTable(pixels, height, _flashes(table, scene, camera, canvas, bake_threads))
-
-
-def without_obstacles(table: Table) -> Table:
-    """Return the table without prisms and cylinders, which all boards of a recipe share."""
-    return table.model_copy(update={"triangular_prism": (), "cylinder": (), "random": None})
+    return BakedTable(pixels, height, _flashes(layout, table, camera, canvas, bake_threads))
 
 
 def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
@@ -69,7 +66,7 @@ def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
     return levels
 
 
-def _rounded(height: NDArray[np.float32]) -> NDArray[np.float32]:
+def rounded(height: NDArray[np.float32]) -> NDArray[np.float32]:
     """Round heights to half precision, as the cache stores them: both give the same picture."""
     return height.astype(np.float16).astype(np.float32)
 
@@ -79,16 +76,16 @@ def _around_obstacles(scene: Scene, camera: Camera) -> NDArray[np.bool_]:
     width, height = camera.size
     mask = np.zeros((height, width), np.bool_)
     reach = HALO * float(scene.stage[0]["unit"])
-    for solid, shape in zip(scene.solids, scene.shapes, strict=True):
-        if solid["form"] in (Form.PRISM, Form.CYLINDER):
-            left, top, right, bottom = _box(camera, shape, reach)
+    for solid in scene.solids:
+        if solid["material"] in RECIPE_MATERIALS:
+            left, top, right, bottom = _box(camera, solid, reach)
             across = np.arange(left, right)[None, :] + 0.5
             down = np.arange(top, bottom)[:, None] + 0.5
             # A ray crosses the reach of a part at some height between the playfield and the top.
             for share in (0.0, 0.25, 0.5, 0.75, 1.0):
                 x, z = _places(camera, across, down, share * camera.dimensions.top)
-                size = shape["reach"] + reach + SLACK
-                mask[top:bottom, left:right] |= (x - shape["x"]) ** 2 + (z - shape["z"]) ** 2 < size**2
+                size = solid["reach"] + reach + SLACK
+                mask[top:bottom, left:right] |= (x - solid["x"]) ** 2 + (z - solid["z"]) ** 2 < size**2
     return mask
 
 
@@ -102,9 +99,9 @@ def _places(
     return f.eye_x + t * (f.sine + v * f.cosine), t * u
 
 
-def _box(camera: Camera, shape: np.void, reach: float) -> tuple[int, int, int, int]:
-    """Return the box of pixels that shows a part and its surroundings within a reach."""
-    x, z, size = shape["x"], shape["z"], shape["reach"] + reach
+def _box(camera: Camera, solid: np.void, reach: float) -> tuple[int, int, int, int]:
+    """Return the box of pixels that shows a solid and its surroundings within a reach."""
+    x, z, size = solid["x"], solid["z"], solid["reach"] + reach
     return camera.box(x - size, x + size, z - size, z + size, 0.0, camera.dimensions.top)
 
 
@@ -118,17 +115,23 @@ def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _flashes(
-    table: Table, scene: Scene, camera: Camera, canvas: Canvas, bake_threads: BakeThreads
-) -> dict[str, HitFlash]:
-    flashes = {}
-    for name, index in part_numbers(table).items():
-        if scene.solids[index]["form"] not in (Form.PRISM, Form.CYLINDER):
+    layout: Layout, table: TableScene, camera: Camera, canvas: Canvas, bake_threads: BakeThreads
+) -> dict[str, tuple[HitFlash, ...]]:
+    reaches = {
+        row.part: LOOKS[row.primitive.finish].flash_reach
+        for row in layout.rows
+        if LOOKS[row.primitive.finish].flashes
+    }
+    flashes: dict[str, tuple[HitFlash, ...]] = {}
+    for index, name in enumerate(table.parts):
+        if name not in reaches or table.scene.solids[index]["glow"] == 0.0:
             continue
-        reach = FLASH_REACH * float(scene.stage[0]["unit"])
-        left, top, right, bottom = _box(camera, scene.shapes[index], reach)
+        reach = reaches[name] * camera.dimensions.unit
+        left, top, right, bottom = _box(camera, table.scene.solids[index], reach)
         pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
-        bake_threads.rows(bake.bake_flash, (scene, canvas, index, left, top, pixels), 0, bottom - top)
-        flashes[name] = HitFlash(left, top, _smoothed(pixels))
+        arguments = (table.scene, canvas, index, left, top, pixels)
+        bake_threads.rows(bake.bake_flash, arguments, 0, bottom - top)
+        flashes[name] = (*flashes.get(name, ()), HitFlash(left, top, _smoothed(pixels)))
     return flashes
 
 

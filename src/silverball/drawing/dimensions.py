@@ -9,11 +9,14 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from silverball.table import Board, SlantWall
+from silverball.drawing.finishes import LOOKS
+from silverball.table import Board
+from silverball.table.primitive import Finish, Point
 
 REFERENCE_BALL_RADIUS = 0.25  # [u] for which the heights below are given
 RAIL_SHARE = 0.044  # width of the rail, by the board's shorter side
 MAX_RAIL = 1.0  # [u]
+LEVEL_RISE = 0.5  # [u] from one level to the next
 TOUCHES_BORDER = 1e-6  # [u] an end of a slant wall this close to a border lies on it
 
 
@@ -29,7 +32,7 @@ class Dimensions(NamedTuple):
         rail_height: Top of the rail.
         wall_height: Top of slant walls and of the corners behind them.
         prism_height: Top of a prism.
-        body_height: Top of a cylinder's body, below its cap.
+        body_height: Top of a bumper's body, below its cap.
         paddle_height: Top of a paddle.
         apron_height: Top of the apron, the plate that covers the gutter.
         apron_top: The x of its upper edge.
@@ -67,10 +70,10 @@ class Dimensions(NamedTuple):
             thickness=board.wall_thickness,
             rail=rail,
             rail_height=0.62 * unit,
-            wall_height=0.36 * unit,
-            prism_height=0.34 * unit,
-            body_height=0.38 * unit,
-            paddle_height=0.33 * unit,
+            wall_height=LOOKS[Finish.WALL].height * unit,
+            prism_height=LOOKS[Finish.PRISM].height * unit,
+            body_height=LOOKS[Finish.BUMPER].height * unit,
+            paddle_height=LOOKS[Finish.PADDLE].height * unit,
             apron_height=0.54 * unit,
             apron_top=max(board.gutter - board.ball_radius, -0.5 * board.length),
             skirt=0.5 * rail,
@@ -79,13 +82,13 @@ class Dimensions(NamedTuple):
         )
 
 
-def corner_behind(board: Board, wall: SlantWall) -> tuple[tuple[float, float], ...] | None:
-    """Return the triangle (x, z) [u] that a slant wall from a side border to the top cuts off.
+def corner_behind(board: Board, start: Point, end: Point) -> tuple[Point, Point, Point] | None:
+    """Return the triangle (x, z) [u] that a wall from a side border to the top cuts off.
 
     It is counter-clockwise, and drawn as filled, because no ball can get there. None for every other wall.
     """
     half_length, half_width = 0.5 * board.length, 0.5 * board.width
-    for low, high in ((wall.start, wall.end), (wall.end, wall.start)):
+    for low, high in ((start, end), (end, start)):
         on_side = math.isclose(abs(low[1]), half_width, abs_tol=TOUCHES_BORDER)
         on_top = math.isclose(high[0], half_length, abs_tol=TOUCHES_BORDER)
         if on_side and on_top and low != high:

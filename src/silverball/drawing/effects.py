@@ -26,6 +26,7 @@ SPARK_SECONDS = 0.38
 MAX_SPARKS = 12  # sparks of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
 MAX_HITS = 24  # whose sparks are remembered
+LIT_BY = frozenset({"hit", "pass", "spin", "captured"})  # kinds of events at which a part lights up
 GOLDEN = 0.6180339887498949  # the fractional parts of its multiples are spread evenly over 0 to 1
 
 
@@ -37,6 +38,14 @@ class Spot(NamedTuple):
     z: float
     radius: float
     strength: float
+
+
+class Kick(NamedTuple):
+    """A hit of a part: its time, or its age at a time [s], and where the ball was [u]."""
+
+    age: float
+    x: float
+    z: float
 
 
 class _SinkingBall(NamedTuple):
@@ -67,6 +76,7 @@ class Effects:
         self.is_full = is_full
         self._radius = radius
         self._hits: dict[str, float] = {}
+        self._kicks: dict[str, Kick] = {}
         self._sparks: deque[_Hit] = deque(maxlen=MAX_HITS)
         self._sinking: list[_SinkingBall] = []
         self._paths: dict[int, deque[tuple[float, float, float]]] = {}
@@ -74,6 +84,7 @@ class Effects:
     def clear(self) -> None:
         """Discard everything, because another game begins."""
         self._hits.clear()
+        self._kicks.clear()
         self._sparks.clear()
         self._sinking.clear()
         self._paths.clear()
@@ -82,8 +93,9 @@ class Effects:
         """Remember events of a world; `tick_rate` is in ticks per second."""
         for event in events:
             time = event.tick / tick_rate + event.offset
-            if event.kind == "hit":
+            if event.kind in LIT_BY:
                 self._hits[event.part] = time
+                self._kicks[event.part] = Kick(time, event.position[0], event.position[2])
             elif event.kind == "gutter":
                 speed = max(event.speed, MIN_SINK_SPEED)
                 self._sinking.append(_SinkingBall(time, event.position[0], event.position[2], speed))
@@ -103,14 +115,21 @@ class Effects:
                 strength = min(left, 1.0) ** 2
                 yield part, strength if self.is_full else 0.4 * strength
 
+    def kick(self, part: str, time: float) -> Kick | None:
+        """Return the last hit of a part, with its age at a time; None if there was none."""
+        hit = self._kicks.get(part)
+        if hit is None or time - hit.age <= -MAX_AHEAD:
+            return None
+        return hit._replace(age=max(time - hit.age, 0.0))
+
     def sinking_balls(self, time: float) -> Iterator[BallAt]:
         """Yield balls that roll under the apron at a time [s]; the world has removed them already."""
         self._sinking = [ball for ball in self._sinking if -MAX_AHEAD < time - ball.time < SINK_SECONDS]
         for ball in self._sinking:
             yield BallAt(0, ball.x - ball.speed * max(time - ball.time, 0.0), ball.z)
 
-    def trails(self, moment: Moment) -> Iterator[list[Spot]]:
-        """Record the positions of the balls, and yield the spots of each trail."""
+    def trails(self, moment: Moment) -> Iterator[tuple[int, list[Spot]]]:
+        """Record the positions of the balls, and yield the id of each ball with the spots of its trail."""
         for id_ in self._paths.keys() - {ball.id for ball in moment.balls}:
             del self._paths[id_]
         for ball in moment.balls:
@@ -122,7 +141,7 @@ class Effects:
             while moment.time - path[0][0] > TRAIL_SECONDS:
                 path.popleft()
             if self.is_full:
-                yield list(self._spots(path, moment.time))
+                yield ball.id, list(self._spots(path, moment.time))
 
     def _spots(self, path: deque[tuple[float, float, float]], now: float) -> Iterator[Spot]:
         """Yield spots at even distances along a path; older ones are smaller."""

@@ -8,18 +8,41 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
+from silverball.drawing.layout import Layout
+from silverball.drawing.moving import Motion, moving_parts, pose_angle
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.world import World
 
+CAPTURED = 4  # `physics.records.Motion.CAPTURED`, repeated here because that module needs the compiler
+NOTHING = -1
+
 
 class BallAt(NamedTuple):
-    """A ball in a picture: its id, and its centre (x, z) [u]."""
+    """A ball in a picture.
+
+    Attributes:
+        id: Its id.
+        x: Its centre [u].
+        z: Its centre [u].
+        level: The level on which it rolls.
+        holder: The row of the hole or plunger that holds it; −1: none.
+    """
 
     id: int
     x: float
     z: float
+    level: int = 0
+    holder: int = -1
+
+
+class BladeAt(NamedTuple):
+    """A spinner: its angle [rad] and angular velocity [rad/s] at the last crossing, and when that was [s]."""
+
+    angle: float
+    speed: float
+    time: float
 
 
 class Moment(NamedTuple):
@@ -28,14 +51,21 @@ class Moment(NamedTuple):
     Attributes:
         time: Since the world was created [s].
         balls: The balls on the board.
-        angles: Of the left and the right paddle, up is positive [deg].
+        angles: Of the paddles in their order, up is positive [deg].
         score: Points so far.
+        off: A bit for each switch, in the order of the parts: set while the part is away (a drop target that
+            has fallen, a gate that is open).
+        blades: The spinners in their order.
+        launch_held: How long the launch button has been held [s].
     """
 
     time: float
     balls: tuple[BallAt, ...]
-    angles: tuple[float, float]
+    angles: tuple[float, ...]
     score: int
+    off: int = 0
+    blades: tuple[BladeAt, ...] = ()
+    launch_held: float = 0.0
 
     @classmethod
     def of(cls, world: World) -> Self:
@@ -45,11 +75,20 @@ class Moment(NamedTuple):
     @classmethod
     def of_record(cls, record: Any, tick_rate: int) -> Self:
         """The moment of a WORLD record; `tick_rate` is in ticks per second."""
-        from silverball.world.events import read_balls, read_paddles
-
-        balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in read_balls(record, 0.0))
-        left, right = (math.degrees(paddle.angle) for paddle in read_paddles(record))
-        return cls(int(record["tick"]) / tick_rate, balls, (left, right), int(record["score"]))
+        tick = 1.0 / tick_rate
+        blades = tuple(
+            BladeAt(angle, speed, when * tick + offset)
+            for angle, speed, when, offset, *_ in record["spinner"].tolist()
+        )
+        return cls(
+            int(record["tick"]) * tick,
+            _balls(record),
+            tuple(math.degrees(angle) for angle in record["paddle"]["angle"].tolist()),
+            int(record["score"]),
+            int(record["off"]),
+            blades,
+            int(record["launch_held"]) * tick,
+        )
 
     @classmethod
     def between(cls, first: Moment, second: Moment, share: float) -> Self:
@@ -59,18 +98,32 @@ class Moment(NamedTuple):
             ball._replace(
                 x=_lerp(previous[ball.id].x, ball.x, share), z=_lerp(previous[ball.id].z, ball.z, share)
             )
-            if ball.id in previous
+            if ball.id in previous and previous[ball.id].holder == ball.holder
             else ball
             for ball in second.balls
         )
-        left, right = (_lerp(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
-        return cls(_lerp(first.time, second.time, share), balls, (left, right), second.score)
+        angles = tuple(_lerp(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
+        held = max(second.launch_held - (1.0 - share) * (second.time - first.time), 0.0)
+        time = _lerp(first.time, second.time, share)
+        return cls(time, balls, angles, second.score, second.off, second.blades, held)
 
     @classmethod
     def before(cls, table: Table) -> Self:
         """The moment before play starts: no ball, paddles at rest."""
-        rest = {paddle.side: paddle.rest_angle for paddle in table.paddle}
-        return cls(0.0, (), (rest.get("left", 0.0), rest.get("right", 0.0)), 0)
+        parts = moving_parts(Layout.of(table))
+        return cls(0.0, (), tuple(pose_angle(part, 0) for part in parts if part.motion is Motion.TURNING), 0)
+
+
+def _balls(record: Any) -> tuple[BallAt, ...]:
+    """The balls of a WORLD record."""
+    balls = record["ball"]
+    return tuple(
+        BallAt(
+            int(ball["id"]), float(ball["x"]), float(ball["z"]), int(ball["level"]),
+            int(ball["holder"]) if ball["motion"] == CAPTURED else NOTHING,
+        )
+        for ball in balls[balls["id"] != 0]
+    )  # fmt: skip
 
 
 def _lerp(first: float, second: float, share: float) -> float:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
+from silverball.drawing.layout import Layout
 from silverball.drawing.picture_cache import PictureCache, key_of
 from silverball.drawing.themes import Theme
-from silverball.table import Table
 
 
 class HitFlash(NamedTuple):
@@ -36,23 +36,23 @@ class BakedTable(NamedTuple):
     Attributes:
         pixels: RGB, uint8 [row, column, 3].
         height: Of the visible surface above the playfield [u], float32 [row, column].
-        flashes: Of prisms and cylinders, by their path in the table.
+        flashes: Of the parts that light up when they are hit, by their path in the table.
     """
 
     pixels: NDArray[np.uint8]
     height: NDArray[np.float32]
-    flashes: dict[str, HitFlash]
+    flashes: dict[str, tuple[HitFlash, ...]]
 
 
-class PaddleSprite(NamedTuple):
-    """A paddle at one angle.
+class Sprite(NamedTuple):
+    """A moving part in one pose, or an upper level.
 
     Attributes:
         left: First column.
         top: First row.
         remaining: Share of the background that remains, 0 to 255, uint8 [row, column].
         added: RGB to add, uint8 [row, column, 3].
-        height: Of the paddle above the playfield [u], float32; −1 where there is none.
+        height: Of the part above the playfield [u], float32; −1 where there is none.
     """
 
     left: int
@@ -61,9 +61,9 @@ class PaddleSprite(NamedTuple):
     added: NDArray[np.uint8]
     height: NDArray[np.float32]
 
-    def mirrored(self, width: int) -> PaddleSprite:
+    def mirrored(self, width: int) -> Sprite:
         """Return the mirror image on the other side of a picture of a width [pixel]."""
-        return PaddleSprite(
+        return Sprite(
             width - self.left - self.remaining.shape[1],
             self.top,
             np.ascontiguousarray(self.remaining[:, ::-1]),
@@ -72,24 +72,23 @@ class PaddleSprite(NamedTuple):
         )
 
 
-Sprites: TypeAlias = dict[tuple[str, int], PaddleSprite]
-"""Sprites by side and step of the swing."""
+Sprites: TypeAlias = dict[tuple[int, int], Sprite]
+"""Sprites by the number of the moving part and its pose, or by the number of the level and 0."""
 
 
-def table_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """Return the key of a table without moving parts."""
-    parts = table.model_dump(include={"name", "board", "slant_wall", "triangular_prism", "cylinder"})
-    return key_of("still", parts, camera.size, theme)
+def table_key(layout: Layout, camera: Camera, theme: Theme) -> str:
+    """Return the key of a table's playfield without moving parts."""
+    return key_of("table", layout, camera.size, theme)
 
 
-def empty_table_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """Return the key of the table without prisms and cylinders."""
-    return table_key(table.model_copy(update={"triangular_prism": (), "cylinder": ()}), camera, theme)
+def sprites_key(layout: Layout, camera: Camera, theme: Theme) -> str:
+    """Return the key of a table's moving parts, which do not depend on prisms and cylinders."""
+    return key_of("sprites", layout.without_obstacles(), camera.size, theme)
 
 
-def paddle_key(table: Table, camera: Camera, theme: Theme) -> str:
-    """Return the key of a table's paddles, which do not depend on prisms and cylinders."""
-    return key_of("paddles", table.model_dump(include={"board", "slant_wall", "paddle"}), camera.size, theme)
+def levels_key(layout: Layout, camera: Camera, theme: Theme) -> str:
+    """Return the key of a table's upper levels."""
+    return key_of("levels", layout, camera.size, theme)
 
 
 def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
@@ -97,45 +96,45 @@ def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
     arrays = cache.load(key)
     if arrays is None or not {"pixels", "height"} <= arrays.keys():
         return None
-    flashes = {
-        name.removeprefix("flash "): HitFlash(
-            int(arrays["at " + name[6:]][0]), int(arrays["at " + name[6:]][1]), pixels
-        )
-        for name, pixels in arrays.items()
-        if name.startswith("flash ")
-    }
+    flashes: dict[str, tuple[HitFlash, ...]] = {}
+    for name, pixels in arrays.items():
+        if name.startswith("flash "):
+            _, number, part = name.split(" ", 2)
+            left, top = arrays[f"at {number}"]
+            flashes[part] = (*flashes.get(part, ()), HitFlash(int(left), int(top), pixels))
     return BakedTable(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
 
 
 def save_baked_table(cache: PictureCache, key: str, table: BakedTable) -> None:
     """Save a baked table."""
     arrays: dict[str, NDArray[Any]] = {"pixels": table.pixels, "height": table.height.astype(np.float16)}
-    for name, flash in table.flashes.items():
-        arrays["flash " + name] = flash.pixels
-        arrays["at " + name] = np.array((flash.left, flash.top))
+    each = ((part, flash) for part, flashes in table.flashes.items() for flash in flashes)
+    for number, (part, flash) in enumerate(each):
+        arrays[f"flash {number} {part}"] = flash.pixels
+        arrays[f"at {number}"] = np.array((flash.left, flash.top))
     cache.save(key, arrays)
 
 
-def load_paddles(cache: PictureCache, key: str) -> Sprites:
-    """Load the sprites of paddles; an empty dict if they are not cached."""
+def load_sprites(cache: PictureCache, key: str) -> Sprites:
+    """Load sprites; an empty dict if they are not cached."""
     arrays = cache.load(key) or {}
     sprites: Sprites = {}
     for name, at in arrays.items():
         if name.startswith("at "):
-            _, side, step = name.split()
-            sprites[side, int(step)] = PaddleSprite(
-                int(at[0]), int(at[1]), arrays[f"remaining {side} {step}"], arrays[f"added {side} {step}"],
-                arrays[f"height {side} {step}"].astype(np.float32),
+            _, part, pose = name.split()
+            sprites[int(part), int(pose)] = Sprite(
+                int(at[0]), int(at[1]), arrays[f"remaining {part} {pose}"], arrays[f"added {part} {pose}"],
+                arrays[f"height {part} {pose}"].astype(np.float32),
             )  # fmt: skip
     return sprites
 
 
-def save_paddles(cache: PictureCache, key: str, sprites: Sprites) -> None:
-    """Save the sprites of paddles."""
+def save_sprites(cache: PictureCache, key: str, sprites: Sprites) -> None:
+    """Save sprites."""
     arrays: dict[str, NDArray[Any]] = {}
-    for (side, step), sprite in sprites.items():
-        arrays[f"at {side} {step}"] = np.array((sprite.left, sprite.top))
-        arrays[f"remaining {side} {step}"] = sprite.remaining
-        arrays[f"added {side} {step}"] = sprite.added
-        arrays[f"height {side} {step}"] = sprite.height.astype(np.float16)
+    for (part, pose), sprite in sprites.items():
+        arrays[f"at {part} {pose}"] = np.array((sprite.left, sprite.top))
+        arrays[f"remaining {part} {pose}"] = sprite.remaining
+        arrays[f"added {part} {pose}"] = sprite.added
+        arrays[f"height {part} {pose}"] = sprite.height.astype(np.float16)
     cache.save(key, arrays)

@@ -20,6 +20,7 @@ from silverball.drawing.camera import Camera, best_size
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.dotmatrix.score_panel import ScorePanel
 from silverball.drawing.effects import Effects
+from silverball.drawing.layout import Layout
 from silverball.drawing.moment import Moment
 from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.pictures import load_baked_table, table_key
@@ -109,7 +110,7 @@ class Renderer:
             from silverball.drawing.text import lettering
 
             lettering(table.name, self.camera.dimensions)  # cached here, because fonts are not thread-safe
-            key = table_key(table, self.camera, self.theme)
+            key = table_key(Layout.of(table), self.camera, self.theme)
             known = load_baked_table(self._cache, key)
             self._painter = SketchPainter(
                 table, self.camera, self.theme, None if known is None else known.pixels
@@ -164,7 +165,7 @@ class Renderer:
         return pixels.reshape(height, width, 3)
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until the background has baked everything, paddles included, or for some seconds."""
+        """Wait until the background has baked everything, moving parts included, or for some seconds."""
         if self._background is not None:
             self._background.wait(seconds)
 
@@ -173,7 +174,7 @@ class Renderer:
         if self._background is not None:
             self._background.close()
         if self._provider is not None:
-            self._provider.save_paddles()
+            self._provider.save_sprites()
 
     def _compose(self, moment: Moment, dots: Dots | None) -> pygame.Surface:
         self._adopt_background()
@@ -195,7 +196,9 @@ class Renderer:
             self.table, self.camera, self.theme, self._cache, BakeThreads(progress=progress)
         )
         self._provider = provider
-        return Composer(self.table, self.camera, self.theme, provider.table(), provider.baked_paddle)
+        return Composer(
+            self.table, self.camera, self.theme, provider.table(), provider.levels(), provider.baked_sprite
+        )
 
 
 _lock = threading.Lock()  # a renderer draws one picture at a time

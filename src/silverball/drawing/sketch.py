@@ -8,23 +8,32 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
+from itertools import groupby, pairwise
 
 import numpy as np
 import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.camera import Camera
-from silverball.drawing.dimensions import corner_behind
+from silverball.drawing.dimensions import LEVEL_RISE, corner_behind
 from silverball.drawing.effects import Effects
-from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art
-from silverball.drawing.moment import Moment
-from silverball.drawing.themes import Color, Theme, cycled_color
-from silverball.table import Paddle, SlantWall, Table
+from silverball.drawing.finishes import LOOKS
+from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art, Material
+from silverball.drawing.layout import Layout
+from silverball.drawing.moment import BallAt, Moment
+from silverball.drawing.moving import PULL, Motion, MovingPart, is_moving, moving_parts, pose_angle, turned
+from silverball.drawing.poses import pose_of
+from silverball.drawing.themes import Color, Theme, role_color
+from silverball.physics.forms import Shape
+from silverball.table import Table
+from silverball.table.outlines import closed_outline, path
+from silverball.table.primitive import Point, Primitive
 
-Point = tuple[float, float]
 SUPERSAMPLE = 2  # antialiasing: the picture is drawn larger by this factor and scaled down
 MAX_SUPERSAMPLED_PIXELS = 2_000_000  # larger pictures are not supersampled
-FARTHEST = math.inf  # [u] x of what is drawn first
+FARTHEST = math.inf  # what is drawn first
+LEVEL_ORDER, FLAT_ORDER = 1000.0, 500.0  # [u] more than any x: levels come last, what lies flat comes first
+FLAT = 0.1  # [u] what is lower lies in the playfield
 CIRCLE = 28  # corners of a circle
 
 
@@ -38,7 +47,8 @@ def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
     _floor(pen, table, theme)
     _emblem(pen, table, theme)
     _rails(pen, theme)
-    for _, draw in sorted(_parts(pen, table, theme), key=lambda part: -part[0]):  # the far ones first
+    layout = Layout.of(table)
+    for _, draw in sorted(_parts(pen, layout, theme), key=lambda part: -part[0]):  # the far ones first
         draw()
     _apron(pen, theme)
     small = pygame.transform.smoothscale(surface, camera.size) if enlarged > 1 else surface
@@ -79,16 +89,41 @@ class Pen:
         self.face([(x, z, height) for x, z in corners], top)
 
 
-def sketch_paddle(pen: Pen, paddle: Paddle, angle: float, theme: Theme) -> None:
-    """Draw a paddle at an angle [deg]."""
-    pen.block(paddle.corners(angle), pen.camera.dimensions.paddle_height, theme.paddle)
+def sketch_pose(pen: Pen, part: MovingPart, pose: int, theme: Theme) -> None:
+    """Draw a moving part in one of its poses."""
+    primitive, unit = part.primitive, pen.camera.dimensions.unit
+    look = LOOKS[primitive.finish]
+    base, color = part.level * LEVEL_RISE * unit, role_color(theme, look.role, part.number)
+    top = base + look.height * unit
+    if part.motion is Motion.TURNING:
+        corners = turned(primitive, pose_angle(part, pose))
+        if primitive.shape == Shape.TAPERED:
+            corners = hull_of_circles(corners, primitive)
+        pen.block(corners, top, color, base)
+    elif part.motion is Motion.SPINNING:
+        (x0, z0), (x1, z1) = primitive.points
+        high = 0.3 * unit * abs(math.cos(math.pi * pose / part.poses))
+        axis = base + 0.42 * unit
+        low, up = axis - high, axis + high + 0.02 * unit
+        pen.face([(x0, z0, low), (x1, z1, low), (x1, z1, up), (x0, z0, up)], color)
+    elif primitive.launch is not None:
+        (x, z), (to_x, to_z) = primitive.points[0], primitive.launch.direction
+        near = pen.camera.dimensions.ball + PULL * unit * pose / (part.poses - 1)
+        far = near + 1.4 * unit
+        top_end, low_end = (x - near * to_x, z - near * to_z), (x - far * to_x, z - far * to_z)
+        pen.block(bar(top_end, low_end, 0.1 * unit), top, color, base)
+    elif part.motion is not Motion.HANGING or pose == 0:
+        start, end = primitive.points
+        pen.block(bar(start, end, primitive.radius), top, color, base)
 
 
-def sketch_ball(pen: Pen, x: float, z: float) -> None:
-    """Draw a ball with its shadow."""
+def sketch_ball(pen: Pen, ball: BallAt, is_sunk: bool = False) -> None:
+    """Draw a ball with its shadow; one in a hole has none."""
     radius = pen.camera.dimensions.ball
-    pen.face(circle(x - 0.5 * radius, z, radius, 0.0), (8, 8, 14))
-    across, down = pen.camera.to_pixel(x, z, radius)
+    x, z, base = ball.x, ball.z, ball.level * LEVEL_RISE * pen.camera.dimensions.unit
+    if not is_sunk:
+        pen.face(circle(x - 0.5 * radius - base, z, radius, 0.0), (8, 8, 14))
+    across, down = pen.camera.to_pixel(x, z, base if is_sunk else base + radius)
     size = max(radius * pen.camera.scale * pen.enlarged, 1.0)
     place = (across * pen.enlarged, down * pen.enlarged)
     for share, color in ((1.0, (120, 128, 150)), (0.86, (196, 202, 220)), (0.5, (250, 250, 255))):
@@ -186,22 +221,70 @@ def _apron(pen: Pen, theme: Theme) -> None:
     pen.face([(near, -wide, high), (near, wide, high), (-long, wide, high), (-long, -wide, high)], theme.rail)
 
 
-def _parts(pen: Pen, table: Table, theme: Theme) -> Iterator[tuple[float, Callable[[], None]]]:
-    """Yield for each part its x [u] and a function that draws it."""
-    dimensions = pen.camera.dimensions
-    for wall in table.slant_wall:
-        corner = corner_behind(table.board, wall)
-        if corner is not None:
-            yield FARTHEST, partial(pen.block, corner, 0.8 * dimensions.wall_height, dim(theme.apron, 0.8))
-        middle = 0.5 * (wall.start[0] + wall.end[0])
-        yield middle, partial(pen.block, _bar(wall), dimensions.wall_height, theme.wall)
-    for index, prism in enumerate(table.triangular_prism):
-        corners, color = prism.corners(), cycled_color(theme.prisms, index)
-        yield sum(x for x, _ in corners) / 3.0, partial(pen.block, corners, dimensions.prism_height, color)
-    for index, cylinder in enumerate(table.cylinder):
-        x, z, radius = cylinder.circle()
-        color = cycled_color(theme.cylinders, index)
-        yield x, partial(_bumper, pen, x, z, radius, color, theme)
+def _parts(pen: Pen, layout: Layout, theme: Theme) -> Iterator[tuple[float, Callable[[], None]]]:
+    """Yield for each primitive an order, by its level and its x [u], and a function that draws it."""
+    dimensions, counts = pen.camera.dimensions, dict[str, int]()
+    for _, rows in groupby(layout.rows, key=lambda row: row.part):
+        primitives = tuple(row.primitive for row in rows)
+        look = LOOKS[primitives[0].finish]
+        counts[look.role] = counts.get(look.role, -1) + 1
+        level = min(primitives[0].levels)
+        base = level * LEVEL_RISE * dimensions.unit
+        outline = closed_outline(primitives)
+        if outline is not None:
+            fill = role_color(theme, look.fill.role, counts[look.role])
+            height = base + (look.height - look.fill.drop) * dimensions.unit
+            middle = 0.5 * (min(x for x, _ in outline) + max(x for x, _ in outline))
+            yield (
+                middle - LEVEL_ORDER * level,
+                partial(pen.block, counter_clockwise(outline), height, fill, base),
+            )
+        for primitive in primitives:
+            if is_moving(primitive):
+                continue
+            color = role_color(theme, LOOKS[primitive.finish].role, counts[look.role])
+            xs = [x for x, _ in primitive.points]
+            order = 0.5 * (min(xs) + max(xs)) - LEVEL_ORDER * level
+            if LOOKS[primitive.finish].height < FLAT:
+                order += FLAT_ORDER
+            yield order, partial(_primitive, pen, primitive, color, theme, base)
+            corner = _corner_behind(layout, primitive)
+            if corner is not None:
+                yield (
+                    FARTHEST,
+                    partial(pen.block, corner, 0.8 * dimensions.wall_height, dim(theme.apron, 0.8)),
+                )
+
+
+def _primitive(pen: Pen, primitive: Primitive, color: Color, theme: Theme, base: float) -> None:
+    """Draw a primitive that does not move."""
+    look, unit = LOOKS[primitive.finish], pen.camera.dimensions.unit
+    top = base + look.height * unit
+    if look.material is Material.BUMPER:
+        (x, z), radius = primitive.points[0], primitive.radius
+        _bumper(pen, x, z, radius, color, theme)
+    elif primitive.shape in (Shape.CIRCLE, Shape.DISC):
+        (x, z), radius = primitive.points[0], primitive.radius
+        corners = [(px, pz) for px, pz, _ in circle(x, z, radius, 0.0)]
+        if look.material is Material.PIT:
+            pen.face([(px, pz, top) for px, pz in corners], theme.steel)
+            corners = [(px, pz) for px, pz, _ in circle(x, z, 0.8 * radius, 0.0)]
+        pen.block(corners, top, color, base)
+    elif primitive.shape == Shape.TRIANGLE:
+        pen.block(primitive.points, top, color, base)
+    else:
+        width = 0.05 * unit if primitive.shape == Shape.LINE else primitive.radius
+        points = path(primitive)
+        for start, end in pairwise(points):
+            if start != end:
+                pen.block(bar(start, end, width), top, color, base)
+
+
+def _corner_behind(layout: Layout, primitive: Primitive) -> tuple[Point, Point, Point] | None:
+    if primitive.shape != Shape.CAPSULE or not LOOKS[primitive.finish].has_tube:
+        return None
+    start, end = primitive.points
+    return corner_behind(layout.board, start, end)
 
 
 def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Theme) -> None:
@@ -217,17 +300,41 @@ def _bumper(pen: Pen, x: float, z: float, radius: float, color: Color, theme: Th
         pen.face(circle(x, z, share * cap, dimensions.body_height + rise), tone)
 
 
-def _bar(wall: SlantWall) -> list[Point]:
-    """Return the outline of a slant wall with its round ends, counter-clockwise."""
-    (x0, z0), (x1, z1) = wall.start, wall.end
+def bar(start: Point, end: Point, radius: float) -> list[Point]:
+    """Return the outline of a segment with round ends, counter-clockwise."""
+    (x0, z0), (x1, z1) = start, end
     direction = math.atan2(x1 - x0, z1 - z0)
-    thick = max(wall.thickness, 0.02)
+    thick = max(radius, 0.02)
     outline = []
     for (x, z), first in (((x1, z1), direction - 0.5 * math.pi), ((x0, z0), direction + 0.5 * math.pi)):
         for step in range(7):
             turn = first + step * math.pi / 6.0
             outline.append((x + thick * math.sin(turn), z + thick * math.cos(turn)))
     return outline
+
+
+def hull_of_circles(middles: Sequence[Point], primitive: Primitive) -> list[Point]:
+    """Return the outline of a tapered paddle whose pivot and tip are at two places, counter-clockwise."""
+    assert primitive.mover is not None
+    pivot, tip = middles if primitive.mover.direction > 0.0 else (middles[1], middles[0])
+    direction = math.atan2(tip[0] - pivot[0], tip[1] - pivot[1])
+    half = 0.5 * math.pi - math.asin((primitive.radius - primitive.tip_radius) / math.dist(pivot, tip))
+    outline = []
+    for (x, z), radius, first, turn in (
+        (tip, primitive.tip_radius, direction - half, 2.0 * half),
+        (pivot, primitive.radius, direction + half, 2.0 * (math.pi - half)),
+    ):
+        for step in range(9):
+            angle = first + turn * step / 8.0
+            outline.append((x + radius * math.sin(angle), z + radius * math.cos(angle)))
+    return outline
+
+
+def counter_clockwise(corners: Sequence[Point]) -> list[Point]:
+    """Return the corners of a polygon in counter-clockwise order."""
+    pairs = zip(corners, (*corners[1:], corners[0]), strict=True)
+    area = sum(z0 * x1 - z1 * x0 for (x0, z0), (x1, z1) in pairs)
+    return list(corners) if area > 0.0 else list(reversed(corners))
 
 
 class SketchPainter:
@@ -243,7 +350,8 @@ class SketchPainter:
     def __init__(
         self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
     ) -> None:
-        self._paddles = table.paddle
+        self._layout = Layout.of(table)
+        self._parts = moving_parts(self._layout)
         self._theme = theme
         if pixels is None:
             pixels = sketch(table, camera, theme)
@@ -256,12 +364,12 @@ class SketchPainter:
         self._surface.blit(self._baked, (0, 0))
         for _ in effects.trails(moment):
             pass  # advances the trails, so that they are complete when the baked picture takes over
-        balls = [*moment.balls, *effects.sinking_balls(moment.time)]
-        angles = dict(zip(("left", "right"), moment.angles, strict=True))
-        for ball in balls:
-            sketch_ball(self._pen, ball.x, ball.z)
-        for paddle in self._paddles:
-            sketch_paddle(self._pen, paddle, angles[paddle.side], self._theme)
+        for ball in (*moment.balls, *effects.sinking_balls(moment.time)):
+            sketch_ball(self._pen, ball, self._layout.is_hole(ball.holder))
+        for part in self._parts:
+            pose = pose_of(part, moment, effects, self._pen.camera.dimensions.ball)
+            if pose is not None:
+                sketch_pose(self._pen, part, pose, self._theme)
         return self._surface
 
 

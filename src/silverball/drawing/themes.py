@@ -38,6 +38,16 @@ class Theme:
         fill: Strength of the ambient light.
         lacquer: Reflectance of the playfield.
         halo: Strength of the light that parts throw around them.
+        infill: What closed walls enclose.
+        timber: Parts of wood.
+        plastics: Parts of plastic.
+        rubber: Posts, and the rubbers of slingshots.
+        targets: Faces of targets.
+        inserts: Lenses of rollovers.
+        spinner: Blades of spinners.
+        hole: Inside of a hole.
+        mouth: Arrows where balls change from one level to another.
+        ramp: Floors of upper levels.
     """
 
     title: str
@@ -73,6 +83,16 @@ class Theme:
     frame: Frame = Frame.METAL
     ball: Color = (255, 255, 255)
     exposure: float = 1.0
+    infill: Color = (60, 64, 92)
+    timber: Color = (150, 104, 62)
+    plastics: tuple[Color, ...] = ((70, 96, 190), (150, 60, 140), (40, 130, 130))
+    rubber: Color = (232, 232, 236)
+    targets: tuple[Color, ...] = ((240, 60, 60), (250, 190, 40), (60, 190, 240))
+    inserts: tuple[Color, ...] = ((255, 220, 90), (90, 220, 255), (255, 110, 180), (120, 240, 130))
+    spinner: Color = (220, 60, 60)
+    hole: Color = (70, 74, 92)
+    mouth: Color = (255, 200, 60)
+    ramp: Color = (120, 200, 255)
 
 
 NEON = Theme(
@@ -140,6 +160,16 @@ PARLOUR = Theme(
     fill=0.75,
     lacquer=0.35,
     halo=0.45,
+    infill=(120, 74, 40),
+    timber=(196, 140, 84),
+    plastics=((200, 60, 44), (30, 110, 90), (226, 176, 70)),
+    rubber=(246, 240, 226),
+    targets=((214, 44, 36), (244, 236, 214), (30, 120, 170)),
+    inserts=((255, 210, 90), (226, 60, 44), (90, 190, 120)),
+    spinner=(196, 40, 34),
+    hole=(64, 40, 26),
+    mouth=(255, 220, 120),
+    ramp=(40, 120, 170),
 )
 
 CLEAR = Theme(
@@ -173,6 +203,16 @@ CLEAR = Theme(
     fill=0.7,
     lacquer=0.2,
     halo=0.5,
+    infill=(66, 72, 86),
+    timber=(120, 112, 100),
+    plastics=((76, 86, 112),),
+    rubber=(150, 156, 168),
+    targets=((150, 40, 160),),
+    inserts=((70, 150, 130),),
+    spinner=(150, 40, 160),
+    hole=(4, 5, 7),
+    mouth=(70, 150, 130),
+    ramp=(130, 150, 200),
 )
 
 THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}
@@ -181,6 +221,24 @@ THEMES = {"neon": NEON, "parlour": PARLOUR, "clear": CLEAR}
 def cycled_color(colors: tuple[Color, ...], index: int) -> Color:
     """Return the colour of the part with a number; the colours repeat."""
     return colors[index % len(colors)]
+
+
+def role_color(theme: Theme, role: str, number: int) -> Color:
+    """Return the colour of a theme for the part with a number among those of its role."""
+    value = getattr(theme, role)
+    return cycled_color(value, number) if isinstance(value[0], tuple) else value
+
+
+BALL_TINTS: tuple[Color, ...] = (
+    (255, 255, 255), (255, 214, 120), (150, 220, 255), (255, 170, 200), (170, 255, 180), (210, 180, 255),
+    (255, 190, 140), (190, 255, 240),
+)  # fmt: skip
+"""Colours of the chrome of balls on a table with more than two, by their ids."""
+
+
+def ball_tint(id_: int) -> Color:
+    """Return the colour of the chrome of a ball; those of eight balls in a row differ."""
+    return cycled_color(BALL_TINTS, id_ - 1)
 
 
 # Colours of words, keys and panels that lie over a table of any theme

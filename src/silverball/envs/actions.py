@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from silverball.envs.options import Options
 
-KEYS = {"left": "a", "right": "d", "jitter": "z", "create": " "}
+KEYS = {"left": "a", "right": "d", "jitter": "z", "create": " ", "launch": "\r"}
 """The key of each button, as in the window."""
 
 
-def action_space(options: Options) -> spaces.Space[Any]:
-    """The space of one environment's actions."""
-    count = len(options.buttons)
+def action_space(options: Options, buttons: tuple[str, ...]) -> spaces.Space[Any]:
+    """The space of one environment's actions with these buttons."""
+    count = len(buttons)
     return spaces.MultiBinary(count) if options.actions == "multibinary" else spaces.Discrete(1 << count)
 
 
@@ -35,12 +35,19 @@ def as_bits(actions: NDArray[Any]) -> NDArray[np.bool_] | None:
     return bits if np.all(np.logical_or(actions == 0, bits)) else None
 
 
-def keys_to_action(options: Options) -> dict[tuple[str, ...], Any]:
+def meanings(buttons: tuple[str, ...]) -> list[str]:
+    """The buttons of each discrete action in capitals: NOOP, LEFT, RIGHT, LEFT+RIGHT and so on."""
+    names = [name.upper() for name in buttons]
+    codes = range(1 << len(names))
+    held = [[name for bit, name in enumerate(names) if code >> bit & 1] for code in codes]
+    return ["+".join(those) or "NOOP" for those in held]
+
+
+def keys_to_action(options: Options, buttons: tuple[str, ...]) -> dict[tuple[str, ...], Any]:
     """The action of every set of pressed keys, for `gymnasium.utils.play`.
 
     The empty set is omitted: `play` does not expect it and uses 0 instead, which holds no button.
     """
-    buttons = options.buttons
     found: dict[tuple[str, ...], Any] = {}
     for bits in product((0, 1), repeat=len(buttons)):
         keys = tuple(KEYS[name] for name, bit in zip(buttons, bits, strict=True) if bit)

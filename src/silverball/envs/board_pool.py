@@ -17,13 +17,24 @@ import numpy as np
 import tomli_w
 from numpy.typing import NDArray
 
-from silverball.envs.observations import CylinderSlot, Field, PrismSlot, fields
+from silverball.envs.observations import (
+    LEAST_BALLS,
+    LEAST_PADDLES,
+    CylinderSlot,
+    Field,
+    PrismSlot,
+    field_named,
+    fields,
+)
 from silverball.envs.options import TableSource
-from silverball.physics.records import Kind
+from silverball.physics.records import Device
 from silverball.plain import plain
-from silverball.table import Table, generate_table, load_table, parse_table
+from silverball.table import Table, expand, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
 from silverball.world.compile import Boards, blank_worlds, compile_tables
+
+SHOWN_KINDS = {"triangular_prisms": "triangular_prism", "cylinders": "cylinder"}
+"""The groups of parts that recipes place at random, and the kind of each."""
 
 
 class Pool(NamedTuple):
@@ -36,6 +47,7 @@ class Pool(NamedTuple):
         blanks: WORLD records of new worlds, one for each board.
         layouts: The columns of an observation that describe the obstacles, float32 [board, column].
         fields: The groups of an observation and their columns.
+        has_plunger: Whether the boards have a plunger, and so a launch button.
     """
 
     tables: tuple[Table, ...]
@@ -44,6 +56,7 @@ class Pool(NamedTuple):
     blanks: NDArray[Any]
     layouts: NDArray[np.float32]
     fields: tuple[Field, ...]
+    has_plunger: bool
 
     def board_of_seed(self, seed: Any) -> int:
         """The index of the board with this seed, or at this position of a list of tables.
@@ -122,7 +135,7 @@ def _list_pool(tables: tuple[Table, ...]) -> Pool:
         which = f"table {number} of the list ({plain(table.name)})"
         if table.random is not None:
             raise ValueError(f"{which} is a recipe: draw boards from it with generate_table(seed, recipe)")
-        for part in ("board", "paddle"):
+        for part in ("board", "paddle", "plunger"):
             if getattr(table, part) != getattr(tables[0], part):
                 raise ValueError(f"{which} has a different [{part}] than the first one; they must be equal")
     return _pool(tables, range(len(tables)))
@@ -130,30 +143,50 @@ def _list_pool(tables: tuple[Table, ...]) -> Pool:
 
 def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     boards = compile_tables(tables)
-    layout = fields(
-        max(len(table.triangular_prism) for table in tables), max(len(table.cylinder) for table in tables)
-    )
+    items = {"balls": max(LEAST_BALLS, int(boards.board["max_balls"].max())), "game": 1}
+    items["paddles"] = max(LEAST_PADDLES, _paddle_slots(tables[0]))
+    items["switches"] = int(boards.board["switches"].max())
+    items["spinners"] = int(boards.board["spinners"].max())
+    items["plunger"] = int(boards.board["plungers"].max() > 0)
+    if np.isin(boards.collider["role"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
+        items["ball_places"] = items["balls"]
+    for group, kind in SHOWN_KINDS.items():
+        items[group] = max(len(getattr(table, kind)) for table in tables)
+    layout = fields(items)
     blanks = blank_worlds(boards, np.arange(len(tables)))
-    return Pool(tables, np.array(seeds, np.int64), boards, blanks, _layouts(boards, layout), layout)
+    layouts, has_plunger = _layouts(boards, layout), items["plunger"] > 0
+    return Pool(tables, np.array(seeds, np.int64), boards, blanks, layouts, layout, has_plunger)
 
 
 def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:
     """The columns that describe the obstacles, float32 [board, column]; unused ones are 0."""
-    prisms, cylinders = layout[-2:]
+    prisms, cylinders = (field_named(layout, name) for name in SHOWN_KINDS)
     shown = np.zeros((len(boards.board), cylinders.end - prisms.first), np.float32)
-    for row, board in zip(shown, boards.board, strict=True):
-        parts = boards.collider[board["collider_first"] : board["collider_end"]]
+    for row, board, names in zip(shown, boards.board, boards.names, strict=True):
         half_length, half_width = board["half_length"], board["half_width"]
-        prism_parts = parts[parts["kind"] == Kind.TRIANGULAR_PRISM]
+        prism_parts = _rows_of(boards, board, names, "triangular_prism")
         first = row[: len(prism_parts) * len(PrismSlot)]
         for corner in range(3):
             first[2 * corner :: 6] = prism_parts[f"x{corner}"] / half_length
             first[2 * corner + 1 :: 6] = prism_parts[f"z{corner}"] / half_width
-        cylinder_parts = parts[parts["kind"] == Kind.CYLINDER]
+        cylinder_parts = _rows_of(boards, board, names, "cylinder")
         rest = row[prisms.end - prisms.first :][: len(cylinder_parts) * len(CylinderSlot)]
         rest[0::3], rest[1::3] = cylinder_parts["x"] / half_length, cylinder_parts["z"] / half_width
         rest[2::3] = cylinder_parts["radius"] / half_width
     return shown
+
+
+def _paddle_slots(table: Table) -> int:
+    """Slots of the paddles: one of each button, and one of each further paddle."""
+    sides = [primitive.mover.button for row in expand(table).rows if (primitive := row.primitive).mover]
+    return len(sides) + (2 - len(set(sides)))
+
+
+def _rows_of(boards: Boards, board: Any, names: tuple[str, ...], kind: str) -> Any:
+    """The COLLIDER records of the parts of a board whose name begins with a kind."""
+    rows = boards.collider[board["collider_first"] : board["collider_end"]]
+    numbers = [number for number, name in enumerate(names) if name.startswith(f"{kind}[")]
+    return rows[np.isin(rows["part"], numbers)]
 
 
 class PooledBatch(WorldBatch):

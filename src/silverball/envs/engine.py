@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from silverball.envs.board_pool import Pool, PooledBatch, make_pool
 from silverball.envs.buffers import OutputPool
 from silverball.envs.episode import run_task
+from silverball.envs.observations import field_named
 from silverball.envs.options import Options
 from silverball.envs.pixels import draw_finals
 from silverball.envs.pointers import ADDRESSES, OUTPUTS, write_addresses
@@ -32,7 +33,7 @@ from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, R
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
-from silverball.physics.records import WORLD, Part, records
+from silverball.physics.records import LEFT, MAX_PADDLES, RIGHT, WORLD, Part, records
 from silverball.world.threads import thread_pool
 
 STATE_FORMAT = 3
@@ -67,11 +68,12 @@ class Engine:
         """Make `count` environments; with `has_fixed_output` every step writes to the same arrays."""
         self.options, self.count, self.has_fixed_output = options, count, has_fixed_output
         self.pool: Pool = make_pool(options.table, options.boards, options.board_seed)
+        self.buttons = options.buttons(self.pool.has_plunger)
         self.reward = resolve_reward(options.reward)
         self.shows_pictures = options.observation == "pixels"
         self.stack = options.stack if self.shows_pictures else 0
         self._allocate_state(threads)
-        self.rules = _rules(options, self.pool, mode)
+        self.rules = _rules(options, self.pool, mode, self.buttons)
         self._prepare_pictures()
         self.actions = np.zeros(count, np.int64)
         self.reset_mask = np.ones(count, np.bool_)
@@ -85,7 +87,7 @@ class Engine:
         self.finals = np.zeros((ended, columns), np.float32)
         self.final_counts = np.zeros((ended, len(INFO)), np.int64)
         self.final_picture_states = records(ended * self.stack, PICTURE_STATE).reshape(ended, self.stack)
-        self._held = np.zeros((1, count, 3), np.bool_)
+        self._held = np.zeros((1, count, 4 if self.pool.has_plunger else 3), np.bool_)
         pictures = max(1, self.stack * int(self.rules["copies_stack"][0])) if self.shows_pictures else 0
         self._work_per_env = options.frame_skip + PICTURE_WORK * pictures
         self._write_addresses()
@@ -158,7 +160,8 @@ class Engine:
             "boards": boards.board, "colliders": boards.collider, "grid": boards.grid, "places": boards.place,
             "board_seeds": pool.seeds, "blanks": pool.blanks, "layouts": pool.layouts, "held": self._held,
             "backgrounds": pictures.backgrounds, "ball_sprites": pictures.balls,
-            "paddle_sprites": pictures.paddles,
+            "paddle_sprites": pictures.paddles, "pictured_boards": pictures.pictured_boards,
+            "lamp_of": pictures.lamp_of, "pieces": pictures.pieces, "masks": pictures.masks,
         }  # fmt: skip
         self.addresses = records(1, ADDRESSES)
         write_addresses(self.addresses, {**vars(self), **arrays, **self.outputs.last.arrays})
@@ -343,7 +346,7 @@ def _as_records(memory: NDArray[np.uint8], dtype: np.dtype[Any]) -> NDArray[Any]
     return array.view(np.recarray) if SETTINGS.DISABLE_JIT else array
 
 
-def _rules(options: Options, pool: Pool, mode: ResetMode) -> NDArray[Any]:
+def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ...]) -> NDArray[Any]:
     """The options as the numbers that the kernels read."""
     rules = records(1, RULES)
     row = rules[0]
@@ -359,19 +362,48 @@ def _rules(options: Options, pool: Pool, mode: ResetMode) -> NDArray[Any]:
     row["stall_steps"] = options.steps_in(options.stall)
     row["max_steps"] = options.steps_in(options.time_limit)
     row["idle_scale"] = 0.0 if options.stall is None else 1.0 / row["stall_steps"]
-    for bit, name in enumerate(options.buttons):
-        if name in ("jitter", "create"):
+    for bit, name in enumerate(buttons):
+        if name not in ("left", "right"):  # these have the first two bits
             row[f"{name}_bit"] = 1 << bit
     row["boards"], row["mode"] = len(pool.tables), mode
     row["x_scale"], row["z_scale"] = 2.0 / board.length, 2.0 / board.width
     row["speed_scale"] = 1.0 / board.speed_cap
-    for side, part in ((0, Part.LEFT_PADDLE), (1, Part.RIGHT_PADDLE)):
-        collider = pool.boards.collider[pool.boards.board["collider_first"][0] + part]
-        row["rest_angle"][side], row["raised_angle"][side] = collider["angle_rest"], collider["angle_up"]
+    first = pool.boards.board["collider_first"][0] + Part.FIRST_PADDLE
+    for number in range(pool.boards.board["paddles"][0]):
+        collider = pool.boards.collider[first + number]
+        row["rest_angle"][number], row["raised_angle"][number] = collider["angle_rest"], collider["angle_up"]
         swing = collider["angle_up"] - collider["angle_rest"]
         if swing > 0.0:
-            row["angle_scale"][side] = 1.0 / swing
-            row["turn_scale"][side] = 1.0 / max(collider["lift_speed"], collider["return_speed"])
+            row["angle_scale"][number] = 1.0 / swing
+            row["turn_scale"][number] = 1.0 / max(collider["lift_speed"], collider["return_speed"])
+    row["paddle_of"] = _shown_paddles(pool)
+    balls, paddles, game = (field_named(pool.fields, name) for name in ("balls", "paddles", "game"))
+    row["balls_shown"], row["paddles_shown"] = balls.items, paddles.items
+    row["paddles_at"], row["game_at"] = paddles.first, game.first
+    row["layout_at"] = pool.columns - pool.layouts.shape[1]
+    devices = (("ball_places", "places"), ("switches", "switches"), ("spinners", "spinners"))
+    for name, shown in devices:
+        field = field_named(pool.fields, name)
+        row[f"{shown}_shown"], row[f"{shown}_at"] = field.items, field.first
+    plunger = field_named(pool.fields, "plunger")
+    row["plungers_shown"], row["plunger_at"] = plunger.items, plunger.first
+    row["shows_devices"] = any(
+        row[f"{name}_shown"] for name in ("places", "switches", "spinners", "plungers")
+    )
+    if plunger.items:
+        board_row = pool.boards.board[0]
+        collider = pool.boards.collider[board_row["collider_first"] + board_row["plunger_row"]]
+        row["charge_scale"] = row["tick"] / collider["charge_time"]
     row["writes_state"] = options.observation != "pixels"
     row["draws_pictures"] = options.observation == "pixels"
     return rules
+
+
+def _shown_paddles(pool: Pool) -> list[int]:
+    """The paddle in each slot: the first of the left button, the first of the right one, then the others."""
+    board = pool.boards.board[0]
+    first = board["collider_first"] + Part.FIRST_PADDLE
+    buttons = pool.boards.collider["button"][first : first + board["paddles"]].tolist()
+    main = [buttons.index(button) if button in buttons else -1 for button in (LEFT, RIGHT)]
+    shown = [*main, *(number for number in range(len(buttons)) if number not in main)]
+    return [*shown, *[-1] * MAX_PADDLES][:MAX_PADDLES]

@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.envs import pointers as views
-from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, BallSlot, GameSlot, PaddleSlot
+from silverball.envs.observations import BallSlot, GameSlot, PaddleSlot, PlaceSlot
 from silverball.envs.pixels import PICTURE_STATE_SIZE, copy_stack, draw_first, draw_step, redraw_stack
 from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
@@ -21,16 +21,28 @@ from silverball.envs.state import COUNTS, EPISODE, INFO, ResetMode, RulesRecord,
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.portable_math import WORD, threefry
-from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
+from silverball.physics.records import (
+    LEFT,
+    MAX_LEVELS,
+    RIGHT,
+    WORLD,
+    BatchGeometry,
+    Fault,
+    Lanes,
+    Motion,
+    Outcome,
+    WorldRecord,
+)
+from silverball.physics.spinner import blade_speed
 from silverball.physics.step import run_worlds
-from silverball.world.single_step import INT, LEFT, RIGHT, array_at
+from silverball.world.single_step import INT, array_at
 
 BLOCK = 64  # worlds stepped before their rewards are computed, so that their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
 # A WORLD record has its counters in the order of `COUNTS`; `write_counts` appends two fields of an episode.
 COUNTS_AT, COUNTS_SIZE = int(WORLD.fields["score"][1]), 8 * len(COUNTS)  # type: ignore[index]
 EPISODE_COUNTS_SIZE = 8 * (len(INFO) - len(COUNTS))  # the first fields of an EPISODE record
-BALL_WIDTH, PADDLE_WIDTH = len(BallSlot), len(PaddleSlot)
+BALL_WIDTH, PADDLE_WIDTH, PLACE_WIDTH = len(BallSlot), len(PaddleSlot), len(PlaceSlot)
 
 
 @kernel
@@ -120,6 +132,8 @@ def apply_action(ptr: Pointers, rules: RulesRecord, index: int) -> None:
     held[0, index, 0] = bits & LEFT != 0
     held[0, index, 1] = bits & RIGHT != 0
     held[0, index, 2] = bits & rules.jitter_bit != 0
+    if rules.launch_bit != 0:
+        held[0, index, 3] = bits & rules.launch_bit != 0
     if bits & rules.create_bit != 0 and world.created < rules.balls and views.episodes(ptr)[index].over == 0:
         board = views.boards(ptr)[views.board_of(ptr)[index]]
         if create_ball(world, board, views.colliders(ptr), views.places(ptr), log) == Outcome.CREATED:
@@ -265,22 +279,50 @@ def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> 
     """Write the state observation of an environment into an array [env, column] at an address."""
     row = array_at(address + index * ptr.columns * 4, (ptr.columns,), SMALL_FLOAT)
     world, episode = views.worlds(ptr)[index], views.episodes(ptr)[index]
-    for slot in range(BALL_COUNT):
-        ball, start = world.ball[slot], BALLS + BALL_WIDTH * slot
+    for slot in range(rules.balls_shown):
+        ball, start = world.ball[slot], BALL_WIDTH * slot
         is_alive = 0.0 if ball.id == 0 else 1.0
         row[start + BallSlot.ALIVE] = is_alive
         row[start + BallSlot.X] = is_alive * ball.x * rules.x_scale
         row[start + BallSlot.Z] = is_alive * ball.z * rules.z_scale
         row[start + BallSlot.VX] = is_alive * ball.vx * rules.speed_scale
         row[start + BallSlot.VZ] = is_alive * ball.vz * rules.speed_scale
-    for side in range(2):
-        paddle, start = world.paddle[side], PADDLES + PADDLE_WIDTH * side
-        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest_angle[side]) * rules.angle_scale[side]
-        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[side]
-        held = paddle.angle_commanded == rules.raised_angle[side] and rules.angle_scale[side] != 0.0
+    for slot in range(rules.paddles_shown):
+        number, start = rules.paddle_of[slot], rules.paddles_at + PADDLE_WIDTH * slot
+        if number < 0:
+            row[start + PaddleSlot.ANGLE], row[start + PaddleSlot.TURN] = 0.0, 0.0
+            row[start + PaddleSlot.HELD] = 0.0
+            continue
+        paddle = world.paddle[number]
+        row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest_angle[number]) * rules.angle_scale[number]
+        row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[number]
+        held = paddle.angle_commanded == rules.raised_angle[number] and rules.angle_scale[number] != 0.0
         row[start + PaddleSlot.HELD] = 1.0 if held else 0.0
-    row[GAME + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.idle_steps * rules.idle_scale)
-    row[GAME + GameSlot.LEFT] = (rules.balls - world.created) * rules.ball_scale
+    row[rules.game_at + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.idle_steps * rules.idle_scale)
+    row[rules.game_at + GameSlot.LEFT] = (rules.balls - world.created) * rules.ball_scale
+    if rules.shows_devices != 0:
+        write_devices(ptr, rules, world, row, index)
     size = ptr.layout_columns * 4
-    target = address + (index * ptr.columns + LAYOUT) * 4
+    target = address + (index * ptr.columns + rules.layout_at) * 4
     copy_bytes(target, ptr.layouts_at + views.board_of(ptr)[index] * size, size)
+
+
+@internal
+def write_devices(ptr: Pointers, rules: RulesRecord, world: WorldRecord, row: Any, index: int) -> None:
+    """Write the slots of levels, holes, switches, spinners and plungers into a row of an observation."""
+    board = views.boards(ptr)[views.board_of(ptr)[index]]
+    for slot in range(rules.places_shown):
+        ball, start = world.ball[slot], rules.places_at + PLACE_WIDTH * slot
+        is_alive = 0.0 if ball.id == 0 else 1.0
+        row[start + PlaceSlot.LEVEL] = is_alive * ball.level / (MAX_LEVELS - 1)
+        row[start + PlaceSlot.HELD] = is_alive if ball.motion == Motion.CAPTURED else 0.0
+    for number in range(min(rules.switches_shown, board.switches)):
+        row[rules.switches_at + number] = 0.0 if world.off >> number & 1 != 0 else 1.0
+    for number in range(min(rules.spinners_shown, board.spinners)):
+        c = views.colliders(ptr)[board.collider_first + board.spinner_row[number]]
+        spinner = world.spinner[number]
+        elapsed = (world.tick - spinner.tick) * rules.tick - spinner.offset
+        speed = blade_speed(spinner.speed, c.damping, max(elapsed, 0.0)) * c.blade * rules.speed_scale
+        row[rules.spinners_at + number] = min(max(speed, -1.0), 1.0)
+    if rules.plungers_shown != 0:
+        row[rules.plunger_at] = min(world.launch_held * rules.charge_scale, 1.0)

@@ -1,8 +1,7 @@
 """Observations: the slots of a state, their spaces, and views of raw rows and pictures.
 
 A state observation is one row of 32-bit floats, ordered by group, then item, then slot. All values lie in
-−1 … 1. Slots of absent parts (no second ball, no paddle on that side)
-are 0.
+−1 … 1. There are slots for at least two balls and two paddles; those of absent ones are 0.
 
 Positions are in half board lengths and widths: x = 1 is the top, x = −1 the bottom, z = −1 the left border,
 z = 1 the right one. Parts that are the same on all boards of a recipe (borders, slant walls) are left out.
@@ -10,6 +9,7 @@ z = 1 the right one. Parts that are the same on all boards of a recipe (borders,
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -18,7 +18,6 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from silverball.envs.options import Options
-from silverball.physics.records import BALL_COUNT
 
 
 class BallSlot(IntEnum):
@@ -44,6 +43,31 @@ class GameSlot(IntEnum):
 
     PATIENCE = 0
     LEFT = 1
+
+
+class PlaceSlot(IntEnum):
+    """Slots of a ball on tables with levels, holes or plungers."""
+
+    LEVEL = 0
+    HELD = 1
+
+
+class SwitchSlot(IntEnum):
+    """Slots of a drop target or a gate."""
+
+    PRESENT = 0
+
+
+class SpinnerSlot(IntEnum):
+    """Slots of a spinner."""
+
+    SPEED = 0
+
+
+class PlungerSlot(IntEnum):
+    """Slots of the plunger."""
+
+    CHARGE = 0
 
 
 class PrismSlot(IntEnum):
@@ -96,7 +120,7 @@ GROUPS = (
     ),
     Group(
         "paddles",
-        "the left, then the right paddle",
+        "a paddle: the left one, the right one, then the others in the order of the table",
         PaddleSlot,
         (
             (0.0, "angle: 0 at rest, 1 up"),
@@ -115,6 +139,33 @@ GROUPS = (
             ),
             (0.0, "balls of the episode that have not been created yet, as a share of all"),
         ),
+    ),
+    Group(
+        "ball_places",
+        "a ball; on tables with levels, holes or plungers",
+        PlaceSlot,
+        (
+            (0.0, "the level of the ball, as a share of the highest possible one"),
+            (0.0, "1 while a hole or a plunger holds it"),
+        ),
+    ),
+    Group(
+        "switches",
+        "a drop target or a gate that rules open, in the order of the table",
+        SwitchSlot,
+        ((0.0, "1 while it stands in the way of balls; 0 if it has fallen or is open"),),
+    ),
+    Group(
+        "spinners",
+        "a spinner, in the order of the table",
+        SpinnerSlot,
+        ((-1.0, "speed of the blade's edge, in speed caps; positive to the left of start → end"),),
+    ),
+    Group(
+        "plunger",
+        "the plunger, on tables that have one",
+        PlungerSlot,
+        ((0.0, "how far it is pulled back: 1 launches at the greatest speed"),),
     ),
     Group(
         "triangular_prisms",
@@ -142,11 +193,8 @@ GROUPS = (
 )
 """All groups, in the order of an observation."""
 
-# First columns of the first three groups, the same for every table, and of the groups of the board.
-BALLS = 0
-PADDLES = BALLS + BALL_COUNT * len(BallSlot)
-GAME = PADDLES + 2 * len(PaddleSlot)
-LAYOUT = GAME + len(GameSlot)
+LEAST_BALLS = LEAST_PADDLES = 2
+"""Balls and paddles that every observation has slots for."""
 
 
 class Field(NamedTuple):
@@ -167,14 +215,19 @@ class Field(NamedTuple):
         return self.first + self.items * len(self.group.slots)
 
 
-def fields(prisms: int, cylinders: int) -> tuple[Field, ...]:
-    """The fields of all groups for boards with at most this many prisms and cylinders."""
+def fields(items: Mapping[str, int]) -> tuple[Field, ...]:
+    """The fields of all groups, for boards with at most this many items of each; a group may have none."""
     found: list[Field] = []
     first = 0
-    for group, items in zip(GROUPS, (BALL_COUNT, 2, 1, prisms, cylinders), strict=True):
-        found.append(Field(group, first, items))
+    for group in GROUPS:
+        found.append(Field(group, first, items.get(group.name, 0)))
         first = found[-1].end
     return tuple(found)
+
+
+def field_named(layout: tuple[Field, ...], name: str) -> Field:
+    """The field of the group with this name."""
+    return next(field for field in layout if field.group.name == name)
 
 
 def _bounds(field: Field) -> tuple[Any, Any]:

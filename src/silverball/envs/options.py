@@ -21,7 +21,7 @@ from silverball.table.quantity import Count, FixedList, Quantity, refuse
 TableSource: TypeAlias = Table | str | os.PathLike[str] | Mapping[str, Any]
 """A table, the name of a built-in one, a path, or the keys of a table file."""
 
-BUTTONS = ("left", "right", "jitter", "create")
+BUTTONS = ("left", "right", "jitter", "create", "launch")
 VECTOR_ONLY = ("autoreset_mode", "zero_copy", "threads", "own_boards")
 """Arguments that vector environments take and single ones do not."""
 
@@ -137,19 +137,10 @@ class Options(BaseModel):
         """The options as keyword arguments that make the same environment."""
         return {name: getattr(self, name) for name in type(self).model_fields}
 
-    @property
-    def buttons(self) -> tuple[str, ...]:
-        """The available buttons, in the order of an action's bits."""
-        present = (True, True, self.jitter, self.create == "button")
+    def buttons(self, has_plunger: bool = False) -> tuple[str, ...]:
+        """The buttons on a table with or without a plunger, in the order of an action's bits."""
+        present = (True, True, self.jitter, self.create == "button", has_plunger)
         return tuple(name for name, is_present in zip(BUTTONS, present, strict=True) if is_present)
-
-    @property
-    def meanings(self) -> list[str]:
-        """The buttons of each discrete action in capitals: NOOP, LEFT, RIGHT, LEFT+RIGHT and so on."""
-        names = [name.upper() for name in self.buttons]
-        codes = range(1 << len(names))
-        held = [[name for bit, name in enumerate(names) if code >> bit & 1] for code in codes]
-        return ["+".join(those) or "NOOP" for those in held]
 
     @property
     def max_steps(self) -> int | None:

@@ -1,8 +1,9 @@
 """Pictures of worlds, drawn in the compiled step: a million a second.
 
-The background of each board is drawn once. A picture is a copy of it, then the lit parts (hit in this step),
-the paddles and the balls as sprites. Sprites are blended with a per-byte maximum, so that their order does
-not matter. The board fills the picture: its top is the first row, its left border the first column.
+The background of each board is drawn once. A picture is a copy of it, then the drop targets and gates that
+are there, the lit parts (hit in this step), the paddles and the balls as sprites. Sprites are blended with a
+per-byte maximum, so that their order does not matter. The board fills the picture: its top is the first row,
+its left border the first column.
 
 The last pictures of an environment are stored in a ring of frames, and a window of the newest ones moves
 along it. If the window itself is the observation, the ring is longer than the window; when the window reaches
@@ -17,10 +18,16 @@ from typing import Any
 
 from silverball.envs import pointers as views
 from silverball.envs.pointers import BYTE, Pointers, copy_bytes
-from silverball.envs.state import LIT_BITS, PICTURE_STATE, PictureStateRecord, RasterRecord
+from silverball.envs.state import (
+    LAMP_BITS,
+    LAMP_WORDS,
+    PICTURE_STATE,
+    PictureStateRecord,
+    PieceRecord,
+    RasterRecord,
+)
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BALL_COUNT, ColliderRecord, EventKind, Kind, Part
-from silverball.physics.shapes import distance
+from silverball.physics.records import MAX_BALLS, EventKind, WorldRecord
 from silverball.world.single_step import array_at
 
 SUBPIXELS = 8  # positions of a ball within a pixel along each axis; each has a sprite
@@ -47,7 +54,8 @@ def draw_first(ptr: Pointers, index: int) -> None:
     """Fill the window with the first picture of an episode."""
     last = views.raster(ptr)[0].stack - 1
     record_state(ptr, index, last)
-    views.picture_states(ptr)[index, last].lit = 0
+    for word in range(LAMP_WORDS):
+        views.picture_states(ptr)[index, last].lit[word] = 0
     for number in range(last):
         copy_picture_state(ptr, index, last, number)
     for frame in range(ptr.ring):  # the caller may have written to them, so nothing can be repaired
@@ -83,7 +91,7 @@ def draw_in_ring(ptr: Pointers, index: int, number: int) -> None:
     """Draw picture `number` of the window in its frame of the ring."""
     state, place = views.picture_states(ptr)[index, number], ring_index(ptr, number)
     picture, drawn = frame_address(ptr, index, place), views.drawn(ptr)[index, place]
-    if views.rules(ptr)[0].can_repair == 0 or drawn.board != state.board:
+    if views.rules(ptr)[0].can_repair == 0 or drawn.board != state.board or drawn.off != state.off:
         draw(ptr, state, picture)
     else:
         repair_dirty_rects(ptr, drawn, state, picture)
@@ -126,31 +134,48 @@ def record_state(ptr: Pointers, index: int, number: int) -> None:
     state = views.picture_states(ptr)[index, number]
     world, log, rules = views.worlds(ptr)[index], views.logs(ptr)[index], views.rules(ptr)[0]
     state.board = views.board_of(ptr)[index]
-    for slot in range(BALL_COUNT):
+    board = views.boards(ptr)[state.board]
+    for slot in range(MAX_BALLS):
+        state.alive[slot] = 0
+    for slot in range(board.max_balls):
         ball = world.ball[slot]
         state.x[slot], state.z[slot], state.alive[slot] = ball.x, ball.z, ball.id
-    for side in range(2):
-        turn = (world.paddle[side].angle - rules.rest_angle[side]) * rules.angle_scale[side]
-        has_paddle = rules.angle_scale[side] != 0.0
-        state.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if has_paddle else -1
-    lit = 0
+    for paddle in range(board.paddles):
+        turn = (world.paddle[paddle].angle - rules.rest_angle[paddle]) * rules.angle_scale[paddle]
+        has_paddle = rules.angle_scale[paddle] != 0.0
+        state.paddle[paddle] = int(turn * (ANGLES - 1) + 0.5) if has_paddle else -1
+    state.off = switches_off(world)
+    for word in range(LAMP_WORDS):
+        state.lit[word] = 0
     for entry in range(log.count):
         event = log.event[entry]
-        shape = event.part - Part.FIRST_SHAPE
-        if event.kind == EventKind.HIT and 0 <= shape < LIT_BITS:
-            lit |= 1 << shape
-    state.lit = lit
+        if event.part >= 0 and lights_up(event.kind):
+            lamp = views.lamp_of(ptr)[state.board, event.part]
+            if lamp >= 0:
+                state.lit[lamp // LAMP_BITS] |= 1 << lamp % LAMP_BITS
+
+
+@inlined
+def switches_off(world: WorldRecord) -> int:
+    """The switches whose parts are away."""
+    return int(world.off)
+
+
+@inlined
+def lights_up(kind: int) -> bool:
+    """Whether an event of a kind lights up its part."""
+    return bool(kind == EventKind.HIT or EventKind.PASS <= kind <= EventKind.CAPTURED)  # and SPIN between
 
 
 @internal
 def draw(ptr: Pointers, state: PictureStateRecord, picture: int) -> None:
     """Draw the whole picture of a state at an address."""
-    raster = views.raster(ptr)[0]
+    raster, board = views.raster(ptr)[0], views.boards(ptr)[state.board]
     copy_bytes(picture, ptr.backgrounds_at + state.board * ptr.pixels, ptr.pixels)
-    if state.lit != 0:
-        light_up(ptr, raster, state, picture)
+    draw_switched(ptr, raster, state, picture)
+    light_up(ptr, raster, state, picture)
     draw_paddles(ptr, raster, state, picture)
-    for slot in range(BALL_COUNT):
+    for slot in range(board.max_balls):
         if state.alive[slot] != 0:
             draw_ball(raster, ptr.ball_sprites_at, state.x[slot], state.z[slot], picture)
 
@@ -163,28 +188,29 @@ def repair_dirty_rects(
 
     Dirty rectangles are restored to the background, and sprites that they may have cut are drawn again.
     """
-    raster = views.raster(ptr)[0]
+    raster, board = views.raster(ptr)[0], views.boards(ptr)[state.board]
     background = ptr.backgrounds_at + state.board * ptr.pixels
-    lowest = 0  # one past the lowest erased row, which may have cut a paddle
-    if drawn.lit != 0:
-        lowest = erase_lit_parts(ptr, raster, drawn, picture, background)
-    for slot in range(BALL_COUNT):
+    lowest = erase_lamps(ptr, raster, drawn, picture, background)  # one past the lowest erased row
+    for slot in range(board.max_balls):
         if drawn.alive[slot] != 0:
             top, left = ball_corner(raster, drawn.x[slot], drawn.z[slot])
             rows, columns = 2 * raster.ball_rows + 1, 2 * raster.ball_columns + 1
             restore_background(raster, background, picture, top, left, rows, columns)
             lowest = max(lowest, top + rows)
-    has_turned = drawn.paddle[0] != state.paddle[0] or drawn.paddle[1] != state.paddle[1]
+    has_turned, highest_paddle = False, raster.height
+    for paddle in range(board.paddles):
+        has_turned = has_turned or drawn.paddle[paddle] != state.paddle[paddle]
+        highest_paddle = min(highest_paddle, raster.paddle_row[paddle])
     if has_turned:
-        for side in range(2):
-            top, left = raster.paddle_row[side], raster.paddle_column[side]
+        for paddle in range(board.paddles):
+            top, left = raster.paddle_row[paddle], raster.paddle_column[paddle]
             rows, columns = raster.paddle_rows, raster.paddle_columns
             restore_background(raster, background, picture, top, left, rows, columns)
-    if state.lit != 0:
-        lowest = max(lowest, light_up(ptr, raster, state, picture))
-    if has_turned or lowest > min(raster.paddle_row[0], raster.paddle_row[1]):
+    lowest = max(lowest, draw_switched(ptr, raster, state, picture))
+    lowest = max(lowest, light_up(ptr, raster, state, picture))
+    if has_turned or lowest > highest_paddle:
         draw_paddles(ptr, raster, state, picture)
-    for slot in range(BALL_COUNT):
+    for slot in range(board.max_balls):
         if state.alive[slot] != 0:
             draw_ball(raster, ptr.ball_sprites_at, state.x[slot], state.z[slot], picture)
 
@@ -206,11 +232,11 @@ def restore_background(
 def draw_paddles(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int) -> None:
     """Draw the paddles that the board has."""
     rows, columns = raster.paddle_rows, raster.paddle_columns
-    for side in range(2):
-        if state.paddle[side] >= 0:
-            number = side * ANGLES + state.paddle[side]
+    for paddle in range(views.boards(ptr)[state.board].paddles):
+        if state.paddle[paddle] >= 0:
+            number = paddle * ANGLES + state.paddle[paddle]
             sprite = ptr.paddle_sprites_at + number * rows * columns * raster.channels
-            top, left = raster.paddle_row[side], raster.paddle_column[side]
+            top, left = raster.paddle_row[paddle], raster.paddle_column[paddle]
             blend_sprite(raster, sprite, rows, columns, picture, top, left)
 
 
@@ -250,73 +276,62 @@ def blend_sprite(
             target[byte] = max(target[byte], source[byte])
 
 
-@inlined
-def visible_box(raster: RasterRecord, c: ColliderRecord) -> tuple[int, int, int, int]:
-    """Top, bottom, left and right of a part within the picture; bottom and right are exclusive."""
-    top = max(0, int((raster.half_length - c.x - c.reach) * raster.rows))
-    bottom = min(raster.height, int((raster.half_length - c.x + c.reach) * raster.rows) + 1)
-    left = max(0, int((raster.half_width + c.z - c.reach) * raster.columns))
-    right = min(raster.width, int((raster.half_width + c.z + c.reach) * raster.columns) + 1)
-    return top, bottom, left, right
+@internal
+def draw_piece(ptr: Pointers, raster: RasterRecord, piece: PieceRecord, address: int) -> int:
+    """Draw a piece in its colour; returns one past its lowest row."""
+    picture, mask = array_at(address, (ptr.pixels,), BYTE), views.masks(ptr)
+    for row in range(piece.rows):
+        for column in range(piece.columns):
+            if mask[piece.mask_first + row * piece.columns + column] == 0:
+                continue
+            pixel = ((piece.top + row) * raster.width + piece.left + column) * raster.channels
+            picture[pixel] = piece.red
+            if raster.channels == 3:
+                picture[pixel + 1] = piece.green
+                picture[pixel + 2] = piece.blue
+    return int(piece.top + piece.rows)
 
 
 @internal
-def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, address: int) -> int:
-    """Brighten the prisms and cylinders that were hit; returns one past the lowest changed row."""
-    picture = array_at(address, (ptr.pixels,), BYTE)
-    first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
-    for shape in range(LIT_BITS):
-        if state.lit >> shape & 1 == 0:
-            continue
-        c = views.colliders(ptr)[first + shape]
-        if c.kind not in (Kind.TRIANGULAR_PRISM, Kind.CYLINDER):
-            continue
-        top, bottom, left, right = visible_box(raster, c)
-        lowest = max(lowest, bottom)
-        for row in range(top, bottom):
-            for column in range(left, right):
-                x = raster.half_length - (row + 0.5) / raster.rows
-                z = (column + 0.5) / raster.columns - raster.half_width
-                outside, _, _ = distance(c, x, z)
-                if outside > 0.0:
-                    continue
-                pixel = (row * raster.width + column) * raster.channels
-                picture[pixel] = raster.red
-                if raster.channels == 3:
-                    picture[pixel + 1] = raster.green
-                    picture[pixel + 2] = raster.blue
+def draw_switched(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int) -> int:
+    """Draw the parts with a switch that are not away; returns one past the lowest changed row."""
+    board, lowest = views.pictured_boards(ptr)[state.board], 0
+    for number in range(board.switch_first, board.piece_end):
+        piece = views.pieces(ptr)[number]
+        if state.off & piece.switch == 0:
+            lowest = max(lowest, draw_piece(ptr, raster, piece, picture))
     return lowest
 
 
 @internal
-def erase_lit_parts(
+def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int) -> int:
+    """Draw the lamps that are on; returns one past the lowest changed row."""
+    board, lowest = views.pictured_boards(ptr)[state.board], 0
+    for word in range(LAMP_WORDS):
+        if state.lit[word] == 0:
+            continue
+        first = board.lamp_first + word * LAMP_BITS
+        for bit in range(min(LAMP_BITS, board.switch_first - first)):
+            if state.lit[word] >> bit & 1 != 0:
+                lowest = max(lowest, draw_piece(ptr, raster, views.pieces(ptr)[first + bit], picture))
+    return lowest
+
+
+@internal
+def erase_lamps(
     ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int, background: int
 ) -> int:
-    """Restore the background of the lit parts; returns one past the lowest changed row."""
-    first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
-    for shape in range(LIT_BITS):
-        if state.lit >> shape & 1 != 0:
-            top, bottom, left, right = visible_box(raster, views.colliders(ptr)[first + shape])
-            restore_background(raster, background, picture, top, left, bottom - top, right - left)
-            lowest = max(lowest, bottom)
+    """Restore the background of the lamps that are on; returns one past the lowest changed row."""
+    board, lowest = views.pictured_boards(ptr)[state.board], 0
+    for word in range(LAMP_WORDS):
+        if state.lit[word] == 0:
+            continue
+        first = board.lamp_first + word * LAMP_BITS
+        for bit in range(min(LAMP_BITS, board.switch_first - first)):
+            if state.lit[word] >> bit & 1 != 0:
+                piece = views.pieces(ptr)[first + bit]
+                restore_background(
+                    raster, background, picture, piece.top, piece.left, piece.rows, piece.columns
+                )
+                lowest = max(lowest, piece.top + piece.rows)
     return lowest
-
-
-@kernel
-def count_coverage(raster: RasterRecord, c: ColliderRecord, samples: int, covered: Any) -> None:
-    """Count for each pixel how many of its samples × samples points lie within a part."""
-    for row in range(raster.height):
-        for column in range(raster.width):
-            covered[row, column] = 0
-            x = raster.half_length - (row + 0.5) / raster.rows
-            z = (column + 0.5) / raster.columns - raster.half_width
-            reach = c.reach + 0.5 / raster.rows + 0.5 / raster.columns
-            if (x - c.x) ** 2 + (z - c.z) ** 2 > reach * reach:
-                continue
-            for up in range(samples):
-                for across in range(samples):
-                    at_x = x + ((up + 0.5) / samples - 0.5) / raster.rows
-                    at_z = z + ((across + 0.5) / samples - 0.5) / raster.columns
-                    outside, _, _ = distance(c, at_x, at_z)
-                    if outside <= 0.0:
-                        covered[row, column] += 1

@@ -14,7 +14,7 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from silverball.envs.state import EPISODE, PICTURE_STATE, RASTER, RULES
+from silverball.envs.state import EPISODE, PICTURE_STATE, PICTURED_BOARD, PIECE, RASTER, RULES
 from silverball.physics.kernel import SETTINGS, ir_inlined
 from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
 from silverball.world.single_step import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
@@ -99,6 +99,10 @@ ARRAYS = {
     "backgrounds": _array(BYTE, "boards", "pixels"),  # the static parts of each board
     "ball_sprites": _array(BYTE, "ball_pixels"),
     "paddle_sprites": _array(BYTE, "paddle_pixels"),
+    "pictured_boards": _array(PICTURED_BOARD, "boards"),
+    "lamp_of": _array(INT, "boards", "lit_parts"),  # the lamp of each part, or −1
+    "pieces": _array(PIECE, "pieces"),  # lamps, and what switches remove
+    "masks": _array(BYTE, "mask_pixels"),
 }
 """All arrays by name. An ADDRESSES record holds the address of each, and the length of each axis."""
 
@@ -161,3 +165,9 @@ actions, reset_mask, requested_boards = _view("actions"), _view("reset_mask"), _
 terms, counts_before = _view("terms"), _view("counts_before")
 picture_states, final_picture_states = _view("picture_states"), _view("final_picture_states")
 drawn = _view("drawn")
+pictured_boards, lamp_of, pieces, masks = (
+    _view("pictured_boards"),
+    _view("lamp_of"),
+    _view("pieces"),
+    _view("masks"),
+)

@@ -10,7 +10,7 @@ import numpy as np
 from gymnasium.envs.registration import EnvSpec
 from numpy.typing import NDArray
 
-from silverball.envs.actions import action_space, as_array, as_bits, keys_to_action
+from silverball.envs.actions import action_space, as_array, as_bits, keys_to_action, meanings
 from silverball.envs.engine import PREFIX_SIZE, Engine
 from silverball.envs.observations import as_observation, observation_space
 from silverball.envs.options import (
@@ -66,14 +66,14 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self.render_mode = checked_render_mode(render_mode, ("human", "rgb_array"))
         self._engine = engine = Engine(self.options, 1, ResetMode.DISABLED, threads=1, has_fixed_output=True)
         self.observation_space = observation_space(self.options, engine.pool.fields)
-        self.action_space = action_space(self.options)
+        self.action_space = action_space(self.options, self._engine.buttons)
         self.metadata = {**self.metadata, "render_fps": self.options.frames_per_second}
         self._viewer: Viewer | None = None
         self._screen: ViewerWindow | None = None
         self._is_rng_set = False  # whether the caller has set np_random since the last reset
         self._spec: EnvSpec | None = None
-        self._codes = 1 << len(self.options.buttons)
-        self._weights = 1 << np.arange(len(self.options.buttons))
+        self._codes = 1 << len(self._engine.buttons)
+        self._weights = 1 << np.arange(len(self._engine.buttons))
         # Everything that a step needs, to save lookups.
         self._run_task, self._addresses = engine.run_task, engine.addresses
         self._row, self._counts = engine.outputs.last.observations[0], engine.outputs.last.counts[0]
@@ -140,7 +140,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
         Args:
             action: A number whose bits are the buttons (1 left, 2 right, then jitter and create if the
-                options have them), or with `actions="multibinary"` a bit for each.
+                options have them, then launch on a table with a plunger), or with
+                `actions="multibinary"` a bit for each.
 
         Returns:
             Observation, reward, terminated (by the rules), truncated (by the time limit), and the counts of
@@ -201,11 +202,11 @@ class PinballEnv(gymnasium.Env[Any, Any]):
 
     def get_action_meanings(self) -> list[str]:
         """The buttons of each action of `Discrete`, in capitals; the first is NOOP."""
-        return self.options.meanings
+        return meanings(self._engine.buttons)
 
     def get_keys_to_action(self) -> dict[tuple[str, ...], Any]:
-        """The action of each set of pressed keys: A and D for the paddles, Z for jitter, space for create."""
-        return keys_to_action(self.options)
+        """The action of each set of pressed keys: A and D for the paddles, Z, space, Return for the rest."""
+        return keys_to_action(self.options, self._engine.buttons)
 
     @property
     def ale(self) -> PinballEnv:

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from silverball.physics.records import BALL_COUNT
+from silverball.physics.records import MAX_BALLS, MAX_PADDLES
 
 
 class ResetMode(IntEnum):
@@ -62,18 +62,36 @@ EPISODE = np.dtype(
     align=True,
 )  # fmt: skip
 
+LAMP_BITS, LAMP_WORDS = 62, 4
+LAMPS = LAMP_BITS * LAMP_WORDS  # parts that can light up
+
 PICTURE_STATE = np.dtype(
     [
         ("board", "i8"),  # −1: nothing has been drawn
-        ("x", "f8", (BALL_COUNT,)), ("z", "f8", (BALL_COUNT,)), ("alive", "i8", (BALL_COUNT,)),
-        ("paddle", "i8", (2,)),  # the numbers of their sprites; −1: there is no such paddle
-        ("lit", "i8"),  # bit i: shape i of the board was hit in this step
+        ("off", "i8"),  # the switches whose parts are away
+        ("lit", "i8", (LAMP_WORDS,)),  # bit i of word j: lamp i + j · LAMP_BITS is on
+        ("paddle", "i8", (MAX_PADDLES,)),  # the numbers of their sprites; −1: there is no such paddle
+        ("x", "f8", (MAX_BALLS,)), ("z", "f8", (MAX_BALLS,)), ("alive", "i8", (MAX_BALLS,)),
     ],
     align=True,
 )  # fmt: skip
 """Everything that one picture shows; a picture can be drawn again from it."""
 
-LIT_BITS = 62  # shapes that can light up
+PICTURED_BOARD = np.dtype(
+    [("lamp_first", "i8"), ("switch_first", "i8"), ("piece_end", "i8")],  # this board's pieces
+    align=True,
+)
+
+PIECE = np.dtype(
+    [
+        ("top", "i8"), ("left", "i8"), ("rows", "i8"), ("columns", "i8"),  # its box
+        ("mask_first", "i8"),  # its first pixel in the masks
+        ("red", "i8"), ("green", "i8"), ("blue", "i8"),  # its colour; only red if grey
+        ("switch", "i8"),  # the bit of WORLD.off that removes it; 0: it is always there
+    ],
+    align=True,
+)  # fmt: skip
+"""A lamp, or a part that a switch removes: pixels of one colour."""
 
 RULES = np.dtype(
     [
@@ -82,13 +100,21 @@ RULES = np.dtype(
         ("weights", "f8", (len(COUNTS) + 2,)),  # of the terms of a reward, see `rewards.TERMS`
         ("weighs_counts", "i8"), ("writes_terms", "i8"),  # 1: counts have weights; a callable needs terms
         ("stall_steps", "i8"), ("max_steps", "i8"),
-        ("jitter_bit", "i8"), ("create_bit", "i8"),  # 0: there is no such button
+        ("jitter_bit", "i8"), ("create_bit", "i8"), ("launch_bit", "i8"),  # 0: there is no such button
         ("boards", "i8"), ("own_boards", "i8"),  # 1: environment i plays board i, modulo their number
         ("mode", "i8"),  # a ResetMode
         # Factors that scale quantities to −1 … 1.
         ("x_scale", "f8"), ("z_scale", "f8"), ("speed_scale", "f8"), ("idle_scale", "f8"),
-        ("ball_scale", "f8"), ("angle_scale", "f8", (2,)), ("turn_scale", "f8", (2,)),
-        ("rest_angle", "f8", (2,)), ("raised_angle", "f8", (2,)),  # of the paddles [rad]
+        ("ball_scale", "f8"), ("angle_scale", "f8", (MAX_PADDLES,)), ("turn_scale", "f8", (MAX_PADDLES,)),
+        ("rest_angle", "f8", (MAX_PADDLES,)), ("raised_angle", "f8", (MAX_PADDLES,)),  # of the paddles [rad]
+        # The layout of a state observation: items of these groups, and the first columns of the others.
+        ("balls_shown", "i8"), ("paddles_shown", "i8"),
+        ("paddle_of", "i8", (MAX_PADDLES,)),  # the paddle that each slot shows; −1: there is none
+        ("paddles_at", "i8"), ("game_at", "i8"), ("layout_at", "i8"),
+        # The groups of devices, which most tables do not have: 1 if there is any; their items and columns.
+        ("shows_devices", "i8"), ("places_shown", "i8"), ("places_at", "i8"),
+        ("switches_shown", "i8"), ("switches_at", "i8"), ("spinners_shown", "i8"), ("spinners_at", "i8"),
+        ("plungers_shown", "i8"), ("plunger_at", "i8"), ("charge_scale", "f8"),  # per tick of the button
         # Flags: 1 if a step writes these.
         ("writes_state", "i8"), ("draws_pictures", "i8"),
         ("copies_stack", "i8"),  # 1: the window of pictures is copied
@@ -106,7 +132,7 @@ RASTER = np.dtype(
         ("stack", "i8"),  # pictures of an observation
         ("start", "i8"), ("wraps", "i8"),  # of the window in the ring; 1: it moves to the ring's start
         ("ball_rows", "i8"), ("ball_columns", "i8"),  # from the middle of its sprite to the edge
-        ("paddle_row", "i8", (2,)), ("paddle_column", "i8", (2,)),  # first pixel of the sprites
+        ("paddle_row", "i8", (MAX_PADDLES,)), ("paddle_column", "i8", (MAX_PADDLES,)),  # of the sprites
         ("paddle_rows", "i8"), ("paddle_columns", "i8"),
         ("red", "i8"), ("green", "i8"), ("blue", "i8"),  # of a part that is lit; only red if grey
     ],
@@ -118,3 +144,4 @@ RASTER = np.dtype(
 RulesRecord: TypeAlias = Any
 RasterRecord: TypeAlias = Any
 PictureStateRecord: TypeAlias = Any
+PieceRecord: TypeAlias = Any

@@ -113,11 +113,11 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             limit = checked_int("max_episode_steps", max_episode_steps, 1, 2**62)
             engine.rules["max_steps"] = min(limit, int(engine.rules["max_steps"][0]))
         self.single_observation_space = observation_space(self.options, engine.pool.fields)
-        self.single_action_space = action_space(self.options)
+        self.single_action_space = action_space(self.options, self._engine.buttons)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._codes = 1 << len(self.options.buttons)
-        self._weights = 1 << np.arange(len(self.options.buttons))
+        self._codes = 1 << len(self._engine.buttons)
+        self._weights = 1 << np.arange(len(self._engine.buttons))
         self._all = np.ones(self.num_envs, np.bool_)
         self._has_begun = False  # whether every environment has begun an episode
         self._draws_seed = np.zeros(self.num_envs, np.bool_)  # at the next reset, after np_random was set

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class ArcadeRules:
-    """Arcade play: a few balls, combos, double points for two balls, ball save, and tilt.
+    """Arcade play: a few balls, combos, double points for two or more balls, ball save, and tilt.
 
     Derive from it to change some of the rules; see `Rules`.
 
@@ -50,7 +50,7 @@ class ArcadeRules:
         saves = config.saves if not state.balls else 0
         new = InPlay(ball, state.used + 1, tick + config.save_ticks if saves else 0, saves)
         after = state._replace(used=state.used + 1, balls=(*state.balls, new), quiet_since=tick)
-        doubles = config.double > 1 and len(after.balls) > 1
+        doubles = config.double > 1 and len(after.balls) == 2
         return after, (GameEvent(GameEventKind.DOUBLE_ON, tick, config.double),) if doubles else ()
 
     def returned(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
@@ -77,7 +77,7 @@ class ArcadeRules:
         return state._replace(score=state.score + worth), events
 
     def multiplier(self, config: RuleConfig, state: RuleState, tick: int) -> int:
-        """The multiplier of the combo, times that of two balls."""
+        """The multiplier of the combo, times that of two or more balls."""
         combo = running_combo(config, state, tick)
         factor = min(1 + max(combo - 1, 0) // config.combo_step, config.combo_limit)
         return factor * (config.double if len(state.balls) > 1 else 1)
@@ -102,6 +102,16 @@ class ArcadeRules:
         if config.balls and state.used >= config.balls:
             return state._replace(over=True), (*events, GameEvent(GameEventKind.OVER, tick, state.score))
         return state, (*events, GameEvent(GameEventKind.BALL_READY, tick, state.used + 1))
+
+    def launched(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
+        """Let the time in which a lost ball is saved begin when it leaves the plunger."""
+        balls = tuple(
+            in_play._replace(safe_until=tick + config.save_ticks)
+            if in_play.id == ball and in_play.safe_until
+            else in_play
+            for in_play in state.balls
+        )
+        return state._replace(balls=balls, quiet_since=tick), ()
 
     def shoved(self, config: RuleConfig, state: RuleState, tick: int) -> Outcome:
         """Swing the tilt bob: nothing, a warning or a tilt."""

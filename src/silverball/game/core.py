@@ -17,6 +17,7 @@ from silverball.errors import FaultError, NoRoom, SilverballError, StateError
 from silverball.game import stuck
 from silverball.game.builtin_rules import BUILTIN
 from silverball.game.game_world import GameWorld
+from silverball.game.mechanisms import SCORING, held_gates, plungers, points_by_part
 from silverball.game.replay import recording
 from silverball.game.replay.digest import full_digest, short_digests
 from silverball.game.replay.recording import MAX_TICK_RATE, MIN_TICK_RATE
@@ -27,7 +28,6 @@ from silverball.game.rules import (
     RuleState,
     ended,
     is_custom_name,
-    points_by_part,
     running_combo,
 )
 from silverball.game.saved_game import GameState, pack_game, unpack_game
@@ -93,13 +93,16 @@ class GameCore:
         self._state = RuleState()
         self._has_waiting = False  # whether a ball waits to return to the board; read in every tick
         self._stuck = stuck.StuckTracker()
-        self._left = self._right = False
+        self._left = self._right = self._launch = False
         self._shove = self._auto_shove = False  # a player's or an automatic shove in the next tick
         self._was_stopped = False
 
         self._board = GameWorld(self.world)
         self._points = points_by_part(self.world.table)
         self._has_points = any(self._points.values())
+        self._plungers = plungers(self.world.table)
+        self._gates = held_gates(self.world.table)
+        self._has_stuck_gate = False  # whether a gate waits to close until no ball is in its way
         self._points_seen = 0  # points of all hits passed to the rules, before multipliers
 
         self._check_ticks = max(self.world.tick_rate // stuck.CHECK_RATE, 1)
@@ -117,7 +120,7 @@ class GameCore:
 
     # --- actions -------------------------------------------------------------------------------------------
 
-    def step(self, left: bool = False, right: bool = False, ticks: int = 1) -> None:
+    def step(self, left: bool = False, right: bool = False, ticks: int = 1, *, launch: bool = False) -> None:
         """Advance the game with the buttons held or released; does nothing once the game is over.
 
         A fault of the world ends the game; `fault` names it.
@@ -126,6 +129,7 @@ class GameCore:
             left: Whether the left button is held, in all ticks.
             right: Whether the right button is held, in all ticks.
             ticks: How many ticks.
+            launch: Whether the launch button of the plunger is held, in all ticks.
 
         Raises:
             ValueError: The number of ticks is not an integer ≥ 0.
@@ -135,7 +139,7 @@ class GameCore:
         if ticks < 0:
             raise ValueError(f"ticks must be an integer ≥ 0, got {ticks}")
         if ticks and not self._state.over:
-            self._play_ticks(left, right, ticks)
+            self._play_ticks(left, right, ticks, launch=launch)
         self._stale_event_count = len(self._step_events)
 
     def create_ball(self) -> None:
@@ -254,6 +258,11 @@ class GameCore:
         return self._left, self._right
 
     @property
+    def is_launch_held(self) -> bool:
+        """Whether the launch button was held in the last tick; it does nothing without a plunger."""
+        return self._launch
+
+    @property
     def has_still_ball(self) -> bool:
         """Whether a ball has lain still for some time; in free play the player may shove it."""
         return stuck.has_still_ball(self._stuck, self._config, self.tick)
@@ -299,6 +308,7 @@ class GameCore:
             self._shove,
             self._auto_shove,
             self._custom_rules_name,
+            self._launch,
         ).to_json()
 
     @property
@@ -333,11 +343,11 @@ class GameCore:
         self.world.restore(world)
         self._state, self._stuck = saved.rules, saved.stuck
         self._has_waiting = bool(self._state.waiting)
-        self._left, self._right = saved.left, saved.right
+        self._has_stuck_gate = bool(self._wanted_gates())
+        self._left, self._right, self._launch = saved.left, saved.right, saved.launch
         self._shove, self._auto_shove = saved.shove, saved.auto_shove
         self._was_stopped = how_ended == "stopped"
         self.fault = self.world.fault
-        self._board.mark_read()
         self._points_seen = self._points_of_hits()
         tick = self.tick
         self._next_check = (tick // self._check_ticks + 1) * self._check_ticks
@@ -357,11 +367,13 @@ class GameCore:
 
     # --- playing -------------------------------------------------------------------------------------------
 
-    def _play_ticks(self, left: bool, right: bool, ticks: int) -> None:
+    def _play_ticks(self, left: bool, right: bool, ticks: int, *, launch: bool) -> None:
         """Play ticks, as many at once as the rules allow."""
         tick = self._board.tick()
         if left is not self._left or right is not self._right:
             self._press(bool(left), bool(right), tick)
+        if launch is not self._launch and self._plungers:
+            self._press_launch(bool(launch))
         end = tick + ticks
         while tick < end and not self._state.over:
             count = end - tick
@@ -377,8 +389,8 @@ class GameCore:
 
     def _ticks_at_once(self, count: int) -> int:
         """How many of these ticks can be played at once, at least 1."""
-        if self._has_waiting:
-            return 1  # a waiting ball may return after every tick
+        if self._has_waiting or self._has_stuck_gate:
+            return 1  # a waiting ball may return after every tick, and a gate may close
         return self._board.skippable_ticks(count)
 
     def _press(self, left: bool, right: bool, tick: int) -> None:
@@ -391,29 +403,36 @@ class GameCore:
             self._stuck = self._stuck._replace(released=tick)
         self._left, self._right = left, right
 
+    def _press_launch(self, launch: bool) -> None:
+        """Change the launch button before this tick."""
+        if launch is not self._launch:
+            self._record_input(recording.LAUNCH)
+        self._launch = launch
+
     def _play(self, count: int) -> None:
         """Play one tick, or several in which nothing but hits can happen."""
         before = self._board.snapshot() if count > 1 else None
         shove = self._shove or self._auto_shove
         try:
-            if self._state.tilted:  # the paddles are dead
-                self.world.step(False, False, shove, count)
+            if self._state.tilted:  # the paddles are dead; a plunger is worked by hand
+                self.world.step(False, False, shove, count, self._launch)
             else:
-                self.world.step(self._left, self._right, shove, count)
+                self.world.step(self._left, self._right, shove, count, self._launch)
         except FaultError as error:
             self.fault = error.fault
         if self._board.has_new_events():
             events = self.world.events
             if before is not None and (
-                self.world.events_lost or any(event.kind == "gutter" for event in events)
+                self._gates or self.world.events_lost or any(event.kind == "gutter" for event in events)
             ):
                 self._play_singly(before, count)
                 return
-            self._board.mark_read()
             self._apply_world_events(events)
         self._shove = self._auto_shove = False
         if self._has_waiting:
             self._return_balls()
+        if self._has_stuck_gate:
+            self._work_gates()
         if self.fault is not None:
             self._apply(ended(self._state, self.tick))
 
@@ -432,12 +451,14 @@ class GameCore:
             if event.kind == "created":
                 continue  # queued when it was created
             self._world_queue.append(event)
-            if event.kind == "hit":
+            if event.kind in SCORING:
                 points = self._points.get(event.part, 0)
                 self._points_seen += points
                 self._hit(event.tick, points, event.part)
             elif event.kind == "gutter":
                 self._drain(event.tick, event.ball)
+            elif event.kind == "released" and event.part in self._plungers:
+                self._launched(event.tick, event.ball)
         if self.world.events_lost:
             self._apply_lost_events()
 
@@ -470,7 +491,6 @@ class GameCore:
     def _queue_creation(self) -> None:
         """Queue the event of the ball just created, the last one in the log of the world."""
         self._world_queue.extend(event for event in self.world.events[-1:] if event.kind == "created")
-        self._board.mark_read()
 
     def _check_stuck(self, tick: int) -> None:
         """Check whether the automatic shove is due."""
@@ -494,11 +514,39 @@ class GameCore:
     def _drain(self, tick: int, ball: int) -> None:
         self._apply(self._rules.drained(self._config, self._state, tick, ball))
 
+    def _launched(self, tick: int, ball: int) -> None:
+        launched = getattr(self._rules, "launched", None)  # custom rules may have been written without it
+        if launched is not None:
+            self._apply(launched(self._config, self._state, tick, ball))
+
     def _apply(self, outcome: Outcome) -> None:
         """Adopt the next state and queue the events of the rules."""
+        open_gates = self._state.open_gates
         self._state, events = outcome
         self._has_waiting = bool(self._state.waiting)
+        if self._state.open_gates != open_gates:
+            self._work_gates()
         self._emit(events)
+
+    def _work_gates(self) -> None:
+        """Open and close the gates as the rules say.
+
+        Raises:
+            SilverballError: The rules name a gate that the table does not have.
+        """
+        unknown = sorted(set(self._state.open_gates) - self._gates.keys())
+        if unknown:
+            raise SilverballError(
+                f"the rules open {unknown[0]!r}, expected held gates of the table: {sorted(self._gates)}"
+            )
+        for part, is_open in self._wanted_gates():
+            self.world.open_gate(part, is_open)
+        self._has_stuck_gate = bool(self._wanted_gates())
+
+    def _wanted_gates(self) -> list[tuple[str, bool]]:
+        """The gates that are not as the rules say, and whether they are to be open."""
+        wanted = [(part, name in self._state.open_gates) for name, part in self._gates.items()]
+        return [(part, is_open) for part, is_open in wanted if self._board.is_gate_open(part) != is_open]
 
     def _emit(self, events: tuple[GameEvent, ...]) -> None:
         self._game_queue.extend(events)

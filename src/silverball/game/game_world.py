@@ -8,16 +8,16 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import WORLD
+from silverball.physics.records import LOG, WORLD, Device, Motion
 from silverball.world import World
 
 SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
 GUTTER_MARGIN = 0.1  # [u] a ball nearer to the gutter is played tick by tick
 
 _WORDS = {name: int(field[1]) // 8 for name, field in (WORLD.fields or {}).items()}
-# Places in the world record, in words of eight bytes. One of the words from `draws` to `fault` changes with
-# every event, so comparing them tells whether the event log must be read.
-_TICK, _COUNTS, _COUNTS_END = _WORDS["tick"], _WORDS["draws"], _WORDS["fault"]
+_TICK = _WORDS["tick"]  # place in the world record, in words of eight bytes
+_LOG_WORDS = {name: int(field[1]) // 8 for name, field in (LOG.fields or {}).items()}
+_COUNT, _CARRIED = _LOG_WORDS["count"], _LOG_WORDS["carried"]  # places in a log
 
 
 class GameWorld:
@@ -37,14 +37,24 @@ class GameWorld:
         self._record = world.records[0]
         self._words: NDArray[np.int64] = np.frombuffer(self._record, np.int64)
         self.tick: Callable[[], int] = partial(self._words.item, _TICK)
-        self._counters = self._words[_COUNTS:_COUNTS_END]
-        self._last_counters = self._counters.tobytes()
+        log: NDArray[np.int64] = np.frombuffer(world._batch.logs, np.int64)
+        self._log_word: Callable[[int], int] = log.item
+        self._gate_masks: dict[str, int] = {}  # the switches of each gate, by its name in events
         self._ball_x = self._record["ball"]["x"]
         self._ball_id = self._record["ball"]["id"]
         board = world.table.board
         self._skip_floor = board.gutter + GUTTER_MARGIN
         self._ticks_per_unit = world.tick_rate / board.speed_cap
         self.paddle_reach = float(world.records[1]["paddle_top"])
+
+    def is_gate_open(self, part: str) -> bool:
+        """Whether the gate with this name in events is open."""
+        mask = self._gate_masks.get(part)
+        if mask is None:
+            rows = self.world.records[2]
+            is_gate = (rows["part"] == list(self.world.hits).index(part)) & (rows["role"] == Device.GATE)
+            mask = self._gate_masks[part] = int(np.bitwise_or.reduce(rows["switch"][is_gate]))
+        return int(self._record["off"]) & mask == mask
 
     @property
     def ball_count(self) -> int:
@@ -59,20 +69,17 @@ class GameWorld:
 
     @property
     def places(self) -> list[tuple[int, float, float]]:
-        """The balls on the board: id, x [u] and z [u]."""
-        return [ball for ball in self._record["ball"][["id", "x", "z"]].tolist() if ball[0]]
+        """The balls that move on the board, not those in a hole or on a plunger: id, x [u] and z [u]."""
+        balls = self._record["ball"][["id", "x", "z", "motion"]].tolist()
+        return [ball[:3] for ball in balls if ball[0] and ball[3] != Motion.CAPTURED]
 
     def to_bytes(self) -> bytes:
         """The bytes of the record."""
         return self._words.tobytes()
 
     def has_new_events(self) -> bool:
-        """Whether anything has happened since `mark_read`."""
-        return self._counters.tobytes() != self._last_counters
-
-    def mark_read(self) -> None:
-        """Mark all events so far as read."""
-        self._last_counters = self._counters.tobytes()
+        """Whether anything has happened in the last step of the world."""
+        return self._log_word(_COUNT) > self._log_word(_CARRIED)
 
     def skippable_ticks(self, count: int) -> int:
         """How many of these ticks can be played at once because no ball can leave the board, at least 1."""

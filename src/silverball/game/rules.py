@@ -35,7 +35,7 @@ class RuleConfig(NamedTuple):
         combo_ticks: Time for the next hit of a combo [ticks]; `NO_COMBOS`: there are no combos.
         combo_step: Hits in a row that raise the multiplier by one.
         combo_limit: Greatest multiplier of a combo.
-        double: Multiplier while two balls are in play.
+        double: Multiplier while two or more balls are in play.
         tilt_decay: Time constant of the tilt bob [ticks].
         tilt_warning: Swing that causes a warning.
         tilt_limit: Swing that causes a tilt.
@@ -132,6 +132,8 @@ class RuleState(NamedTuple):
             if this was too long ago.
         over: Whether the game has ended.
         memory: State of custom rules, a JSON value; never change it in place.
+        open_gates: The names of the held gates that are open; custom rules change it. A gate closes as soon
+            as no ball is in its way.
 
     Examples:
         >>> import silverball as sb
@@ -151,6 +153,7 @@ class RuleState(NamedTuple):
     quiet_since: int = 0
     over: bool = False
     memory: Any = None
+    open_gates: tuple[str, ...] = ()
 
     @property
     def waiting(self) -> tuple[InPlay, ...]:
@@ -203,7 +206,7 @@ class Rules(Protocol):
         """The first of the waiting balls is on the board again, with this id."""
 
     def hit(self, config: RuleConfig, state: RuleState, tick: int, points: int, part: str) -> Outcome:
-        """A ball has hit a part.
+        """A ball has hit or passed a part, has been captured by it, or has turned it once.
 
         Args:
             config: The rule settings of this game.
@@ -215,7 +218,10 @@ class Rules(Protocol):
         """
 
     def drained(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
-        """The ball with this id has left through the gutter."""
+        """The ball with this id has left through the gutter or a drain."""
+
+    def launched(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
+        """The plunger has launched the ball with this id; only on tables with a plunger."""
 
     def shoved(self, config: RuleConfig, state: RuleState, tick: int) -> Outcome:
         """The player has shoved the table."""
@@ -234,14 +240,6 @@ def ended(state: RuleState, tick: int) -> Outcome:
     if state.over:
         return state, ()
     return state._replace(over=True), (GameEvent(GameEventKind.OVER, tick, state.score),)
-
-
-def points_by_part(table: Table) -> dict[str, int]:
-    """The points of every part of a table, by its path in events."""
-    points = {f"paddle.{paddle.side}": paddle.points for paddle in table.paddle}
-    for kind in ("slant_wall", "triangular_prism", "cylinder"):
-        points |= {f"{kind}[{index}]": part.points for index, part in enumerate(getattr(table, kind))}
-    return points
 
 
 def is_custom_name(name: object) -> bool:

@@ -31,6 +31,7 @@ class GameState(NamedTuple):
         shove: Whether a shove of the player comes in the next tick.
         auto_shove: Whether a shove of the machine comes in the next tick.
         own_rules: The name of the rules; empty for the built-in ones.
+        launch: Whether the launch button is held.
     """
 
     rules: RuleState
@@ -40,14 +41,18 @@ class GameState(NamedTuple):
     shove: bool
     auto_shove: bool
     own_rules: str
+    launch: bool = False
 
     def to_json(self) -> str:
         """The state as JSON in ASCII; equal states have equal texts."""
         data = self.rules._asdict() | {"balls": [ball._asdict() for ball in self.rules.balls]}
-        if self.rules.memory is None:
-            del data["memory"]
+        for name, default in (("memory", None), ("open_gates", ())):
+            if getattr(self.rules, name) == default:
+                del data[name]  # so that digests of games without it stay as they are
         data["watch"] = self.stuck._asdict() | {"rests": [rest._asdict() for rest in self.stuck.rests]}
         data |= {"left": self.left, "right": self.right, "shove": self.shove, "machine": self.auto_shove}
+        if self.launch:  # left out otherwise, so that digests of tables without a plunger stay as they are
+            data["launch"] = True
         if self.own_rules:
             data["own_rules"] = self.own_rules
         return json.dumps(data, separators=(",", ":"))
@@ -61,11 +66,12 @@ class GameState(NamedTuple):
         """
         data: dict[str, Any] = json.loads(text)
         left, right, shove, auto = (bool(data.pop(name)) for name in ("left", "right", "shove", "machine"))
-        own_rules = str(data.pop("own_rules", ""))
+        launch, own_rules = bool(data.pop("launch", False)), str(data.pop("own_rules", ""))
         watch = data.pop("watch")
         stuck = StuckTracker(tuple(Rest(**rest) for rest in watch.pop("rests")), **watch)
         balls = tuple(InPlay(**ball) for ball in data.pop("balls"))
-        return cls(RuleState(**data, balls=balls), stuck, left, right, shove, auto, own_rules)
+        data["open_gates"] = tuple(map(str, data.get("open_gates", ())))
+        return cls(RuleState(**data, balls=balls), stuck, left, right, shove, auto, own_rules, launch)
 
 
 def pack_game(mode: str, ended: str, world: bytes, state_json: str) -> bytes:

@@ -48,7 +48,7 @@ class GameEventKind(StrEnum):
     BALL_READY = "ball_ready"  # value: the number of the next ball
     SCORED = "scored"  # value: the points of one hit, multiplier included; part: the part that was hit
     COMBO = "combo"  # value: hits in a row, from the second on
-    DOUBLE_ON = "double_on"  # two balls are in play and multiply the points; value: the multiplier
+    DOUBLE_ON = "double_on"  # a second ball is in play: points are multiplied; value: the multiplier
     DOUBLE_OFF = "double_off"
     BALL_SAVED = "ball_saved"  # a ball lost in its first seconds comes back; value: its number
     BALL_LOST = "ball_lost"  # value: the number of the ball

@@ -19,7 +19,7 @@ from silverball.metrics.statistics import Estimate, mean, median_life, ratio
 from silverball.physics.records import BALL, Fault, records
 from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.planner import BRANCHES
-from silverball.players.simple import PlayerKind, press_all
+from silverball.players.simple import PlayerKind, press_all, press_launch
 from silverball.world import WorldBatch
 
 STALL = 15.0  # [s] without points after which a ball counts as lost; as the environments end an episode
@@ -97,7 +97,8 @@ def time_balls(
     lives = records(batch.count, LIFE)
     policy, kind = batch_policy(player, batch, branches), kernel_player(player)
     every = 1 if policy is None else policy.every
-    actions = np.zeros((1, batch.count, 3), np.bool_)
+    has_plunger = bool(batch.boards.board["plungers"].any())
+    actions = np.zeros((1, batch.count, 4 if has_plunger else 3), np.bool_)
     batch.create_balls(batch.state["created"] == 0)
     alive = batch.state["created"] > 0
     lives["end"][~alive] = End.NOT_BORN
@@ -109,6 +110,9 @@ def time_balls(
         else:
             policy.decide()
             actions[0, :, :2] = policy.buttons
+        if has_plunger:
+            boards, tick = batch.boards.board, 1.0 / batch.tick_rate
+            press_launch(batch.state, boards, batch.board_of, tick, actions)
         batch.step_unchecked(actions, every)
         alive = update_lives(batch.state, lives, alive, every, round(STALL * batch.tick_rate))
         if progress is not None and done % batch.tick_rate < every:

@@ -12,10 +12,17 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.metrics.game_traces import CELLS, INTERVAL_BINS, TICK_RATE, GameEnd, Games, play_games
+from silverball.metrics.game_traces import (
+    CELLS,
+    INTERVAL_BINS,
+    TICK_RATE,
+    GameEnd,
+    Games,
+    parts_of_kind,
+    play_games,
+)
 from silverball.metrics.shots import Aim, Shots, shots_of
 from silverball.metrics.statistics import Estimate, ratio, share
-from silverball.physics.records import Kind
 from silverball.table import Table, generate_table
 from silverball.world import WorldBatch
 
@@ -96,23 +103,18 @@ def measure(
     return Feel(table, found, tuple(one for one in shots if one is not None))
 
 
-def hits_of(batch: WorldBatch, hits: NDArray[np.int64], kind: Kind) -> NDArray[np.int64]:
+def hits_of(batch: WorldBatch, hits: NDArray[np.int64], kind: str) -> NDArray[np.int64]:
     """The hits of all parts of a kind.
 
     Args:
         batch: The worlds.
         hits: Hits of each part, [world, part].
-        kind: The kind.
+        kind: The kind, as in the names of parts.
 
     Returns:
         Hits, [world].
     """
-    boards, width = batch.boards, hits.shape[1]
-    is_kind = np.zeros((len(boards.board), width), np.bool_)
-    for row, board in zip(is_kind, boards.board, strict=True):
-        kinds = boards.collider["kind"][board["collider_first"] : board["collider_end"]]
-        row[: len(kinds)] = kinds == kind
-    found: NDArray[np.int64] = (hits * is_kind[batch.board_of]).sum(axis=1)
+    found: NDArray[np.int64] = (hits * parts_of_kind(batch, kind)[batch.board_of]).sum(axis=1)
     return found
 
 
@@ -121,7 +123,7 @@ def _player_feel(batch: WorldBatch, games: Games) -> PlayerFeel:
     count = len(game)
     seconds = game["ticks"] / TICK_RATE
     drained = game["over"] == GameEnd.DRAINED
-    cylinder_hits = hits_of(batch, games.hits, Kind.CYLINDER)
+    cylinder_hits = hits_of(batch, games.hits, "cylinder")
     minutes = seconds / 60.0
     stay = game["longest_stay"] / TICK_RATE
     where = int(stay.argmax())
@@ -131,7 +133,7 @@ def _player_feel(batch: WorldBatch, games: Games) -> PlayerFeel:
         "points_per_ball": ratio(state["score"], drained),
         "hits_per_second": ratio(games.hits.sum(axis=1), seconds),
         "cylinder_hits_per_minute": ratio(cylinder_hits, minutes),
-        "prism_hits_per_minute": ratio(hits_of(batch, games.hits, Kind.TRIANGULAR_PRISM), minutes),
+        "prism_hits_per_minute": ratio(hits_of(batch, games.hits, "triangular_prism"), minutes),
         "share_above_half_cap": ratio(game["fast"], game["ticks"]),
         "share_on_a_paddle": ratio(game["on_paddle"], game["ticks"]),
         "share_stuck": share(int((stay > STUCK).sum()), count),

@@ -20,17 +20,18 @@ from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
 from silverball.physics.event_log import clear_log
-from silverball.physics.kernel import as_int, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.portable_math import uniform
 from silverball.physics.records import (
+    LEFT,
+    RIGHT,
     BatchGeometry,
     BoardGeometry,
     BoardRecord,
     Colliders,
     EventKind,
     Fault,
-    Kind,
     Lane,
     Lanes,
     Part,
@@ -38,12 +39,11 @@ from silverball.physics.records import (
     WorldRecord,
     records,
 )
-from silverball.physics.step import step_world
-from silverball.players.simple import LOOK_AHEAD, PlayerKind, pressed, strikes
+from silverball.physics.step import button_bits, step_world
+from silverball.players.simple import LOOK_AHEAD, PlayerKind, launch_bit, pressed, struck_buttons
 from silverball.world import WorldBatch
 
 TICK_RATE = 240
-PADDLES = (int(Part.LEFT_PADDLE), int(Part.RIGHT_PADDLE))
 CONTACTS = (int(EventKind.HIT), int(EventKind.TOUCH))  # with a part
 MAX_SECONDS = 600.0  # [s] a longer game is cut short
 CHUNK_TICKS = 1_000_000  # ticks of all worlds together between two calls of `progress`
@@ -145,11 +145,13 @@ class Setup(NamedTuple):
         player: A `PlayerKind`, or BEGINNER.
         limit: Ticks after which a game is cut short.
         places: The squares of all boards in which balls are created.
+        is_cylinder: Whether each part of each board is a cylinder, bool [board, part].
     """
 
     player: int
     limit: int
     places: Places
+    is_cylinder: NDArray[np.bool_]
 
 
 def play_games(
@@ -177,7 +179,7 @@ def play_games(
     count, beginning, tallies = batch.count, batch.save(), batch.tallies.copy()
     batch.tallies[:] = 0
     kind = BEGINNER if player == "beginner" else int(PlayerKind[player.upper()])
-    setup = Setup(kind, round(longest * TICK_RATE), batch.boards.place)
+    setup = Setup(kind, round(longest * TICK_RATE), batch.boards.place, parts_of_kind(batch, "cylinder"))
     reached, seen = np.zeros_like(batch.tallies), np.zeros_like(batch.tallies)
     traces = Traces(records(count, GAME), np.zeros((count, 2, REMEMBERED_TICKS), np.bool_), reached, seen)
     board = batch.tables[0].board
@@ -198,6 +200,14 @@ def play_games(
     batch.restore(beginning)
     batch.tallies[:] = tallies
     return Games(end, hits, traces.game, heat, stays, gaps, reached)
+
+
+def parts_of_kind(batch: WorldBatch, kind: str) -> NDArray[np.bool_]:
+    """Whether each part of each board of a batch is of a kind, by its name: bool [board, part]."""
+    found = np.zeros((len(batch.boards.names), batch.tallies.shape[1]), np.bool_)
+    for row, names in zip(found, batch.boards.names, strict=True):
+        row[: len(names)] = [name.startswith(f"{kind}[") for name in names]
+    return found
 
 
 def _empty_maps(shape: tuple[int, int]) -> Maps:
@@ -242,9 +252,12 @@ def play_balls(
             else:
                 left, right = pressed(setup.player, world, board, colliders, tick)
             score = world.score
-            step_world(lane, geometry, left, right, False, tick)
+            step_world(lane, geometry, button_bits(left, right) | launch_bit(world, board, tick), tick)
             game.ticks += 1
-            follow_hits(lane, geometry, game, traces.reached[index], traces.seen[index], maps.gaps)
+            is_cylinder = setup.is_cylinder[lanes.board_of[index]]
+            follow_hits(
+                lane, geometry, game, traces.reached[index], traces.seen[index], maps.gaps, is_cylinder
+            )
             game.dry = game.dry + 1 if world.score == score else 0
             game.longest_dry = max(game.longest_dry, game.dry)
             if ball.id == 0:
@@ -268,20 +281,25 @@ def beginner_presses(
     half_second = int(world.tick * tick / 0.5)
     late = REACTION_JITTER * (2.0 * uniform(key, 1 + half_second) - 1.0)
     now = world.tick % REMEMBERED_TICKS
-    for side in range(2):
-        c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
-        decisions[side, now] = strikes(world, board, c, LOOK_AHEAD + reaction)
+    bits = struck_buttons(world, board, colliders, LOOK_AHEAD + reaction)
+    decisions[0, now], decisions[1, now] = bits & LEFT != 0, bits & RIGHT != 0
     then = (world.tick - int((reaction + late) / tick)) % REMEMBERED_TICKS
     return decisions[0, then], decisions[1, then]
 
 
+@inlined
+def is_paddle(board: BoardRecord, part: int) -> bool:
+    """Whether the part with this number is a paddle."""
+    return bool(Part.FIRST_PADDLE <= part < Part.FIRST_PADDLE + board.paddles)
+
+
 @internal
 def follow_hits(
-    lane: Lane, geometry: BoardGeometry, game: GameRecord, reached: Any, seen: Any, gaps: Any
-) -> None:
+    lane: Lane, geometry: BoardGeometry, game: GameRecord, reached: Any, seen: Any, gaps: Any,
+    is_cylinder: Any,
+) -> None:  # fmt: skip
     """Record the hits of a tick: how long after the last one, and what a struck ball has met."""
     ball, log = lane.world.ball[0], lane.log
-    first = geometry.board.collider_first
     game.quiet += 1
     if game.struck > 0:
         game.struck += 1
@@ -289,7 +307,7 @@ def follow_hits(
         event = log.event[number]
         if event.part < 0 or event.kind not in CONTACTS:
             continue
-        if event.part in PADDLES:
+        if is_paddle(geometry.board, event.part):
             # A paddle that carries a ball meets it again and again: that is one strike.
             is_same_strike = 0 < game.struck <= int(MAX_CARRY_TIME * TICK_RATE) and game.reached_any == 0
             if ball.vx > MIN_STRIKE_SPEED:
@@ -304,7 +322,7 @@ def follow_hits(
         elif event.kind == EventKind.HIT and game.struck > 0 and seen[event.part] == 0:
             seen[event.part], game.reached_any = 1, 1
             reached[event.part] += 1
-            if geometry.colliders[first + event.part].kind == Kind.CYLINDER and game.reached_cylinder == 0:
+            if is_cylinder[event.part] and game.reached_cylinder == 0:
                 game.reached_cylinder = 1
                 game.to_cylinder += 1
         if event.kind == EventKind.HIT:
@@ -322,9 +340,9 @@ def follow_ball(
     if ball.vx * ball.vx + ball.vz * ball.vz > 0.25 * board.speed_cap * board.speed_cap:
         game.fast += 1
     if ball.x < board.paddle_top:
-        for side in range(2):
-            c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
-            gap, _, _ = paddle_distance(c, world.paddle[side].angle, ball.x, ball.z)
+        for number in range(board.paddles):
+            c = colliders[board.collider_first + Part.FIRST_PADDLE + number]
+            gap, _, _ = paddle_distance(c, world.paddle[number].angle, ball.x, ball.z)
             if gap - board.ball_radius < ON_PADDLE:
                 game.on_paddle += 1
                 break

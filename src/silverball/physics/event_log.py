@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.records import (
-    BALL_COUNT,
     LOG_LENGTH,
     LOG_RESERVE,
     LOG_SIZE,
+    MAX_BALLS,
     BallRecord,
+    BoardRecord,
+    ColliderRecord,
     Contact,
     EventKind,
     LogRecord,
     WorldRecord,
 )
+
+LOW_BITS = 1023
 
 
 @internal
@@ -21,7 +25,7 @@ def begin_step(log: LogRecord) -> None:
     """Drop the events of the previous step, but not the balls created since it ended."""
     if log.count == 0 and log.lost == 0:
         return
-    carried = min(max(log.count - log.done, 0), BALL_COUNT)
+    carried = min(max(log.count - log.done, 0), MAX_BALLS)
     first = log.count - carried
     for number in range(carried):
         log.event[number] = log.event[first + number]
@@ -35,7 +39,9 @@ def clear_log(log: LogRecord) -> None:
 
 
 @internal
-def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
+def log_event(
+    log: LogRecord, kind: int, ball: BallRecord, tick: int, part: int, contact: Contact, speed: float
+) -> None:
     """Append an event of a ball at its present position (see `records.EVENT`), or count it as lost."""
     capacity = log.carried + LOG_SIZE
     if kind <= EventKind.BALL_TOUCH:
@@ -47,7 +53,7 @@ def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: C
         return
     event = log.event[log.count]
     log.count += 1
-    event.kind, event.part, event.ball = kind, contact.part, ball.id
+    event.kind, event.part, event.ball = kind, part, ball.id
     event.tick, event.offset = tick, contact.time
     event.x, event.z = ball.x, ball.z
     event.normal_x, event.normal_z = contact.nx, contact.nz
@@ -55,19 +61,51 @@ def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: C
 
 
 @internal
-def store_checksum(world: WorldRecord, log: LogRecord) -> None:
+def log_part_event(log: LogRecord, kind: int, c: ColliderRecord, tick: int, time: float) -> None:
+    """Append an event of a part without a ball, at the place of its collider, or count it as lost."""
+    if log.count >= log.carried + LOG_SIZE:
+        log.lost += 1
+        return
+    event = log.event[log.count]
+    log.count += 1
+    event.kind, event.part, event.ball, event.tick, event.offset = kind, c.part, 0, tick, time
+    event.x, event.z, event.normal_x, event.normal_z, event.speed = c.x, c.z, 0.0, 0.0, 0.0
+
+
+@internal
+def store_checksum(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Store the checksum of the state that a call leaves, for `validation.is_unchanged`."""
-    log.checksum = flight_checksum(world)
+    log.checksum = flight_checksum(world, board)
 
 
 @inlined
-def flight_checksum(world: WorldRecord) -> float:
+def flight_checksum(world: WorldRecord, board: BoardRecord) -> float:
     """Compute a number that identifies the flights, the next contacts and the paddles' angles.
 
     It detects changed states, but does not protect against deliberate collisions.
     """
-    angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
-    return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles
+    checksum = 0.0
+    if board.switches != 0 or board.sensors != 0:
+        checksum += _device_checksum(world, board)
+    for slot in range(board.max_balls):
+        checksum += _ball_checksum(world.ball[slot])
+    for index in range(board.paddles):
+        checksum += (3.0 + 2.0 * index) * world.paddle[index].angle
+    return checksum
+
+
+@internal
+def _device_checksum(world: WorldRecord, board: BoardRecord) -> float:
+    """Compute the share of the devices. Few bits of an integer count, so that no other digits are lost."""
+    checksum = 3.0 * (world.off % 1021) + (world.next_clock & LOW_BITS)
+    checksum += 5.0 * (world.launch_held & LOW_BITS) + 7.0 * (world.banks_due & LOW_BITS)
+    for number in range(board.spinners):
+        spinner = world.spinner[number]
+        checksum += (spinner.angle + spinner.speed) + (spinner.tick & LOW_BITS) + spinner.offset
+        checksum += spinner.turns & LOW_BITS
+    for number in range(board.banks):
+        checksum += (world.bank_tick[number] & LOW_BITS) + world.bank_offset[number]
+    return checksum
 
 
 @inlined
@@ -75,4 +113,6 @@ def _ball_checksum(ball: BallRecord) -> float:
     """Compute the share of one ball."""
     start = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
     motion = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
-    return start + motion + (ball.contact_age + ball.contact_part)
+    place = (ball.level + ball.holder) + ((ball.due_tick & LOW_BITS) + ball.due_offset)
+    search = (ball.search_age + ball.passed_age) + (ball.passed_row + ball.solid_row)
+    return start + motion + (ball.contact_age + ball.contact_row) + (place + search)

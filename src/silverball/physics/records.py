@@ -19,31 +19,60 @@ from numpy.typing import NDArray
 from silverball.physics.forms import Response as Response, Shape as Shape  # noqa: PLC0414
 from silverball.physics.kernel import SETTINGS
 
-BALL_COUNT = 2
-"""Balls in a world record; a table may allow one or two (`max_balls`)."""
+MAX_BALLS = 8
+"""Balls in a world record; a board uses the first `max_balls` of them."""
+
+MAX_PADDLES = 8
+"""Paddles in a world record; a board uses the first `paddles` of them."""
+
+MAX_PAIRS = MAX_BALLS * (MAX_BALLS - 1) // 2
+"""Pairs of balls, in the order (0, 1), (0, 2), (1, 2), (0, 3), …: those of the first n balls come first."""
+
+MAX_LEVELS = 8
+"""Levels of a board; a ball is on one of them, a collider on any."""
+
+MAX_SWITCHES = 62
+"""Colliders of a board that can be away: bits of `off` in a world record."""
+
+MAX_BANKS = 16
+"""Banks of drop targets of a board."""
+
+MAX_SPINNERS = 16
+"""Spinners of a board."""
+
+NO_CLOCK = 2**62
+"""The tick of a clock that never comes."""
 
 LOG_SIZE = 64
 """Events of one step that a world's log holds; later ones are counted as lost."""
 
-LOG_LENGTH = LOG_SIZE + 2 * BALL_COUNT
+LOG_LENGTH = LOG_SIZE + 2 * MAX_BALLS
 """Capacity of a log: the events of a step, and the balls created before it and after it."""
 
 LOG_RESERVE = 8
 """Slots of a log that contacts leave free: a jam comes after many touches and must not be lost."""
 
 
+# The buttons that are held in a tick, as bits; JITTER shoves the balls.
+LEFT, RIGHT, JITTER, LAUNCH = 1, 2, 4, 8
+
+
 class Part(IntEnum):
-    """The first colliders of every board; the table's other parts have the numbers from `FIRST_SHAPE` on."""
+    """The first colliders of every board, and parts of the same numbers.
+
+    The paddles are the `board.paddles` rows from `FIRST_PADDLE` on, the stationary shapes those from
+    `board.shape_first` on.
+    """
 
     LEFT_WALL = 0
     RIGHT_WALL = 1
     TOP_WALL = 2
+    FIRST_PADDLE = 3
     LEFT_PADDLE = 3
     RIGHT_PADDLE = 4
-    FIRST_SHAPE = 5
 
 
-# Special values in fields that hold part numbers; plain integers, so that both have one type in kernels.
+# Special values in fields that hold rows or parts; plain integers, so that both have one type in kernels.
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
@@ -54,12 +83,33 @@ ROLL_START = -5  # a slipping ball starts to roll
 class Kind(IntEnum):
     """The kind of a collider."""
 
-    ABSENT = 0  # a paddle that the table does not have
     WALL = 1
     SLANT_WALL = 2
     PADDLE = 3
     TRIANGULAR_PRISM = 4
     CYLINDER = 5
+    OTHER = 6
+
+
+class Device(IntEnum):
+    """What a collider does apart from bouncing a ball."""
+
+    NONE = 0
+    DROP_TARGET = 1  # falls when it is hit
+    GATE = 2  # is opened and closed by rules
+    SENSOR = 3  # reports a ball
+    PASSAGE = 4  # changes the level of a ball
+    SPINNER = 5
+    HOLE = 6
+    DRAIN = 7  # a ball that falls into it is lost
+    PLUNGER = 8
+
+
+class KickProfile(IntEnum):
+    """How the kick of a collider varies along it."""
+
+    FLAT = 0
+    PARABOLA = 1  # 1 − ξ² between the two ends of a capsule or arc, ξ = −1 … 1
 
 
 class EventKind(IntEnum):
@@ -73,6 +123,11 @@ class EventKind(IntEnum):
     CREATED = 6
     JITTER = 7
     JAM = 8  # a pinched ball was stopped and the paddles at it stalled
+    PASS = 9  # a ball crossed a sensor
+    SPIN = 10  # a spinner made a turn
+    CAPTURED = 11  # a hole or a plunger holds a ball
+    RELEASED = 12  # … and has sent it off
+    RESET = 13  # a drop target has come back
 
 
 class Motion(IntEnum):
@@ -82,6 +137,7 @@ class Motion(IntEnum):
     ROLLING = 1
     SLIPPING = 2  # its lowest point moves over the playfield
     HELD = 3  # jammed; only within a tick
+    CAPTURED = 4  # in a hole or on a plunger
 
 
 class Fault(IntEnum):
@@ -118,7 +174,14 @@ BALL = np.dtype(
         ("ticks", "i8"), ("offset", "f8"),  # ticks since it started, and the offset within its first tick [s]
         ("age", "f8"),  # at the start of the next tick [s]
         # The next contact with a stationary part; with NOTHING: there is none up to this age [s].
-        ("contact_age", "f8"), ("contact_part", "i8"),
+        ("contact_age", "f8"), ("contact_row", "i8"),
+        ("level", "i8"),
+        # A captured ball: the row that holds it, and when that lets it go: the tick and the time in it [s].
+        ("holder", "i8"), ("due_tick", "i8"), ("due_offset", "f8"),
+        # The searches: the age from which the flight is searched for contacts; the last crossing; and, on
+        # boards with sensors, the next contact that is not a crossing.
+        ("search_age", "f8"), ("passed_age", "f8"), ("passed_row", "i8"),
+        ("solid_age", "f8"), ("solid_row", "i8"),
     ],
     align=True,
 )  # fmt: skip
@@ -132,10 +195,17 @@ PADDLE = np.dtype(
     align=True,
 )
 
+SPINNER = np.dtype(
+    [
+        ("angle", "f8"), ("speed", "f8"),  # at the last crossing [rad], [rad/s]
+        ("tick", "i8"), ("offset", "f8"),  # when that was
+        ("turns", "i8"),  # since then
+    ],
+    align=True,
+)  # fmt: skip
+
 WORLD = np.dtype(
     [
-        ("ball", BALL, (BALL_COUNT,)),
-        ("paddle", PADDLE, (2,)),  # left, right
         ("tick", "i8"),
         ("seed", "i8"), ("draws", "i8"),  # the random generator: key and counter
         ("score", "i8"),
@@ -145,6 +215,14 @@ WORLD = np.dtype(
         ("touches", "i8"),
         ("jams", "i8"),
         ("fault", "i8"),  # Fault
+        ("off", "i8"),  # a bit for each switch: the collider is away
+        ("next_clock", "i8"),  # the tick in which a device acts by itself next, or NO_CLOCK
+        ("launch_held", "i8"),  # ticks for which the launch button has been held
+        ("banks_due", "i8"),  # a bit for each bank that is to come back
+        ("paddle", PADDLE, (MAX_PADDLES,)),
+        ("ball", BALL, (MAX_BALLS,)),  # behind what is read most, so that the first balls lie close to it
+        ("spinner", SPINNER, (MAX_SPINNERS,)),
+        ("bank_tick", "i8", (MAX_BANKS,)), ("bank_offset", "f8", (MAX_BANKS,)),  # when they are due
     ],
     align=True,
 )  # fmt: skip
@@ -161,12 +239,18 @@ BOARD = np.dtype(
         ("normal_accel", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
         ("max_accel", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
+        # Each level: acceleration of a sliding ball [u/s²], and its size.
+        ("level_x", "f8", (MAX_LEVELS,)), ("level_z", "f8", (MAX_LEVELS,)),
+        ("level_size", "f8", (MAX_LEVELS,)),
+        # Devices: rows that balls cross, all switches, rows of plungers and spinners, and of each bank its
+        # switches and the time after which it comes back [s].
+        ("sensors", "i8"), ("switches", "i8"), ("plungers", "i8"), ("plunger_row", "i8"),
+        ("spinners", "i8"), ("spinner_row", "i8", (MAX_SPINNERS,)),
+        ("banks", "i8"), ("bank_switches", "i8", (MAX_BANKS,)), ("bank_time", "f8", (MAX_BANKS,)),
         ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # limits of a ball's centre at the borders [u]
         ("paddle_top", "f8"),  # no paddle can touch a ball whose centre is above this x [u]
-        # Circles in which a ball's centre must be to touch the left or right paddle, at any angle.
-        ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
-        ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
+        ("paddles", "i8"), ("shape_first", "i8"),  # their number; the row of the first stationary shape
         # The grid (see broad_phase.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
         ("skin", "f8"),  # a cell lists all parts that a ball can touch within this travel [u]
@@ -181,6 +265,8 @@ BOARD = np.dtype(
 COLLIDER = np.dtype(
     [
         ("kind", "i8"),
+        # Shape, Response, the levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
+        ("form", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
         # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
@@ -192,15 +278,36 @@ COLLIDER = np.dtype(
         ("along_x2", "f8"), ("along_z2", "f8"),
         ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
-        # Shape, Response, the part (its number on the board), the levels (bit n: level n), the switch (a
-        # bit of WORLD.off; 0: always there).
-        ("shape", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
+        ("part", "i8"),  # its number on the board
+        ("role", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
-        # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]
+        # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the
+        # button; a circle in which a ball's centre must be to touch the paddle, at any angle.
         ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"),
-        ("lift_speed", "f8"), ("return_speed", "f8"),
+        ("lift_speed", "f8"), ("return_speed", "f8"), ("button", "i8"),
+        ("sweep_x", "f8"), ("sweep_z", "f8"), ("sweep_reach", "f8"),
         ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
+        # Tapered capsules: `radius` is that of the base, length0 leads to the tip (see shapes.py).
+        ("tip_radius", "f8"), ("taper_sine", "f8"), ("taper_cosine", "f8"),
+        # Arcs: ends 0 and 1, where along_* are the tangents towards the middle; centre 2, from which the
+        # middle lies in the direction `inward`; radius of the circle; 1 if it is more than half of it.
+        ("arc_radius", "f8"), ("arc_is_major", "i8"),
+        # Surface: coefficient of friction, [u/s] a contact above it is a hit, [u/s] kick, KickProfile
+        ("friction", "f8"), ("hit_speed", "f8"), ("kick", "f8"), ("kick_profile", "i8"),
+        ("one_way", "i8"),  # 1: only a ball that comes from the side of `inward` meets it
+        # Paddles: angular accelerations [rad/s²], 0 for constant speed; how far it gives way (see bounce.py)
+        ("lift_accel", "f8"), ("return_accel", "f8"), ("recoil", "f8"),
+        # Passages: the levels to the right and to the left of corner 0 → corner 1.
+        ("level_right", "i8"), ("level_left", "i8"),
+        # Spinners: damping [1/s], speed that it takes [u/s], half of the blade's height [u]
+        ("damping", "f8"), ("drag", "f8"), ("blade", "f8"),
+        # Holes: speed up to which they capture [u/s], time [s], and where, how and on which level they let go
+        ("capture_speed", "f8"), ("hold_time", "f8"), ("exit_x", "f8"), ("exit_z", "f8"),
+        ("exit_vx", "f8"), ("exit_vz", "f8"), ("exit_spread", "f8"), ("exit_level", "i8"),
+        # Plungers: speeds [u/s], the time for the greatest one [s], the unit direction
+        ("launch_least", "f8"), ("launch_greatest", "f8"), ("charge_time", "f8"),
+        ("launch_x", "f8"), ("launch_z", "f8"),
     ],
     align=True,
 )  # fmt: skip
@@ -208,7 +315,7 @@ COLLIDER = np.dtype(
 EVENT = np.dtype(
     [
         ("kind", "i8"),  # EventKind
-        ("part", "i8"),  # the collider's number on its board, or NOTHING, GUTTER, OTHER_BALL
+        ("part", "i8"),  # the part's number on its board, or NOTHING, GUTTER, OTHER_BALL
         ("ball", "i8"),  # id
         ("tick", "i8"),
         ("offset", "f8"),  # time within the tick [s]
@@ -219,12 +326,25 @@ EVENT = np.dtype(
     align=True,
 )  # fmt: skip
 
+SWEEP = np.dtype(
+    [
+        ("angle", "f8"), ("omega", "f8"), ("stop", "f8"), ("alpha", "f8"),  # see `PaddleSweep`
+        ("stop_time", "f8"),  # when in the tick it reaches its stop [s], or NEVER
+    ],
+    align=True,
+)  # fmt: skip
+
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
         ("carried", "i8"),  # the first events: balls created before the last step
         ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "f8"),  # of the flights and angles that the last call left
+        # Scratch of a tick: the paddles' motion; for each ball its events since its last jam and its jams;
+        # for each pair of balls the contacts between them since a jam of either.
+        ("sweep", SWEEP, (MAX_PADDLES,)),
+        ("ball_events", "i8", (MAX_BALLS,)), ("ball_jams", "i8", (MAX_BALLS,)),
+        ("pair_events", "i8", (MAX_PAIRS,)),
         ("event", EVENT, (LOG_LENGTH,)),
     ],
     align=True,
@@ -237,6 +357,8 @@ BallRecord: TypeAlias = Any  # a BALL record
 PaddleRecord: TypeAlias = Any  # a PADDLE record
 BoardRecord: TypeAlias = Any  # a BOARD record
 ColliderRecord: TypeAlias = Any  # a COLLIDER record
+SpinnerRecord: TypeAlias = Any  # a SPINNER record
+SweepRecord: TypeAlias = Any  # a SWEEP record
 LogRecord: TypeAlias = Any  # a LOG record
 Colliders: TypeAlias = Any  # COLLIDER records [collider] of all boards
 Grid: TypeAlias = Any  # i4 [number]: the grids of all boards
@@ -260,18 +382,26 @@ class BallMotion(NamedTuple):
 
 
 class PaddleSweep(NamedTuple):
-    """A paddle's motion in one tick: angle at its start [rad], angular velocity [rad/s], stop [rad]."""
+    """A paddle's motion in one tick.
+
+    Attributes:
+        angle: Its angle at the start of the tick [rad].
+        omega: Its angular velocity at the start of the tick [rad/s].
+        stop: The angle at which it stops [rad].
+        alpha: Its angular acceleration towards the stop [rad/s²]; 0: it turns at constant speed.
+    """
 
     angle: float
     omega: float
     stop: float
+    alpha: float
 
 
 class Contact(NamedTuple):
-    """A contact: its time [s], the part met, the unit normal from the part to the ball."""
+    """A contact: its time [s], the row of the collider met, the unit normal from it to the ball."""
 
     time: float
-    part: int
+    row: int
     nx: float
     nz: float
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import Colliders, Part
+from silverball.physics.records import LEFT as LEFT_BUTTON, RIGHT as RIGHT_BUTTON, Colliders, Part
 
 Rows = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ MIRRORED = np.array([0, 2, 1, 3])  # the mirror images of the actions none, left
 
 
 def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
-    """The raw features of some worlds; those of a missing ball or paddle are 0.
+    """The raw features of some worlds, of the first paddle of each button; those of a missing one are 0.
 
     Args:
         state: WORLD records [world].
@@ -65,12 +65,14 @@ def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
     sizes = ((Raw.X, "x", "half_length"), (Raw.Z, "z", "half_width"))
     for slot, name, size in (*sizes, (Raw.VX, "vx", "speed_cap"), (Raw.VZ, "vz", "speed_cap")):
         raw[:, slot] = np.where(alive.any(axis=1), ball[name] / boards[size], 0.0)
-    for side, part in ((0, Part.LEFT_PADDLE), (1, Part.RIGHT_PADDLE)):
-        collider, paddle = colliders[boards["collider_first"] + part], state["paddle"][:, side]
-        swing = collider["angle_up"] - collider["angle_rest"]
+    for button, first in ((LEFT_BUTTON, Raw.LEFT_ANGLE), (RIGHT_BUTTON, Raw.RIGHT_ANGLE)):
+        number = first_paddles(boards, colliders, button)
+        has_paddle = number >= 0
+        collider = colliders[boards["collider_first"] + Part.FIRST_PADDLE + number * has_paddle]
+        paddle = state["paddle"][np.arange(len(state)), number * has_paddle]
+        swing = (collider["angle_up"] - collider["angle_rest"]) * has_paddle
         is_present = swing > 0.0
         fastest = np.maximum(collider["lift_speed"], collider["return_speed"])
-        first = Raw.LEFT_ANGLE if side == 0 else Raw.RIGHT_ANGLE
         turned = paddle["angle"] - collider["angle_rest"]
         raw[:, first] = np.divide(turned, swing, out=np.zeros(len(state)), where=is_present)
         raw[:, first + 1] = np.divide(
@@ -78,6 +80,19 @@ def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
         )
         raw[:, first + 2] = is_present & (paddle["angle_commanded"] == collider["angle_up"])
     return raw
+
+
+def first_paddles(boards: Any, colliders: Colliders, button: int) -> NDArray[np.int64]:
+    """The number of the first paddle of a button on each board [world]; −1: it has none.
+
+    Of several paddles of one button the first is the main one; the others move with it.
+    """
+    found = np.full(len(boards), -1)
+    for number in reversed(range(int(boards["paddles"].max()))):
+        row = boards["collider_first"] + Part.FIRST_PADDLE + np.minimum(number, boards["paddles"] - 1)
+        has_it = (number < boards["paddles"]) & (colliders["button"][row] == button)
+        found[has_it] = number
+    return found
 
 
 def encode(raw: Rows) -> tuple[Rows, NDArray[np.bool_]]:

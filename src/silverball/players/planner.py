@@ -21,8 +21,10 @@ from numpy.typing import NDArray
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.records import (
     BOARD,
+    LEFT,
     LOG,
     LOG_SIZE,
+    RIGHT,
     WORLD,
     BatchGeometry,
     BoardGeometry,
@@ -30,13 +32,17 @@ from silverball.physics.records import (
     Colliders,
     Lane,
     LogRecord,
-    Part,
+    Motion,
     Tally,
     WorldRecord,
     records,
 )
-from silverball.physics.skip_ahead import event_free_ticks
-from silverball.physics.step import advance_paddles, are_balls_on_board, can_step, finish_ticks, play_tick
+from silverball.physics.step import (
+    advance,
+    are_balls_on_board,
+    button_bits,
+    can_step,
+)
 from silverball.players.plan import (
     PLAN,
     PlanRecord,
@@ -48,7 +54,7 @@ from silverball.players.plan import (
     vary_plan,
     wants_new_plan,
 )
-from silverball.players.simple import PlayerKind, pressed
+from silverball.players.simple import PlayerKind, is_button_up, pressed
 from silverball.world import World, WorldBatch
 
 DECISIONS = 60  # decisions per second
@@ -56,8 +62,7 @@ BRANCHES = 60  # branches tried at one decision
 MOVES = 10_000  # upper limit for all branches of a decision; a skip over many steps counts as one move
 HORIZON = 10.0  # [s] upper limit of a branch: a shot down the middle can take 7 s to come back
 LOW_HORIZON = 4.0  # [s] upper limit of its time with a ball in reach of the paddles
-RISES = 2  # a branch ends when every ball has risen from the paddles this many times
-RISE = 1.0  # [u] above the reach of the paddles to which a ball must rise
+RISE = 1.0  # [u] above the reach of the paddles; a branch ends when every ball has risen so far twice
 LEAD = 12  # steps before a ball is in reach of the paddles at which branches begin to differ
 LOSS_TIME = 2.0  # [s] a ball lost after this time counts half
 GAIN = 0.1  # upper limit of the value of points; a ball lost at once costs 1
@@ -236,7 +241,7 @@ def plan_worlds(
         copies[ROOT] = worlds[index]
         root = copies[ROOT]
         geometry = BoardGeometry(geometries.boards[board_of[index]], geometries.colliders, geometries.grid)
-        if (root.ball[0].id != 0 or root.ball[1].id != 0) and can_step(root, geometry, log, length):
+        if present_balls(root, geometry.board) != 0 and can_step(root, geometry, log, length):
             dry = (world.tick - memory.scored_tick) * tick
             scratch = Scratch(plans, copies, log, state.tallies[index], memory)
             left, right = decide(scratch, geometry, dry, length)
@@ -263,8 +268,8 @@ def decide(scratch: Scratch, geometry: BoardGeometry, dry: float, length: float)
     best, trial, root = plans[BEST], plans[TRIAL], copies[ROOT]
     board, colliders = geometry.board, geometry.colliders
     horizon, seed, draws = int(HORIZON / length), root.seed, 0
-    left = root.paddle[0].angle_commanded == colliders[board.collider_first + Part.LEFT_PADDLE].angle_up
-    right = root.paddle[1].angle_commanded == colliders[board.collider_first + Part.RIGHT_PADDLE].angle_up
+    left = is_button_up(root, board, colliders, LEFT)
+    right = is_button_up(root, board, colliders, RIGHT)
     score = root.score
 
     # No press can change what happens until a ball is in reach of a paddle.
@@ -313,8 +318,31 @@ def buttons_of(
 @inlined
 def has_no_ball_in_reach(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether no ball is in reach of a paddle."""
-    a, b = world.ball[0], world.ball[1]
-    return not (a.id != 0 and a.x <= board.paddle_top) and not (b.id != 0 and b.x <= board.paddle_top)
+    for slot in range(board.max_balls):
+        ball = world.ball[slot]
+        if ball.id != 0 and ball.x <= board.paddle_top and ball.motion != Motion.CAPTURED:
+            return False
+    return True
+
+
+@inlined
+def balls_below(world: WorldRecord, board: BoardRecord, line: float) -> int:
+    """The slots of which the ball is below a line, x [u], as bits; those of empty slots mean nothing."""
+    bits = 0
+    for slot in range(board.max_balls):
+        if world.ball[slot].x < line:
+            bits |= 1 << slot
+    return bits
+
+
+@inlined
+def present_balls(world: WorldRecord, board: BoardRecord) -> int:
+    """The slots with a ball, as bits."""
+    bits = 0
+    for slot in range(board.max_balls):
+        if world.ball[slot].id != 0:
+            bits |= 1 << slot
+    return bits
 
 
 @internal
@@ -337,8 +365,8 @@ def look_ahead(
     max_low_steps = int(LOW_HORIZON / length)
     start, score, drained = world.score, world.score, world.drained
     line = board.paddle_top + RISE
-    a, b = world.ball[0], world.ball[1]
-    low_a, low_b, rises_a, rises_b = a.x < line, b.x < line, 0, 0
+    # Slots as bits: with a ball below the line, with one that has risen over it, and again after that.
+    below, risen, risen_again = balls_below(world, board, line), 0, 0
     while played < horizon and low < max_low_steps and are_balls_on_board(world, board):
         if not has_no_ball_in_reach(world, board):
             low += 1
@@ -349,25 +377,17 @@ def look_ahead(
         limit = horizon - played
         if now < plan.until:
             limit = min(limit, next_change(plan, now) - now)
-        free = event_free_ticks(geometry, a, b, length, limit)
-        if free == 0:
-            play_tick(lane, geometry, left, right, length)
-            played += 1
-        else:
-            for _ in range(free):
-                advance_paddles(world, board, colliders, left, right, length)
-            finish_ticks(world, board, length, free)
-            played += free
+        played += advance(lane, geometry, button_bits(left, right), length, limit)
         memory.moves += 1
         if world.score != score:
             score, scored_at, dry = world.score, played, 0.0
         if world.drained != drained:
             value -= (world.drained - drained) / (1.0 + played * length / LOSS_TIME)
             drained = world.drained
-        rises_a += 1 if low_a and a.x > line else 0
-        rises_b += 1 if low_b and b.x > line else 0
-        low_a, low_b = a.x < line, b.x < line
-        if (a.id == 0 or rises_a >= RISES) and (b.id == 0 or rises_b >= RISES):
+        now_below = balls_below(world, board, line)
+        rises = below & ~now_below
+        risen, risen_again, below = risen | rises, risen_again | (risen & rises), now_below
+        if present_balls(world, board) & ~risen_again == 0:
             break
     dry += (played - scored_at) * length
     gain = (score - start) / most_points(board, colliders)

@@ -8,14 +8,16 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any
 
-from silverball.physics.kernel import kernel
+from silverball.physics.kernel import inlined, kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
-    BALL_COUNT,
+    LAUNCH,
+    LEFT,
+    RIGHT,
     BoardRecord,
     ColliderRecord,
     Colliders,
-    Kind,
+    Motion,
     Part,
     WorldRecord,
 )
@@ -29,6 +31,9 @@ RANDOM_HOLD = 0.15  # [s] for which the random player holds or releases a button
 NEAR_SHARE = 0.45  # of the paddle's length from the pivot, where the reflex player lets the ball roll
 LOOK_AHEAD = 0.02  # [s] for which the reflex player predicts the ball
 STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
+LAUNCH_KEY = 0xBA11  # makes the numbers of the launch button independent of the others
+LAUNCH_PERIOD = 1.5  # [s] from one press of the launch button to the next
+LAUNCH_LEAST, LAUNCH_SPAN = 0.3, 0.6  # of the period: the button is held for 30 to 90 % of it
 
 
 class PlayerKind(IntEnum):
@@ -68,11 +73,36 @@ def pressed(
         key = world.seed ^ RANDOM_KEY
         return uniform(key, 2 * turn) < 0.5, uniform(key, 2 * turn + 1) < 0.5
     if player == PlayerKind.REFLEX:
-        left = colliders[board.collider_first + Part.LEFT_PADDLE]
-        right = colliders[board.collider_first + Part.RIGHT_PADDLE]
-        return strikes(world, board, left, LOOK_AHEAD), strikes(world, board, right, LOOK_AHEAD)
+        bits = struck_buttons(world, board, colliders, LOOK_AHEAD)
+        return bits & LEFT != 0, bits & RIGHT != 0
     held = player == PlayerKind.HOLD
     return held, held
+
+
+@kernel
+def holds_launch(world: WorldRecord, tick: float) -> bool:
+    """Whether the launch button is held in the next tick by players that know the paddle buttons only.
+
+    It is held and let go again and again, for a time that varies, so that balls on a plunger are launched
+    at different speeds.
+    """
+    turn = int(world.tick * tick / LAUNCH_PERIOD)
+    share = LAUNCH_LEAST + LAUNCH_SPAN * uniform(world.seed ^ LAUNCH_KEY, turn)
+    return bool(world.tick * tick < (turn + share) * LAUNCH_PERIOD)
+
+
+@kernel
+def launch_bit(world: WorldRecord, board: BoardRecord, tick: float) -> int:
+    """The bit of the launch button if it is held in the next tick; see `holds_launch`."""
+    return LAUNCH if board.plungers != 0 and holds_launch(world, tick) else 0
+
+
+@kernel
+def press_launch(worlds: Any, boards: Any, board_of: Any, tick: float, actions: Any) -> None:
+    """Write whether the launch button is held in the next tick into `actions`, bool [1, world, 4]."""
+    for index in range(len(worlds)):
+        bit = launch_bit(worlds[index], boards[board_of[index]], tick)
+        actions[0, index, 3] = bit != 0
 
 
 @kernel
@@ -86,18 +116,39 @@ def press_all(
         actions[0, index, 0], actions[0, index, 1] = left, right
 
 
+@inlined
+def is_button_up(world: WorldRecord, board: BoardRecord, colliders: Colliders, button: int) -> bool:
+    """Whether the first paddle of a button, LEFT or RIGHT, is commanded to be up."""
+    first = board.collider_first + Part.FIRST_PADDLE
+    for number in range(board.paddles):
+        if colliders[first + number].button == button:
+            return bool(world.paddle[number].angle_commanded == colliders[first + number].angle_up)
+    return False
+
+
+@kernel
+def struck_buttons(world: WorldRecord, board: BoardRecord, colliders: Colliders, ahead: float) -> int:
+    """The bits of the buttons with a paddle that the reflex player lifts; see `strikes`."""
+    bits, first = 0, board.collider_first + Part.FIRST_PADDLE
+    for number in range(board.paddles):
+        c = colliders[first + number]
+        if bits & c.button == 0 and strikes(world, board, c, ahead):
+            bits |= c.button
+    return bits
+
+
 @kernel
 def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: float) -> bool:
     """Whether the reflex player lifts this paddle: a ball will be just above its outer half.
 
     It predicts the ball `ahead` [s], without contacts.
     """
-    if c.kind != Kind.PADDLE:
+    if c.angle_up == c.angle_rest:  # the table has no such paddle
         return False
     sine, cosine = sine_cosine(c.angle_rest)
-    for slot in range(BALL_COUNT):
+    for slot in range(board.max_balls):
         ball = world.ball[slot]
-        if ball.id == 0:
+        if ball.id == 0 or ball.motion == Motion.CAPTURED or c.levels >> ball.level & 1 == 0:
             continue
         dx = ball.x + (ball.vx + 0.5 * ball.accel_x * ahead) * ahead - c.x
         dz = (ball.z + (ball.vz + 0.5 * ball.accel_z * ahead) * ahead - c.z) * c.side

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import SilverballError
-from silverball.physics.records import BoardRecord, Colliders, Part
-from silverball.players.features import ENCODED, MIRRORED, Rows, encode, raw_features
+from silverball.physics.records import LEFT, RIGHT, BoardRecord, Colliders, Part
+from silverball.players.features import ENCODED, MIRRORED, Rows, encode, first_paddles, raw_features
 from silverball.world import World, WorldBatch
 
 SCALE = 4096  # weights and values are rounded to multiples of 1/SCALE
@@ -145,15 +145,18 @@ class Trained:
         """The buttons (left, right) to hold in the world's next tick."""
         state, board, colliders = world.records
         if world.tick % ticks_per_decision(world.tick_rate) != 0:
-            return is_lifted(state, board, colliders, 0), is_lifted(state, board, colliders, 1)
+            return is_lifted(state, board, colliders, LEFT), is_lifted(state, board, colliders, RIGHT)
         bits = int(self._policy.actions(raw_features(np.array([state]), np.array([board]), colliders))[0])
         return bits & 1 != 0, bits & 2 != 0
 
 
-def is_lifted(state: Any, board: BoardRecord, colliders: Colliders, side: int) -> bool:
-    """Whether the paddle of a side, 0 left, 1 right, is commanded to be up."""
-    collider = colliders[board["collider_first"] + (Part.LEFT_PADDLE, Part.RIGHT_PADDLE)[side]]
-    commanded = state["paddle"][side]["angle_commanded"]
+def is_lifted(state: Any, board: BoardRecord, colliders: Colliders, button: int) -> bool:
+    """Whether the paddles of a button, LEFT or RIGHT, are commanded to be up."""
+    number = int(first_paddles(np.array([board]), colliders, button)[0])
+    if number < 0:
+        return False
+    collider = colliders[board["collider_first"] + Part.FIRST_PADDLE + number]
+    commanded = state["paddle"][number]["angle_commanded"]
     return bool(commanded == collider["angle_up"] != collider["angle_rest"])
 
 

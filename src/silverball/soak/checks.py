@@ -22,9 +22,12 @@ from silverball.physics.audit import (
     gap_to,
     is_out_of_reach,
 )
-from silverball.physics.kernel import as_int, kernel
+from silverball.physics.kernel import as_int, inlined, kernel
 from silverball.physics.records import (
-    BALL_COUNT,
+    JITTER,
+    LAUNCH,
+    MAX_BALLS,
+    MAX_PADDLES,
     BallRecord,
     BatchGeometry,
     BoardGeometry,
@@ -39,7 +42,7 @@ from silverball.physics.records import (
     Places,
     WorldRecord,
 )
-from silverball.physics.step import step_world
+from silverball.physics.step import button_bits, step_world
 from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action
 from silverball.soak.regions import (
     BLOCKED,
@@ -80,14 +83,6 @@ class PreviousBall(NamedTuple):
     z: float
 
 
-class StateBefore(NamedTuple):
-    """The balls and the paddles before a tick; angles of the left and right paddle [rad]."""
-
-    a: PreviousBall
-    b: PreviousBall
-    angles: tuple[float, float]
-
-
 STUCK_TRACKER = np.dtype(
     [
         ("id", "i8"),  # the ball's; 0: none
@@ -99,7 +94,10 @@ STUCK_TRACKER = np.dtype(
 
 WATCH = np.dtype(
     [
-        ("tracker", STUCK_TRACKER, (BALL_COUNT,)),
+        ("tracker", STUCK_TRACKER, (MAX_BALLS,)),
+        # The balls and the paddles before the tick: ids, centres [u], angles [rad].
+        ("id_before", "i8", (MAX_BALLS,)), ("x_before", "f8", (MAX_BALLS,)), ("z_before", "f8", (MAX_BALLS,)),
+        ("angle_before", "f8", (MAX_PADDLES,)),
         ("frames", "i8"),  # ticks watched
         ("deepest", "f8"),  # [u]
         ("found", "i8"),  # Found
@@ -109,6 +107,7 @@ WATCH = np.dtype(
     align=True,
 )  # fmt: skip
 WatchRecord: TypeAlias = Any  # a WATCH record
+EventRecord: TypeAlias = Any  # an EVENT record
 
 
 class ReferenceBoard(NamedTuple):
@@ -152,7 +151,7 @@ class Watches(NamedTuple):
 @kernel
 def register_new_balls(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Record where new balls start. On a checked board, that can only be the region of the gutter."""
-    for slot in range(BALL_COUNT):
+    for slot in range(truth.board.max_balls):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id != tracker.id:
             tracker.id, tracker.x, tracker.z = ball.id, ball.x, ball.z
@@ -173,7 +172,8 @@ def report(world: WorldRecord, watch: WatchRecord, found: int, slot: int, since:
 def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Check that every ball is at a possible place and not inside anything."""
     board, colliders, now = truth.board, truth.colliders, world.tick
-    for slot in range(BALL_COUNT):
+    has_checked_pairs = False
+    for slot in range(board.max_balls):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
@@ -187,21 +187,19 @@ def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) 
         depth = depth_in_borders(board, colliders, ball.x, ball.z)
         if is_narrow(label):
             depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
-        for side in range(2):
-            c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
-            inside = depth_in_paddle(c, world.paddle[side].angle, ball.x, ball.z, board.ball_radius)
+        for number in range(board.paddles):
+            c = colliders[board.collider_first + Part.FIRST_PADDLE + number]
+            inside = depth_in_paddle(c, world.paddle[number].angle, ball.x, ball.z, board.ball_radius)
             depth = max(depth, inside)
-        if slot == 0:
-            depth = max(depth, depth_in_other_ball(world, board.ball_radius))
+        if not has_checked_pairs:
+            has_checked_pairs, depth = True, max(depth, depth_in_other_ball(world, board.ball_radius))
         watch.deepest = max(watch.deepest, depth)
         if depth > DEPTH:
             report(world, watch, as_int(Found.PENETRATION), slot, now, depth)
 
 
 @kernel
-def check_contacts(
-    lane: Lane, truth: ReferenceBoard, watch: WatchRecord, before: StateBefore, tick: float
-) -> None:
+def check_contacts(lane: Lane, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Check that every ball touched the surface of the part that it met."""
     world, log = lane.world, lane.log
     if log.lost > 0:
@@ -213,16 +211,37 @@ def check_contacts(
         event = log.event[number]
         if event.kind not in (EventKind.HIT, EventKind.TOUCH):
             continue
-        c = truth.colliders[truth.board.collider_first + event.part]
-        side = 1 if event.part == Part.RIGHT_PADDLE else 0
-        angle = angle_after(c, before.angles[side], world.paddle[side].angle, event.offset)
-        gap = gap_to(c, event.part, angle, event.x, event.z) - truth.board.ball_radius
-        slot = 0 if event.ball == watch.tracker[0].id else 1
+        gap = gap_to_part(world, truth, watch, event) - truth.board.ball_radius
+        slot = slot_of(watch, event.ball)
         watch.deepest = max(watch.deepest, -gap)
         if -gap > DEPTH:
             report(world, watch, as_int(Found.PENETRATION), slot, world.tick - 1, -gap)
         elif gap > DEPTH:
             report(world, watch, as_int(Found.PHANTOM), slot, world.tick - 1, -gap)
+
+
+@kernel
+def gap_to_part(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord, event: EventRecord) -> float:
+    """The distance of the place of a contact from the nearest row of the part that was met [u]."""
+    board, gap = truth.board, np.inf
+    for row in range(board.collider_end - board.collider_first):
+        c = truth.colliders[board.collider_first + row]
+        if c.part != event.part:
+            continue
+        angle, paddle = 0.0, row - Part.FIRST_PADDLE
+        if 0 <= paddle < board.paddles:
+            angle = angle_after(c, watch.angle_before[paddle], world.paddle[paddle].angle, event.offset)
+        gap = min(gap, gap_to(c, row, angle, event.x, event.z))
+    return gap
+
+
+@kernel
+def slot_of(watch: WatchRecord, ball: int) -> int:
+    """The slot of the ball with this id before the tick."""
+    for slot in range(MAX_BALLS):
+        if watch.tracker[slot].id == ball:
+            return slot
+    return 0
 
 
 @kernel
@@ -253,33 +272,35 @@ def max_sagitta(board: BoardRecord, tick: float) -> float:
 
 @kernel
 def depth_along_path(
-    truth: ReferenceBoard, previous: PreviousBall, ball: BallRecord, before: Any, after: Any, tick: float
+    world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord, slot: int, tick: float
 ) -> float:
-    """How deep a ball was inside something on the straight path from `previous` to where it is now [u].
+    """How deep the ball in a slot was inside something on the straight path of its last tick [u].
 
-    Meanwhile the paddles turn from the angles `before` to `after` [rad].
+    Meanwhile the paddles have turned.
     """
-    board, colliders = truth.board, truth.colliders
-    radius, paddles = board.ball_radius, board.collider_first + Part.LEFT_PADDLE
-    dx, dz = ball.x - previous.x, ball.z - previous.z
+    board, colliders, ball = truth.board, truth.colliders, world.ball[slot]
+    radius, paddles = board.ball_radius, board.collider_first + Part.FIRST_PADDLE
+    start_x, start_z = watch.x_before[slot], watch.z_before[slot]
+    dx, dz = ball.x - start_x, ball.z - start_z
     path = hypot(dx, dz)
     swept, at_paddle = path, False
-    for side in range(2):
-        c = colliders[paddles + side]
+    for paddle in range(board.paddles):
+        c = colliders[paddles + paddle]
         if not is_out_of_reach(c, ball.x, ball.z, radius + path):
             at_paddle = True
-            swept = max(swept, path + abs(after[side] - before[side]) * hypot(ball.x - c.x, ball.z - c.z))
+            turned = abs(world.paddle[paddle].angle - watch.angle_before[paddle])
+            swept = max(swept, path + turned * hypot(ball.x - c.x, ball.z - c.z))
     count = int(swept / SAMPLE) + 1
     depth = 0.0
     for number in range(1, count):
         share = number / count
-        x, z = previous.x + share * dx, previous.z + share * dz
+        x, z = start_x + share * dx, start_z + share * dz
         if is_narrow(label_at(truth.header, truth.labels, x, z)):
             depth = max(depth, depth_in_stationary(board, colliders, x, z))
         if at_paddle:
-            for side in range(2):
-                c = colliders[paddles + side]
-                angle = angle_after(c, before[side], after[side], share * tick)
+            for paddle in range(board.paddles):
+                c = colliders[paddles + paddle]
+                angle = angle_after(c, watch.angle_before[paddle], world.paddle[paddle].angle, share * tick)
                 depth = max(depth, depth_in_paddle(c, angle, x, z, radius))
     return depth
 
@@ -297,37 +318,56 @@ def depth_of_meeting(
 
 
 @kernel
-def check_tunnelling(
-    lane: Lane, truth: ReferenceBoard, watch: WatchRecord, before: StateBefore, tick: float
-) -> None:
+def is_free(lane: Lane, watch: WatchRecord, slot: int) -> bool:
+    """Whether the ball in a slot was there before the tick and met nothing in it."""
+    ball = lane.world.ball[slot]
+    return bool(ball.id != 0 and ball.id == watch.id_before[slot] and is_untouched(lane.log, ball.id))
+
+
+@kernel
+def check_tunnelling(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick: float) -> None:
     """Check that no ball tunnelled: passed through anything without a contact.
 
     The path is checked as a straight line, so a depth up to its sagitta is allowed.
     """
-    world, log = lane.world, lane.log
-    a, b = world.ball[0], world.ball[1]
-    after = (world.paddle[0].angle, world.paddle[1].angle)
-    allowed = max_sagitta(truth.board, tick) + PASSAGE_DEPTH
-    free_a = a.id != 0 and a.id == before.a.id and is_untouched(log, a.id)
-    free_b = b.id != 0 and b.id == before.b.id and is_untouched(log, b.id)
-    if free_a:
-        depth = depth_along_path(truth, before.a, a, before.angles, after, tick)
+    world, board = lane.world, truth.board
+    allowed = max_sagitta(board, tick) + PASSAGE_DEPTH
+    for slot in range(board.max_balls):
+        if not is_free(lane, watch, slot):
+            continue
+        depth = depth_along_path(world, truth, watch, slot, tick)
         if depth > allowed:
-            report(world, watch, as_int(Found.PASSAGE), 0, world.tick - 1, depth)
-    if free_b:
-        depth = depth_along_path(truth, before.b, b, before.angles, after, tick)
-        if depth > allowed:
-            report(world, watch, as_int(Found.PASSAGE), 1, world.tick - 1, depth)
-    if free_a and free_b:
-        depth = depth_of_meeting(before.a, a, before.b, b, truth.board.ball_radius)
-        if depth > 2.0 * allowed:
-            report(world, watch, as_int(Found.PASSAGE), 0, world.tick - 1, depth)
+            report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
+        for other in range(slot + 1, board.max_balls):
+            if is_free(lane, watch, other):
+                depth = depth_of_meeting(
+                    previous_ball(watch, slot), world.ball[slot],
+                    previous_ball(watch, other), world.ball[other], board.ball_radius,
+                )  # fmt: skip
+                if depth > 2.0 * allowed:
+                    report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
+
+
+@inlined
+def previous_ball(watch: WatchRecord, slot: int) -> PreviousBall:
+    """The ball of a slot before the tick."""
+    return PreviousBall(watch.id_before[slot], watch.x_before[slot], watch.z_before[slot])
 
 
 @kernel
-def check_stuck(world: WorldRecord, watch: WatchRecord, tick: float) -> None:
+def remember_state(world: WorldRecord, board: BoardRecord, watch: WatchRecord) -> None:
+    """Record the balls and the paddles before a tick."""
+    for slot in range(board.max_balls):
+        ball = world.ball[slot]
+        watch.id_before[slot], watch.x_before[slot], watch.z_before[slot] = ball.id, ball.x, ball.z
+    for paddle in range(board.paddles):
+        watch.angle_before[paddle] = world.paddle[paddle].angle
+
+
+@kernel
+def check_stuck(world: WorldRecord, board: BoardRecord, watch: WatchRecord, tick: float) -> None:
     """Check that no ball stays in one place for too long without a jam."""
-    for slot in range(BALL_COUNT):
+    for slot in range(board.max_balls):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id == 0:
             continue
@@ -362,23 +402,19 @@ def watched_tick(
     world = lane.world
     apply_action(world, geometry.board, geometry.colliders, places, lane.log, action)
     register_new_balls(world, truth, watch)
-    a, b = world.ball[0], world.ball[1]
-    before = StateBefore(
-        PreviousBall(a.id, a.x, a.z),
-        PreviousBall(b.id, b.x, b.z),
-        (world.paddle[0].angle, world.paddle[1].angle),
-    )
-    left, right, shove = action.left != 0, action.right != 0, action.shove != 0
-    step_world(lane, geometry, left, right, shove, tick)
+    remember_state(world, truth.board, watch)
+    buttons = button_bits(action.left != 0, action.right != 0) | (JITTER if action.shove != 0 else 0)
+    buttons |= LAUNCH if action.launch != 0 else 0
+    step_world(lane, geometry, buttons, tick)
     watch.frames += 1
     if world.fault != Fault.NONE:
         report(world, watch, as_int(Found.FAULT), 0, world.tick, 0.0)
     check_places(world, truth, watch)
     if watch.found == Found.NOTHING:
-        check_contacts(lane, truth, watch, before, tick)
-        check_tunnelling(lane, truth, watch, before, tick)
+        check_contacts(lane, truth, watch)
+        check_tunnelling(lane, truth, watch, tick)
     if not truth.hostile and truth.board.gravity > 0.0:  # without gravity a ball may stay forever
-        check_stuck(world, watch, tick)
+        check_stuck(world, truth.board, watch, tick)
 
 
 @kernel

@@ -1,9 +1,9 @@
 """Random play for the soak: which buttons are held, and when balls are created, kicked and shoved.
 
-Two balls are kept on the board. Buttons are held for random times, sometimes for only a tick or two; balls
-are shoved; and in *wild* worlds a ball gets a random velocity about once a second. A *quiet* world presses
-nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball that lies somewhere forever is
-found.
+As many balls as the table allows are kept on the board. Buttons are held for random times, sometimes for only
+a tick or two; balls are shoved; and in *wild* worlds a ball gets a random velocity about once a second. A
+*quiet* world presses nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball that lies
+somewhere forever is found.
 
 Everything random is a function of the world's seed and a counter, so one world can be run again alone. What
 is done in a tick is an ACTION record, which can be written to a file and replayed without this module.
@@ -22,7 +22,7 @@ from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
-    BALL_COUNT,
+    MAX_BALLS,
     BoardRecord,
     Colliders,
     LogRecord,
@@ -30,6 +30,7 @@ from silverball.physics.records import (
     WorldRecord,
     records,
 )
+from silverball.players.simple import launch_bit
 
 SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's
 # All of the following are chosen.
@@ -43,10 +44,10 @@ RETRY = 0.25  # [s] between two attempts to create a ball: a crowded board may h
 
 ACTION = np.dtype(
     [
-        ("left", "i8"), ("right", "i8"), ("shove", "i8"),  # buttons, 0 or 1
+        ("left", "i8"), ("right", "i8"), ("shove", "i8"), ("launch", "i8"),  # buttons, 0 or 1
         ("create", "i8"),  # whether to create a ball
-        ("kick", "i8", (BALL_COUNT,)),  # whether the ball in the slot gets this velocity [u/s]
-        ("vx", "f8", (BALL_COUNT,)), ("vz", "f8", (BALL_COUNT,)),
+        ("kick", "i8", (MAX_BALLS,)),  # whether the ball in the slot gets this velocity [u/s]
+        ("vx", "f8", (MAX_BALLS,)), ("vz", "f8", (MAX_BALLS,)),
     ],
     align=True,
 )  # fmt: skip
@@ -56,7 +57,8 @@ DRIVER = np.dtype(
     [
         ("draws", "i8"),  # random numbers used
         # The first ticks at which these may change: the buttons (left, right), a shove, a kick, a creation.
-        ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (BALL_COUNT,)), ("create_at", "i8"),
+        ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (MAX_BALLS,)),
+        ("create_at", "i8"),
     ],
     align=True,
 )  # fmt: skip
@@ -103,6 +105,7 @@ def choose_action(
     """Choose the action of a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
+    action.launch = 1 if launch_bit(world, board, tick) != 0 else 0
     is_active = wild or now * tick % (QUIET + LIVELY) >= QUIET
     for side in range(2):
         if is_active and now >= driver.press_at[side]:
@@ -118,7 +121,7 @@ def choose_action(
     elif now >= driver.shove_at:
         action.shove = 1
         driver.shove_at = now + 1 + int(next_random(world, driver) * SHOVE_EVERY / tick)
-    for slot in range(BALL_COUNT):
+    for slot in range(board.max_balls):
         action.kick[slot] = 0
         if world.ball[slot].id == 0:
             continue
@@ -147,7 +150,7 @@ def apply_action(
 ) -> None:
     """Apply the part of an action that comes before the tick: new velocities and a new ball."""
     clear_log(log)
-    for slot in range(BALL_COUNT):
+    for slot in range(board.max_balls):
         if action.kick[slot] != 0 and world.ball[slot].id != 0:
             world.ball[slot].vx, world.ball[slot].vz = action.vx[slot], action.vz[slot]
     if action.create != 0:

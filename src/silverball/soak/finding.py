@@ -19,7 +19,7 @@ from pydantic.dataclasses import dataclass
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import BALL_COUNT, NOTHING, BoardGeometry, Lane, Motion
+from silverball.physics.records import MAX_BALLS, NOTHING, BoardGeometry, Lane, Motion
 from silverball.physics.validation import validate_world
 from silverball.soak.checks import Found, watched_tick
 from silverball.soak.driver import ActionRecord
@@ -34,16 +34,24 @@ LEAD_SECONDS = 1.0  # [s] from the saved state to the finding
 BUTTONS = ("left", "right", "shove", "create")
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
 DESCRIPTION = "a finding of a soak"
+LEAST_KICKS = 2  # velocities of an action, also where there are fewer balls
 MAX_KICK = 1e4  # [u/s] of a kick: far above every speed cap
 
 
 def _action(values: list[Any]) -> list[Any]:
     """An action as `_action_values` writes it, or a ValueError."""
-    buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
+    buttons, kicks = _buttons_and_kicks(values)
     are_valid = all(type(button) is int and button in (0, 1) for button in buttons)
-    if not are_valid or len(kicks) != BALL_COUNT or not all(kick is None or _is_kick(kick) for kick in kicks):
-        raise ValueError(f"must be four times 0 or 1 and {BALL_COUNT} velocities")
+    has_count = LEAST_KICKS <= len(kicks) <= MAX_BALLS
+    if not are_valid or not has_count or not all(kick is None or _is_kick(kick) for kick in kicks):
+        raise ValueError(f"must be four times 0 or 1 and {LEAST_KICKS} to {MAX_BALLS} velocities")
     return values
+
+
+def _buttons_and_kicks(values: list[Any]) -> tuple[list[Any], list[Any]]:
+    """The buttons of an action, with the launch button if it is held, and the velocities after them."""
+    count = len(BUTTONS) + (values[len(BUTTONS) : len(BUTTONS) + 1] == [1])
+    return values[:count], values[count:]
 
 
 def _is_kick(kick: Any) -> bool:
@@ -75,8 +83,9 @@ class Finding:
         hostile: Whether the table was not checked.
         tick_rate: Ticks per second.
         state: The saved world before the first action, in hexadecimal.
-        actions: Of each tick: left, right, shove, create (0 or 1), then the new velocity of each ball, [vx,
-            vz] [u/s], or null.
+        actions: Of each tick: left, right, shove, create (0 or 1), 1 if the launch button is held, then the
+            new velocity of each ball, [vx, vz] [u/s], or null; at least two, later ones only where there are
+            any.
     """
 
     kind: Annotated[str, Field(pattern=f"^({'|'.join(kind.name.lower() for kind in KINDS)})$")]
@@ -213,7 +222,7 @@ def _is_possible(soaked: SoakBatch) -> bool:
     numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
     return bool(
         not any(map(math.isnan, numbers))  # a time may be infinite, which means never
-        and ((balls["contact_part"] >= NOTHING) & (balls["contact_part"] < parts)).all()
+        and ((balls["contact_row"] >= NOTHING) & (balls["contact_row"] < parts)).all()
         and np.isin(balls["motion"], list(Motion)).all()
         and state["tick"] >= 0
         and validate_world(state, board)
@@ -226,14 +235,19 @@ def _action_values(action: ActionRecord) -> list[Any]:
         [float(vx), float(vz)] if kick else None
         for kick, vx, vz in zip(action["kick"], action["vx"], action["vz"], strict=True)
     ]
-    return [*(int(action[name]) for name in BUTTONS), *kicks]
+    while len(kicks) > LEAST_KICKS and kicks[-1] is None:
+        del kicks[-1]
+    launch = [1] if action["launch"] else []
+    return [*(int(action[name]) for name in BUTTONS), *launch, *kicks]
 
 
 def _fill_action(action: ActionRecord, values: list[Any]) -> None:
     """Write plain values into an ACTION record."""
-    *buttons, first, second = values
-    for name, value in zip(BUTTONS, buttons, strict=True):
+    buttons, kicks = _buttons_and_kicks(values)
+    for name, value in zip(BUTTONS, buttons, strict=False):
         action[name] = value
-    for slot, kick in enumerate((first, second)):
+    action["launch"] = len(buttons) > len(BUTTONS)
+    for slot in range(MAX_BALLS):
+        kick = kicks[slot] if slot < len(kicks) else None
         action["kick"][slot] = kick is not None
         action["vx"][slot], action["vz"][slot] = kick or (0.0, 0.0)

@@ -22,19 +22,32 @@ from silverball.physics.balls import (
     put_ball,
     separate_balls,
 )
-from silverball.physics.records import WORLD, Fault, Outcome, Part
+from silverball.physics.devices import set_switch
+from silverball.physics.records import (
+    JITTER,
+    LAUNCH,
+    LEFT,
+    RIGHT,
+    WORLD,
+    BoardGeometry,
+    Device,
+    Fault,
+    Motion,
+    Outcome,
+    Part,
+)
 from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
 from silverball.physics.validation import validate_world
-from silverball.table import Table
+from silverball.table import Table, expand
 from silverball.world import saved_world
 from silverball.world.arguments import checked_int
 from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
-from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
+from silverball.world.single_step import SingleStepper
 
 BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
-COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
+COUNTS = tuple(name for name in WORLD.names or () if WORLD[name].shape == ())
 
 
 class World:
@@ -72,6 +85,7 @@ class World:
         self._board = self._batch.boards.board[0]
         self._names = self._batch.boards.names[0]
         self._height = self.table.board.height
+        self._paddle_count = int(self._board["paddles"])
         batch = self._batch
         self._stepper = SingleStepper(
             batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
@@ -104,7 +118,14 @@ class World:
         world: World = rebuild(*arguments)
         return world
 
-    def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
+    def step(
+        self,
+        left: bool = False,
+        right: bool = False,
+        jitter: bool = False,
+        ticks: int = 1,
+        launch: bool = False,
+    ) -> None:
         """Advance the world by a number of ticks.
 
         Ctrl-C ends a long call within a fraction of a second; the world is then at the end of a tick, as
@@ -115,12 +136,15 @@ class World:
             right: Whether the right button is held, in all ticks.
             jitter: Whether to shove the balls once, at the start of the first tick.
             ticks: The number of ticks, 0 or more.
+            launch: Whether the launch button is held, in all ticks.
 
         Raises:
             FaultError: The state of the world has become impossible, and it has stopped.
             ValueError: The number of ticks is not an integer ≥ 0.
         """
         buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
+        if launch:
+            buttons += LAUNCH
         if ticks.__class__ is not int or not 0 <= ticks <= CHUNK_TICKS:
             ticks = checked_int("ticks", ticks, 0, 2**40)
             ticks = self._step_in_chunks(buttons, ticks)
@@ -170,13 +194,13 @@ class World:
 
     @property
     def balls(self) -> tuple[BallState, ...]:
-        """The balls on the board, at most two; see `BallState`."""
+        """The balls on the board, at most `max_balls`; see `BallState`."""
         return read_balls(self._record, self._height)
 
     @property
-    def paddles(self) -> tuple[PaddleState, PaddleState]:
-        """The left and the right paddle; see `PaddleState`."""
-        return read_paddles(self._record)
+    def paddles(self) -> tuple[PaddleState, ...]:
+        """The paddles in their order, the left and the right one first; see `PaddleState`."""
+        return read_paddles(self._record, self._paddle_count)
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -304,7 +328,7 @@ class World:
     def restore(self, state: bytes) -> None:
         """Restore a saved state, bit for bit.
 
-        The events are dropped. Two overlapping balls in an edited state are moved apart equally. If an error
+        The events are dropped. Overlapping balls in an edited state are moved apart equally. If an error
         is raised, nothing is changed.
 
         Raises:
@@ -334,6 +358,33 @@ class World:
         """The grid of the board, for kernels that simulate copies of the record."""
         return self._batch.boards.grid
 
+    def open_gate(self, name: str, is_open: bool = True) -> bool:
+        """Open or close a held gate, as rules do.
+
+        Args:
+            name: The name of the part: the one in the table, or the one in events, as "gate[0]".
+            is_open: Whether balls can pass.
+
+        Returns:
+            Whether the gate is as wanted now; it does not close on a ball that is in the way.
+
+        Raises:
+            ValueError: There is no held gate of this name.
+        """
+        expansion = expand(self.table)
+        number = expansion.named.get(name, expansion.numbers.get(name, -1))
+        rows = self._batch.boards.collider
+        switches = int(rows["switch"][(rows["part"] == number) & (rows["role"] == Device.GATE)].sum())
+        if switches == 0:
+            gates = {
+                part.name
+                for part in expansion.parts
+                if any(primitive.is_gate for primitive in part.primitives)
+            }
+            raise ValueError(f"name must be that of a held gate, {sorted(gates)}, got {name!r}")
+        geometry = BoardGeometry(*self._static, self._batch.boards.grid)
+        return bool(set_switch(self._record, geometry, switches, is_open))
+
     def _step_in_chunks(self, buttons: int, ticks: int) -> int:
         """Play all but the last chunk of a step; return the remaining ticks for `run_worlds`."""
         sign = 1
@@ -341,12 +392,12 @@ class World:
             ticks, sign = ticks - CHUNK_TICKS, -1
         return sign * ticks
 
-    def clearance(self, x: float, z: float) -> float:
-        """Return the smallest gap [u] between a ball centred at (x, z) and any part.
+    def clearance(self, x: float, z: float, level: int = 0) -> float:
+        """Return the smallest gap [u] between a ball centred at (x, z) on a level and any part on it.
 
         Paddles are taken at their present angles, other balls are ignored. Negative inside a part.
         """
-        return float(clearance(self._record, *self._static, x, z)[0])
+        return float(clearance(self._record, *self._static, x, z, level)[0])
 
     def _newest(self) -> BallState:
         return max(self.balls, key=lambda ball: ball.id)
@@ -381,13 +432,13 @@ class World:
         board = self.table.board
         if x <= board.gutter + board.ball_radius:
             raise NoRoom(f"a ball at x = {x:g} would be in the gutter (x = {board.gutter:g}); place it above")
-        gap, part = clearance(self._record, *self._static, x, z)
+        gap, part = clearance(self._record, *self._static, x, z, 0)
         if gap < FREE_GAP:
             raise NoRoom(
                 f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {max(-gap, 0.0):.3g} u; "
                 "place it elsewhere"
             )
-        if clearance_of_balls(self._record, self._board, x, z) < FREE_GAP:
+        if clearance_of_balls(self._record, self._board, x, z, 0) < FREE_GAP:
             raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap the other ball; place it elsewhere")
         put_ball(self._record, self._board, self._log, slot, x, z, vx, vz)
         return self._newest()
@@ -411,19 +462,21 @@ class World:
             raise StateError("the state holds a ball that is outside of the board, too fast, or not a number")
         if len(ids) > self.table.board.max_balls:
             raise StateError("the state holds more balls than the table allows")
-        paddles = self._batch.boards.collider[Part.LEFT_PADDLE : Part.RIGHT_PADDLE + 1]
+        paddles = self._batch.boards.collider[Part.FIRST_PADDLE : int(self._board["shape_first"])]
         low = np.minimum(paddles["angle_rest"], paddles["angle_up"])
         high = np.maximum(paddles["angle_rest"], paddles["angle_up"])
-        angles = record["paddle"]["angle"]
+        angles = record["paddle"]["angle"][: self._paddle_count]
         if not ((low <= angles) & (angles <= high)).all():
             raise StateError("the state holds a paddle beyond its stops")
         if not separate_balls(self._record, *self._static):
             raise StateError(
                 "the state holds two overlapping balls; moving them apart would press one into a part"
             )
-        for x, z, id_ in balls[["x", "z", "id"]].tolist():
-            gap, part = clearance(self._record, *self._static, x, z)
-            if id_ and gap < -MIN_ADVANCE_GAP:
+        for x, z, id_, level, motion in balls[["x", "z", "id", "level", "motion"]].tolist():
+            if not id_ or motion == Motion.CAPTURED:
+                continue
+            gap, part = clearance(self._record, *self._static, x, z, level)
+            if gap < -MIN_ADVANCE_GAP:
                 raise StateError(f"the state holds a ball {-gap:.3g} u deep inside {self._names[part]}")
 
 

@@ -63,8 +63,8 @@ def test_a_board_that_was_seen_before_is_shown_from_the_store_at_once(tmp_path):
 
 def test_paddles_turn_while_their_pictures_are_still_baked(tmp_path, monkeypatch):
     gate = threading.Event()
-    bake = provider_class().bake_paddles
-    monkeypatch.setattr(provider_class(), "bake_paddles", lambda self: (gate.wait(), bake(self)))
+    bake = provider_class().bake_sprites
+    monkeypatch.setattr(provider_class(), "bake_sprites", lambda self: (gate.wait(), bake(self)))
     renderer = Renderer(TABLE, SIZE, background=True, cache=PictureCache(tmp_path))
     assert made_sharp(renderer)
     down, up = (renderer.array(START._replace(angles=(angle, angle))) for angle in (-10.0, 45.0))

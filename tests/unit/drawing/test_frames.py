@@ -128,7 +128,7 @@ def test_the_shadow_of_a_ball_falls_onto_the_top_of_an_obstacle(picture_cache):
     dimensions = renderer.camera.dimensions
     place = (-0.07, 0.0, dimensions.prism_height)
     across, down = renderer.camera.to_pixel(*place)
-    assert renderer._painter._height[int(down), int(across)] == pytest.approx(
+    assert renderer._painter._layers[0].height[int(down), int(across)] == pytest.approx(
         dimensions.prism_height, abs=0.06
     )
     bare = renderer.array(START).astype(int)

@@ -7,15 +7,17 @@ import math
 import numpy as np
 import pytest
 
+from boards import FIRST_SHAPE
 from silverball.drawing import THEMES, Camera, best_size
-from silverball.drawing.bake_table import bake_table, without_obstacles
+from silverball.drawing.bake_table import bake_table
 from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.kernels.bake import new_canvas
 from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL
-from silverball.drawing.scene import make_scene
+from silverball.drawing.layout import Layout
+from silverball.drawing.scene import TableScene
 from silverball.physics import shapes
-from silverball.physics.records import Part
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table, load_table
+from silverball.world.compile import compile_parts
 
 TABLE = load_table("classic")
 CAMERA = Camera(TABLE.board, best_size(TABLE.board, 420))
@@ -24,7 +26,7 @@ CLEAR = THEMES["clear"]
 
 @pytest.fixture(scope="module")
 def scene():
-    return make_scene(TABLE, CAMERA, CLEAR)
+    return TableScene(Layout.of(TABLE), CAMERA, CLEAR).scene
 
 
 @pytest.fixture(scope="module")
@@ -39,20 +41,21 @@ def part_at(canvas, x, z, y=0.0):
     return canvas.part[int(down), int(across)]
 
 
-def test_the_playfield_is_seen_exactly_where_no_part_stands(canvas, scene):
+def test_the_playfield_is_seen_exactly_where_no_part_stands(canvas):
     """No pixel of floor lies inside a footprint of the physics, but for half a pixel."""
     half = 0.75 / CAMERA.scale
+    colliders = compile_parts(TABLE)[FIRST_SHAPE:]
     rows, columns = np.nonzero(canvas.part == FLOOR)
     assert len(rows) > 0.4 * canvas.part.size
     for row, column in zip(rows[::7], columns[::7], strict=True):
         x, z = CAMERA.to_board(column + 0.5, row + 0.5)
-        for shape in scene.shapes[Part.FIRST_SHAPE :]:
+        for shape in colliders:
             assert shapes.distance(shape, x, z)[0] > -half
 
 
 def near_edges(table):
     """Points of outlines with outward normals towards the player: there a face rises from the floor."""
-    number = Part.FIRST_SHAPE + len(table.slant_wall)
+    number = len(table.slant_wall)
     for prism in table.triangular_prism:
         corners = prism.corners()
         for (x0, z0), (x1, z1) in zip(corners, (*corners[1:], corners[0]), strict=True):
@@ -92,7 +95,7 @@ def test_a_slant_wall_is_as_thick_as_in_the_physics(canvas):
     near = wall.thickness + pixel
     assert part_at(canvas, middle_x + near * nx, middle_z + near * nz) == FLOOR
     near = wall.thickness - pixel
-    assert part_at(canvas, middle_x + near * nx, middle_z + near * nz) == Part.FIRST_SHAPE
+    assert part_at(canvas, middle_x + near * nx, middle_z + near * nz) == 0
 
 
 def test_rails_begin_where_balls_meet_them_and_the_apron_hides_the_gutter(canvas):
@@ -131,18 +134,23 @@ def test_edges_are_smooth(canvas):
 def test_a_board_baked_around_its_obstacles_is_the_board_baked_in_full():
     table = generate_table(5)
     camera = Camera(table.board, best_size(table.board, 260))
-    empty = bake_table(without_obstacles(table), camera, CLEAR, BakeThreads())
-    patched = bake_table(table, camera, CLEAR, BakeThreads(), empty)
-    full = bake_table(table, camera, CLEAR, BakeThreads())
+    layout = Layout.of(table)
+    empty = bake_table(layout.without_obstacles(), camera, CLEAR, BakeThreads())
+    patched = bake_table(layout, camera, CLEAR, BakeThreads(), empty)
+    full = bake_table(layout, camera, CLEAR, BakeThreads())
     assert (patched.pixels == full.pixels).all()
     assert (patched.height == full.height).all()
     assert patched.flashes.keys() == full.flashes.keys()
-    assert all((patched.flashes[name].pixels == full.flashes[name].pixels).all() for name in full.flashes)
+    for name, flashes in full.flashes.items():
+        assert len(flashes) == 1
+        assert (patched.flashes[name][0].pixels == flashes[0].pixels).all()
 
 
 def test_any_number_of_threads_bakes_the_same():
     camera = Camera(TABLE.board, best_size(TABLE.board, 150))
-    one, three = (bake_table(TABLE, camera, THEMES["neon"], BakeThreads(threads)) for threads in (1, 3))
+    one, three = (
+        bake_table(Layout.of(TABLE), camera, THEMES["neon"], BakeThreads(threads)) for threads in (1, 3)
+    )
     assert (one.pixels == three.pixels).all()
 
 
@@ -160,7 +168,7 @@ def test_a_mirrored_table_has_a_mirrored_picture():
     }
     camera = Camera(TABLE.board, best_size(TABLE.board, 240))
     one, other = (
-        bake_table(Table(name="", **kinds), camera, CLEAR, BakeThreads()).pixels.astype(int)
+        bake_table(Layout.of(Table(name="", **kinds)), camera, CLEAR, BakeThreads()).pixels.astype(int)
         for kinds in (parts, mirrored)
     )
     difference = np.abs(one - other[:, ::-1]).max(axis=2)
@@ -174,7 +182,7 @@ def test_a_table_of_any_name_can_be_baked_and_its_name_is_read_on_the_apron(name
     table = Table(name=name)
     camera = Camera(table.board, (150, 240))
     named, bare = (
-        bake_table(table.model_copy(update={"name": words}), camera, CLEAR, BakeThreads()).pixels.astype(int)
+        bake_table(Layout.of(table)._replace(name=words), camera, CLEAR, BakeThreads()).pixels.astype(int)
         for words in (name, "")
     )
     rows = np.flatnonzero(np.abs(named - bare).max(axis=(1, 2)) > 30)
@@ -187,7 +195,7 @@ def test_a_table_of_any_name_can_be_baked_and_its_name_is_read_on_the_apron(name
 def test_every_generated_board_and_one_full_of_parts_can_be_baked():
     parts = tuple(Cylinder(center=(x, z), radius=1.0) for x in (-10.0, 10.0) for z in (-5.0, 5.0))
     for table in (generate_table(1), Table(cylinder=parts), Table()):
-        still = bake_table(table, Camera(table.board, (75, 120)), THEMES["parlour"], BakeThreads())
+        still = bake_table(Layout.of(table), Camera(table.board, (75, 120)), THEMES["parlour"], BakeThreads())
         assert still.pixels.shape == (120, 75, 3)
         assert still.pixels.std() > 10
         assert np.isfinite(still.height).all()

@@ -9,8 +9,10 @@ import pytest
 
 from boards import CLASSIC
 from silverball.drawing import THEMES, Moment, Renderer, Theme
-from silverball.drawing.kernels.stage import FLOOR, Form
+from silverball.drawing.kernels.stage import FLOOR, Material
+from silverball.drawing.layout import Layout
 from silverball.drawing.moment import BallAt
+from silverball.drawing.moving import moving_parts
 from silverball.drawing.scene import make_scene
 
 # How linear light is seen by eyes that lack a kind of cone.
@@ -56,13 +58,15 @@ def seen(picture_cache):
     from silverball.drawing.bake_threads import BakeThreads
     from silverball.drawing.kernels.bake import new_canvas
 
-    scene = make_scene(TABLE, renderer.camera, renderer.theme, (-10.0, -10.0))
+    layout = Layout.of(TABLE)
+    poses = [(part, 0) for part in moving_parts(layout)]
+    scene = make_scene(layout, renderer.camera, renderer.theme, poses)
     canvas = new_canvas(SIZE)
     BakeThreads().bake(scene, canvas)
-    forms = {Form.CYLINDER: "cylinder", Form.PRISM: "prism", Form.PADDLE: "paddle"}
+    materials = {Material.BUMPER: "cylinder", Material.ACRYLIC: "prism", Material.PADDLE: "paddle"}
     colors = {
-        name: picture[np.isin(canvas.part, np.flatnonzero(scene.solids["form"] == form))].mean(axis=0)
-        for form, name in forms.items()
+        name: picture[np.isin(canvas.part, np.flatnonzero(scene.solids["material"] == material))].mean(axis=0)
+        for material, name in materials.items()
     }
     colors["floor"] = picture[canvas.part == FLOOR].mean(axis=0)
     across, down = renderer.camera.to_pixel(BALL.x, BALL.z, TABLE.board.ball_radius)

@@ -8,8 +8,8 @@ from games import IN_POCKET, POCKET, bare, bumper, hit_bumper, kinds, lose, put,
 
 from boards import PADDLES
 from silverball.errors import BoardFull, SilverballError
-from silverball.game import rules
 from silverball.game.game import Game
+from silverball.game.mechanisms import points_by_part
 from silverball.game.stuck import CHECK_RATE
 from silverball.game.view import GameEventKind, Mode, Phase
 from silverball.table import SlantWall, generate_table, load_table
@@ -35,7 +35,7 @@ def test_a_hit_scores_the_points_of_the_part():
 def test_every_part_that_the_world_counts_points_for_has_a_path(table):
     game = Game(table)
     board, colliders = game.world.records[1:]
-    points = rules.points_by_part(table)
+    points = points_by_part(table)
     names = game.world.hits
     by_number = colliders["points"][board["collider_first"] : board["collider_end"]].tolist()
     assert [points.get(name, 0) for name in names] == by_number

@@ -15,10 +15,10 @@ from boards import CLASSIC, PADDLES
 from silverball.errors import StateError
 from silverball.game.game import Game
 from silverball.game.replay import recording
-from silverball.game.replay.digest import GROUPS
+from silverball.game.replay.digest import GROUPS, OLDEST_PHYSICS
 from silverball.game.replay.format import Replay
 from silverball.game.replay.player import InputRefusedError, ReplayPlayer
-from silverball.game.replay.reader import checksum
+from silverball.game.replay.reader import TEXT_LIMIT, checksum
 from silverball.game.replay.verify import Verdict, compare, verify
 from silverball.game.rules import RULES_VERSION
 from silverball.game.view import GameEventKind, Mode
@@ -330,7 +330,10 @@ REFUSED = {
     "newer physics": (changed(2, "physics = 999"), "line 3: .*physics 999.*newer Silverball"),
     "older physics": (changed(2, "physics = 0"), r"line 3: .*physics 0.*play it with Silverball \d"),
     "newer rules": (changed(3, "rules = 99"), "line 4: .*rules 99.*newer Silverball"),
-    "physics no number": (changed(2, "physics = nan"), f"line 3: expected {PHYSICS_VERSION}, got 'nan'"),
+    "physics no number": (
+        changed(2, "physics = nan"),
+        f"line 3: expected an integer from {OLDEST_PHYSICS} to {PHYSICS_VERSION}, got 'nan'",
+    ),
     "rules no number": (changed(3, f"rules = {'9' * 400}"), f"line 4: expected {RULES_VERSION}, got '9999"),
     "leading zero": (changed(5, "seed = 02"), "line 6: expected an integer from 0 to 92.*got '02'"),
     "unknown mode": (changed(4, "mode = chess"), "line 5: expected one of free, arcade, got 'chess'"),
@@ -356,8 +359,8 @@ REFUSED = {
     "table deep": (changed(9, "x = " + "[" * 5000), "nested too deeply|not valid TOML"),
     "table mesh": (changed(9, "[[cylinder]]\nmesh = '/etc/passwd'"), "names a mesh"),
     "table parts": (
-        changed(9, "[[slant_wall]]\nstart=[0,0]\nend=[1,1]\n" * 300),
-        "at most 256 parts, got 304",
+        changed(9, "[[slant_wall]]\nstart=[0,0]\nend=[1,1]\n" * 5000),
+        "at most 4,096|at most 4096",
     ),
     "billion ticks": (changed(END + 1, "ticks = 1000000000"), "expected an integer from 0 to 20736240"),
     "other ticks": (changed(END + 1, "ticks = 240"), rf"line {PLAY + 2}: 240 ticks need 1 lines, .* got"),
@@ -402,7 +405,7 @@ def test_a_file_that_is_cut_off_anywhere_is_refused(start: int):
 
 
 def test_an_endless_text_is_refused_without_reading_it():
-    with pytest.raises(StateError, match="at most 5,058,576 characters, this has 100,000,000"):
+    with pytest.raises(StateError, match=f"at most {TEXT_LIMIT:,} characters, this has 100,000,000"):
         Replay.from_text("x" * 10**8)
 
 

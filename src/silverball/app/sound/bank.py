@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.app.sound import hits, tunes
+from silverball.app.sound import hits, mechanics, tunes
 from silverball.app.sound.levels import loudness
 from silverball.app.sound.rolling import (
     ROLL_LEVEL,
@@ -67,8 +67,24 @@ RECIPES: dict[str, Recipe] = {
     "menu_back": Recipe(tunes.menu_back, -23.0),
     "menu_refuse": Recipe(tunes.menu_refuse, -22.0),
     "attract": Recipe(tunes.attract, -22.0),
+    "metal": Recipe(mechanics.metal, -21.0, 2, 3),
+    "plastic": Recipe(mechanics.plastic, -21.0, 2, 3),
+    "rubber": Recipe(mechanics.rubber, -21.0, 2, 3),
+    "kick": Recipe(mechanics.kick, -18.0, 1, 3),
+    "target": Recipe(mechanics.target, -18.0, 2, 2),
+    "drop": Recipe(mechanics.drop, -18.0, 2, 2),
+    "bank_reset": Recipe(mechanics.bank_reset, -19.0, 1, 2),
+    "rollover": Recipe(mechanics.rollover, -21.0, 1, 2),
+    "spinner": Recipe(mechanics.spinner, -23.0, 1, 4),
+    "gate": Recipe(mechanics.gate, -24.0, 1, 2),
+    "capture": Recipe(mechanics.capture, -19.0, 1, 2),
+    "release": Recipe(mechanics.release, -19.0, 1, 2),
+    "plunger_pull": Recipe(mechanics.plunger_pull, -25.0, 1, 2),
+    "launch": Recipe(mechanics.launch, -19.0, 1, 2),
+    "ramp": Recipe(mechanics.ramp, -23.0, 1, 2),
 }
-"""All sounds except the rolling of a ball, which is in `rolling.py`."""
+"""All sounds except the rolling of a ball, which is in `rolling.py`. The place of a recipe seeds its random
+generator: new ones belong at the end."""
 
 
 Samples: TypeAlias = NDArray[np.int16]

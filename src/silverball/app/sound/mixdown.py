@@ -51,7 +51,7 @@ class Frame(NamedTuple):
         world_time: Time of the world at that moment [s]; the film may be slower, or begin later.
         events: Events of the world since the previous frame.
         balls: All balls on the board.
-        buttons: Whether the left and the right paddle button are down.
+        buttons: Whether the left and the right paddle button are down, and the launch button.
         game_events: Game events since the previous frame.
         menu: A menu sound, see `Sounds.play_menu`.
     """
@@ -60,7 +60,7 @@ class Frame(NamedTuple):
     world_time: float
     events: tuple[Event, ...] = ()
     balls: tuple[RollingBall, ...] = ()
-    buttons: tuple[bool, bool] = (False, False)
+    buttons: tuple[bool, ...] = (False, False)
     game_events: tuple[GameEvent, ...] = ()
     menu: str = ""
 
@@ -70,7 +70,7 @@ class Frame(NamedTuple):
         world: World,
         time: float,
         events: Iterable[Event],
-        buttons: tuple[bool, bool] = (False, False),
+        buttons: tuple[bool, ...] = (False, False),
         game_events: Iterable[GameEvent] = (),
     ) -> Self:
         """Return the frame that ends with the current state of a world, at a time in the film [s]."""
@@ -94,7 +94,7 @@ class FilmSound:
         self,
         world: World,
         events: Iterable[Event],
-        buttons: tuple[bool, bool] = (False, False),
+        buttons: tuple[bool, ...] = (False, False),
         game_events: Iterable[GameEvent] = (),
     ) -> None:
         """Add a frame: the current state of a world, the events since the last frame, and the buttons."""

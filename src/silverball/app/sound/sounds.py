@@ -108,9 +108,9 @@ class Sounds:
         if events:
             self._play(self._voices.world_events(events, tick_rate, width))
 
-    def set_buttons(self, left: bool, right: bool) -> None:
-        """Set which paddle buttons are down; call it in every frame, or on changes."""
-        self._play(self._voices.buttons(left, right))
+    def set_buttons(self, left: bool, right: bool, launch: bool = False) -> None:
+        """Set which buttons are down; call it in every frame, or on changes."""
+        self._play(self._voices.buttons(left, right, launch))
 
     def set_rolling(self, balls: Iterable[tuple[int, float, float, float]], dt: float, width: float) -> None:
         """Set the balls as `RollingBall`, `dt` [s] after the last call."""

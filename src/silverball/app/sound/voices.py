@@ -11,10 +11,13 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from silverball.app.sound import part_sounds
 from silverball.app.sound.bank import RECIPES, Key
 from silverball.app.sound.levels import pan, strength_of
 from silverball.app.sound.synth import BELL_STEPS, SCALE
+from silverball.game.mechanisms import primitives_by_part
 from silverball.game.view import GameEvent, GameEventKind
+from silverball.table.primitive import Finish
 
 if TYPE_CHECKING:  # the window opens before the physics is loaded
     from silverball.table import Table
@@ -37,18 +40,13 @@ REPEAT_SECONDS = 0.04
 
 SOFTEST = 0.02  # strength below which nothing is played
 PADDLE_PLACE = 0.25  # of the width, left and right of the middle
+PLUNGER_PLACE = 0.45  # of the width, to the right of the middle
+SIDES = {"left": -1.0, "right": 1.0}
+"""The side on which the paddles of a button are heard."""
 
 _RATTLE_DECAY = 0.25  # [s] time constant of a ball's hit count
 _RATTLE_LIMIT = 3.0  # decayed hit count above which a ball gets softer
 
-_HITS = {  # kind of part → sound, minimum strength (a cylinder kicks even on a soft touch)
-    "board": ("wall", 0.0),
-    "slant_wall": ("slant_wall", 0.0),
-    "triangular_prism": ("prism", 0.15),
-    "cylinder": ("cylinder", 0.35),
-    "paddle": ("paddle_hit", 0.0),
-    "ball": ("balls", 0.0),
-}
 _GAME_SOUNDS = {
     GameEventKind.BALL_SAVED: "ball_saved",
     GameEventKind.WARNING: "warning",
@@ -93,14 +91,10 @@ class Voices:
 
     def begin_game(self, table: Table | None) -> None:
         """Begin another game on a table; None: one with two default paddles and nothing else."""
-        self._kinds = part_kinds(table)
-        self._paddles = (_Paddle(), _Paddle())
-        if table is not None:
-            for paddle, side in zip(self._paddles, ("left", "right"), strict=True):
-                found = [one for one in table.paddle if one.side == side]
-                paddle.exists = bool(found)
-                if found:
-                    paddle.strokes = (found[0].stroke, found[0].return_stroke)
+        self._parts = {} if table is None else part_sounds.sounds_of_parts(table)
+        self._paddles = default_paddles() if table is None else paddles_of(table)
+        self._down: set[str] = set()  # the buttons that are down and do something
+        self._has_plunger = any(part.finish is Finish.PLUNGER for part in self._parts.values())
         self._last: dict[tuple[int, str], tuple[float, float]] = {}  # ball, part → time [s], strength
         self._rattle: dict[int, tuple[float, float]] = {}  # ball → time [s], decayed hit count
         self._run, self._run_time = 0, -math.inf
@@ -142,28 +136,35 @@ class Voices:
 
     def _sound_of(self, event: Event, time: float) -> tuple[str, int, float] | None:
         """Return name, layer and strength of an event's sound; None if it has none."""
-        if event.kind == "created":
-            return "created", 0, 0.8
-        if event.kind == "jitter":
-            # There is an event per ball, but only one sound.
-            return None if self._is_repeat(0, "jitter", time, 0.8) else ("shove", 0, 0.8)
-        if event.kind == "gutter":
-            return "drain", 0, 0.9
-        name, min_strength = _HITS.get(self._kinds.get(event.part, ""), ("", 0.0))
-        if not name or event.kind == "jam":
+        if event.kind in part_sounds.BLOWS:
+            return self._blow(event, time)
+        part = self._parts.get(event.part)
+        sound = part_sounds.event_sound(event.kind, None if part is None else part.finish)
+        is_once = event.kind in part_sounds.ONCE
+        if sound is None or (is_once and self._is_repeat(0, event.kind, time, sound.strength)):
             return None
+        return sound.name, 0, sound.strength
+
+    def _blow(self, event: Event, time: float) -> tuple[str, int, float] | None:
+        """Return name, layer and strength of the sound of a hit or touch; None if it is not heard."""
+        part = self._parts.get(event.part)
+        if event.part == "ball":
+            sound = part_sounds.BALL
+        elif part is not None:
+            sound = part.blow
+        else:
+            return None  # the sounds are those of another table
         is_hit = event.kind in ("hit", "ball_hit")
-        strength = max(strength_of(event.speed), min_strength if is_hit else 0.0) * self._rattle_factor(
-            event.ball, time
-        )
+        strength = max(strength_of(event.speed), sound.least if is_hit else 0.0)
+        strength *= self._rattle_factor(event.ball, time)
         if strength < SOFTEST or self._is_repeat(event.ball, event.part, time, strength):
             return None
         layer = 1 if event.speed >= HARD else 0
-        if is_hit and name in ("cylinder", "prism"):
+        if is_hit and sound.climbs:
             self._climb(event.tick, time)
-            if name == "cylinder":
-                layer = step_of(self._run)
-        return name, layer, strength
+        if RECIPES[sound.name].layers == BELL_STEPS:
+            layer = step_of(self._run) if is_hit else 0
+        return sound.name, min(layer, RECIPES[sound.name].layers - 1), strength
 
     def _is_repeat(self, ball: int, part: str, time: float, strength: float) -> bool:
         before, as_strong = self._last.get((ball, part), (-math.inf, 0.0))
@@ -206,24 +207,34 @@ class Voices:
 
     # --- the paddles --------------------------------------------------------------------------------
 
-    def buttons(self, left: bool, right: bool) -> list[Note]:
-        """Return the notes of the buttons: the coils; after a tilt they are silent."""
+    def buttons(self, left: bool, right: bool, launch: bool = False) -> list[Note]:
+        """Return the notes of the buttons: coils, which are silent after a tilt, and the plunger."""
         notes = []
-        for paddle, is_down, side in zip(self._paddles, (left, right), (-1.0, 1.0), strict=True):
-            is_down = is_down and paddle.exists and not self._is_tilted  # noqa: PLW2901
-            if is_down and not paddle.is_down:
-                notes.append(self._note("coil", 0, 0.8, pan(side * PADDLE_PLACE, 1.0)))
-            paddle.is_down = is_down
+        down = set()
+        for button, is_down in (("left", left), ("right", right)):
+            paddles = [paddle for paddle in self._paddles if paddle.button == button]
+            if is_down and paddles and not self._is_tilted:
+                down.add(button)
+                if button not in self._down:
+                    notes.append(self._note("coil", 0, 0.8, pan(SIDES[button] * PADDLE_PLACE, 1.0)))
+            for paddle in paddles:
+                paddle.is_down = button in down
+        if launch and self._has_plunger:
+            down.add("launch")
+            if "launch" not in self._down:
+                notes.append(self._note("plunger_pull", 0, 0.7, pan(PLUNGER_PLACE, 1.0)))
+        self._down = down
         return notes
 
     def advance(self, seconds: float) -> list[Note]:
         """Return the notes of some seconds: paddles that reach their stops, more softly on their return."""
         notes = []
-        for paddle, side in zip(self._paddles, (-1.0, 1.0), strict=True):
+        for paddle in self._paddles:
             ago = paddle.move(seconds)
             if ago is not None:
                 layer, strength = (1, 0.75) if paddle.is_down else (0, 0.45)
-                notes.append(self._note("stop", layer, strength, pan(side * PADDLE_PLACE, 1.0), ago))
+                ears = pan(SIDES[paddle.button] * PADDLE_PLACE, 1.0)
+                notes.append(self._note("stop", layer, strength, ears, ago))
         return notes
 
     def _note(
@@ -238,10 +249,10 @@ class Voices:
 class _Paddle:
     """The position of a paddle between its stops, 0 to 1, accurate enough for sounds."""
 
-    def __init__(self) -> None:
-        self.exists = True
+    def __init__(self, button: str, stroke: float, return_stroke: float) -> None:
+        self.button = button
+        self.strokes = (stroke, return_stroke)  # up and back [s]
         self.is_down = False
-        self.strokes = (0.1, 0.1)  # up and back [s]
         self._position = 0.0
 
     def move(self, seconds: float) -> float | None:
@@ -258,14 +269,19 @@ class _Paddle:
         return seconds - left
 
 
-def part_kinds(table: Table | None) -> dict[str, str]:
-    """Return the kind of everything that a ball can hit, by its name in events; None: an empty table."""
-    kinds = {"ball": "ball", "board.left": "board", "board.right": "board", "board.top": "board"}
-    kinds |= {"paddle.left": "paddle", "paddle.right": "paddle"}
-    if table is not None:
-        for kind in ("slant_wall", "triangular_prism", "cylinder"):
-            kinds |= {f"{kind}[{number}]": kind for number in range(len(getattr(table, kind)))}
-    return kinds
+def default_paddles() -> list[_Paddle]:
+    """Return the paddles of a table that is not known yet."""
+    return [_Paddle(button, 0.1, 0.1) for button in SIDES]
+
+
+def paddles_of(table: Table) -> list[_Paddle]:
+    """Return the paddles of a table at rest."""
+    return [
+        _Paddle(mover.button, mover.stroke, mover.return_stroke)
+        for primitives in primitives_by_part(table).values()
+        for primitive in primitives
+        if (mover := primitive.mover) is not None
+    ]
 
 
 def step_of(run: int) -> int:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from silverball.drawing.kernels.march import trace
 from silverball.drawing.kernels.shade import part_glow, radiance
 from silverball.drawing.kernels.solids import cell_at
-from silverball.drawing.kernels.stage import ROOM, Form, Pixels, Scene, StageRecord
+from silverball.drawing.kernels.stage import ROOM, Material, Pixels, Scene, StageRecord
 from silverball.drawing.kernels.surfaces import surface_of
 from silverball.drawing.kernels.tones import RGB, add_scaled, scale, tone_map
 from silverball.physics.kernel import inlined, internal, kernel
@@ -32,7 +32,7 @@ class Canvas(NamedTuple):
         shown: Colours of the screen, 0 to 1, float32 [row, column, 3].
         light: Linear light at the centre of each pixel, float32 [row, column, 3].
         height: Of the surface above the playfield [u], float32 [row, column].
-        part: The number of the visible part, or FLOOR, RAIL, APRON or ROOM, int16 [row, column].
+        part: The number of the visible solid, or FLOOR, RAIL, APRON or ROOM, int16 [row, column].
         mask: The pixels to bake, bool [row, column].
     """
 
@@ -66,7 +66,7 @@ def _ray_direction(s: StageRecord, across: float, down: float) -> tuple[float, f
 
 @internal
 def _trace_pixel(scene: Scene, across: float, down: float) -> tuple[RGB, float, int]:
-    """Trace the ray through a point of the picture: the light, the height, the number of the part."""
+    """Trace the ray through a point of the picture: the light, the height, the number of the solid."""
     s = scene.stage[0]
     dx, dy, dz = _ray_direction(s, across, down)
     t, part = trace(scene, s.eye_x, s.eye_y, 0.0, dx, dy, dz, 1e9)
@@ -144,7 +144,7 @@ def _place_in_pixel(ray: int, rays: int) -> tuple[float, float]:
 def bake_flash(
     scene: Scene, canvas: Canvas, index: int, left: int, top: int, patch: Pixels, first: int, end: int
 ) -> None:
-    """Compute the light that a hit of one part adds: uint8 [row, column, 3], from (left, top) on."""
+    """Compute the light that a hit of one solid adds: uint8 [row, column, 3], from (left, top) on."""
     s = scene.stage[0]
     for i in range(first, end):
         for j in range(patch.shape[1]):
@@ -164,7 +164,7 @@ def bake_flash(
             f = surface_of(scene, part, x, y, z, t / s.focal)
             if part == index:
                 glow = f.light
-                if scene.solids[index].form == Form.CYLINDER:
+                if scene.solids[index].material == Material.BUMPER:
                     glow = add_scaled(glow, f.paint, 0.25)
             else:
                 glow = part_glow(scene, index, part, f, x, y, z)

@@ -11,11 +11,15 @@ ball; one that goes up meets a bright room.
 from __future__ import annotations
 
 from math import sqrt
+from typing import TypeAlias
 
 from silverball.drawing.kernels.patches import pixel_ray
 from silverball.drawing.kernels.stage import Box, Heights, Ink, Inks, Pixels, Records, StageRecord, Vector
 from silverball.drawing.kernels.tones import RGB, add_scaled, clamp01, ink, mix, multiply, scale, smoothstep
 from silverball.physics.kernel import inlined, internal, kernel
+
+Sphere: TypeAlias = tuple[float, float, float, float]
+"""A ball: its centre x, y, z and its radius [u]."""
 
 SHADOW = 0.72  # share of the light that a ball blocks at most
 CONTACT = 0.85  # the same where it lies on the playfield
@@ -23,10 +27,8 @@ CONTACT_REACH = 2.2  # how far that is visible, in radii of the ball
 
 
 @kernel
-def cast_shadow(
-    frame: Pixels, height: Heights, stage: Records, ball: tuple[float, float, float], box: Box
-) -> None:
-    """Darken what a ball (x, z, radius) [u] shades; its shadow climbs onto raised parts.
+def cast_shadow(frame: Pixels, height: Heights, stage: Records, ball: Sphere, box: Box) -> None:
+    """Darken what a ball shades; its shadow climbs onto raised parts.
 
     The ray from a point to the lamp passes the ball's centre at distance q after a path t; the edge of the
     shadow is softer the farther away the ball is. Under the ball the ambient light is blocked too:
@@ -34,14 +36,14 @@ def cast_shadow(
     Source: I. Quilez, "sphere ambient occlusion" and "sphere soft shadow", 2006 and 2014.
     """
     s = stage[0]
-    x, z, r = ball
+    x, middle, z, r = ball
     left, top, right, bottom = box
     for row in range(max(top, 0), min(bottom, frame.shape[0])):
         for column in range(max(left, 0), min(right, frame.shape[1])):
             dx, dy, dz, _length = pixel_ray(s, column, row)
             y = float(height[row, column])
             t = (y - s.eye_y) / dy
-            ox, oy, oz = x - (s.eye_x + t * dx), r - y, z - t * dz
+            ox, oy, oz = x - (s.eye_x + t * dx), middle - y, z - t * dz
             square = ox * ox + oy * oy + oz * oz
             along = ox * s.light_x + oy * s.light_y
             stay = 1.0
@@ -64,19 +66,33 @@ def draw_ball(
     before: Pixels,
     stage: Records,
     inks: Inks,
-    ball: tuple[float, float, float],
+    ball: Sphere,
+    floor: float,
+    tint: RGB,
     box: Box,
 ) -> None:
-    """Draw a ball (x, z, radius) [u]; `before` is a buffer for a copy of the box that it covers."""
+    """Draw a ball.
+
+    Args:
+        frame: RGB.
+        height: Of what each pixel shows [u].
+        before: A buffer for a copy of the box that the ball covers.
+        stage: The camera, a STAGE record.
+        inks: The colours of the scene.
+        ball: The ball.
+        floor: Height of the floor [u]; what is below it, in a hole, is hidden.
+        tint: Factors of what the ball mirrors.
+        box: The pixels that it can cover.
+    """
     s = stage[0]
-    x, z, r = ball
+    x, middle, z, r = ball
     left, top = max(box[0], 0), max(box[1], 0)
     right, bottom = min(box[2], frame.shape[1]), min(box[3], frame.shape[0])
     for row in range(top, bottom):
         for column in range(left, right):
             for channel in range(3):
                 before[row - top, column - left, channel] = frame[row, column, channel]
-    ex, ey, ez = x - s.eye_x, r - s.eye_y, z
+    ex, ey, ez = x - s.eye_x, middle - s.eye_y, z
     square = ex * ex + ey * ey + ez * ez
     for row in range(top, bottom):
         for column in range(left, right):
@@ -91,10 +107,13 @@ def draw_ball(
             if (height[row, column] - s.eye_y) / dy < t - 0.02 * r:
                 continue  # hidden by something in front of it
             nx, ny, nz = dx * t - ex, dy * t - ey, dz * t - ez
+            if middle + ny < floor:
+                continue
             inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz)
             nx, ny, nz = nx * inverse, ny * inverse, nz * inverse
             direction, normal = (dx, dy, dz), (nx, ny, nz)
             light = _reflection(frame, before, s, inks, ball, direction, normal, (left, top, right, bottom))
+            light = multiply(light, tint)
             for channel in range(3):
                 shown = 255.0 * sqrt(clamp01(light[channel]))
                 old = float(frame[row, column, channel])
@@ -103,11 +122,11 @@ def draw_ball(
 
 @internal
 def _reflection(
-    frame: Pixels, before: Pixels, s: StageRecord, inks: Inks, ball: tuple[float, float, float],
+    frame: Pixels, before: Pixels, s: StageRecord, inks: Inks, ball: Sphere,
     direction: Vector, normal: Vector, box: Box,
 ) -> RGB:  # fmt: skip
     """The light that a ball mirrors at a normal, seen along a direction (two unit vectors)."""
-    x, z, r = ball
+    x, _middle, z, r = ball
     dx, dy, dz = direction
     nx, ny, nz = normal
     toward = -(dx * nx + dy * ny + dz * nz)

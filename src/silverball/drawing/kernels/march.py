@@ -1,13 +1,13 @@
 """Ray marching: the first surface on a ray, soft shadows, and ambient visibility.
 
-A ray advances by the distance to the nearest part until that is zero (sphere tracing), so no step can pass a
-surface. The intersection with the playfield, a plane, is computed in closed form.
+A ray advances by the distance to the nearest surface until that is zero (sphere tracing), so no step can pass
+a surface. The intersection with the playfield, a plane, is computed in closed form.
 """
 
 from __future__ import annotations
 
-from silverball.drawing.kernels.solids import apron_distance, cell_at, part_distance, rail_distance
-from silverball.drawing.kernels.stage import APRON, FLOOR, NEAR, RAIL, ROOM, Scene
+from silverball.drawing.kernels.solids import apron_distance, cell_at, rail_distance, solid_distance
+from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL, ROOM, Scene
 from silverball.physics.kernel import internal
 
 STEPS = 72  # upper limit of steps of a ray
@@ -20,7 +20,7 @@ BELOW = -1.2  # [u] height of the room's floor
 
 @internal
 def nearest_part(scene: Scene, x: float, y: float, z: float) -> tuple[float, int]:
-    """Return the distance of the nearest part, at most `NEAR`, and its number."""
+    """Return the distance of the nearest surface, at most the stage's `near`, and the number of its solid."""
     s = scene.stage[0]
     best, part = rail_distance(s, x, y, z), RAIL
     apron = apron_distance(s, x, y, z)
@@ -29,17 +29,21 @@ def nearest_part(scene: Scene, x: float, y: float, z: float) -> tuple[float, int
     cell = cell_at(s, x, z)
     for place in range(scene.near[cell], scene.near[cell + 1]):
         index = scene.near[place]
-        d = part_distance(scene.solids[index], scene.shapes[index], x, y, z)
+        solid = scene.solids[index]
+        dx, dz, reach = x - solid.x, z - solid.z, best + solid.cull
+        if y - solid.top >= best or dx * dx + dz * dz > reach * reach:
+            continue  # nothing of it is nearer
+        d = solid_distance(scene.corners, solid, x, y, z)
         if d < best:
             best, part = d, index
-    return min(best, NEAR * s.unit), part
+    return min(best, s.near), part
 
 
 @internal
 def trace(
     scene: Scene, x: float, y: float, z: float, dx: float, dy: float, dz: float, limit: float
 ) -> tuple[float, int]:
-    """Return the distance to the first surface on a ray, up to `limit`, and the number of its part.
+    """Return the distance to the first surface on a ray, up to `limit`, and the number of its solid.
 
     The number is ROOM for a ray that leaves the table or meets nothing within the limit.
     """

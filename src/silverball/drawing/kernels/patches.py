@@ -1,4 +1,4 @@
-"""Layers of a frame: kernels that blend paddles, light and spots into rectangles of its pixels.
+"""Layers of a frame: kernels that blend moving parts, levels, light and spots into rectangles of its pixels.
 
 A frame is RGB, uint8 [row, column, 3]; a second array holds the height [u] of what each pixel shows, float32
 [row, column]. Rectangles are given by their first column and row and may extend beyond the frame.
@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from math import sqrt
 
-from silverball.drawing.kernels.stage import Heights, Pixels, Records, Spots, StageRecord
+from silverball.drawing.kernels.stage import Box, Heights, Pixels, Records, Spots, StageRecord
 from silverball.physics.kernel import inlined, kernel
 
 
 @kernel
-def lay_paddle(
+def lay_sprite(
     frame: Pixels, height: Heights, left: int, top: int, remaining: Pixels, added: Pixels, tall: Heights
 ) -> None:
-    """Blend a paddle over a frame:  new = old · remaining / 255 + added;  its heights replace those below."""
+    """Blend a moving part over a frame:  new = old · remaining / 255 + added;  its heights replace others."""
     for i in range(max(0, -top), min(remaining.shape[0], frame.shape[0] - top)):
         for j in range(max(0, -left), min(remaining.shape[1], frame.shape[1] - left)):
             share = remaining[i, j]
@@ -27,6 +27,22 @@ def lay_paddle(
                 frame[top + i, left + j, channel] = min(value, 255)
             if tall[i, j] >= 0.0:
                 height[top + i, left + j] = tall[i, j]
+
+
+@kernel
+def lay_over(
+    below: Pixels, frame: Pixels, left: int, top: int, remaining: Pixels, added: Pixels, box: Box
+) -> None:
+    """Blend an upper level over the frame below it, within a box:  new = below · remaining / 255 + added."""
+    first, last = max(box[0], left, 0), min(box[2], left + remaining.shape[1], frame.shape[1])
+    for row in range(max(box[1], top, 0), min(box[3], top + remaining.shape[0], frame.shape[0])):
+        for column in range(first, last):
+            share = remaining[row - top, column - left]
+            if share == 255:
+                continue
+            for channel in range(3):
+                value = below[row, column, channel] * share // 255 + added[row - top, column - left, channel]
+                frame[row, column, channel] = min(value, 255)
 
 
 @kernel

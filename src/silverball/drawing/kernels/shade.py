@@ -17,9 +17,9 @@ from silverball.drawing.kernels.stage import (
     RAIL,
     RING_AT,
     ROOM,
-    Form,
     Ink,
     Inks,
+    Material,
     Scene,
     StageRecord,
     Vector,
@@ -83,11 +83,23 @@ def _add_glow(
     """Add the glow of the parts around and of the tubes along the rails."""
     s = scene.stage[0]
     cell = cell_at(s, x, z)
+    own = scene.solids[part].group if part >= 0 else -1
+    nearest, nearest_at = -1, 0.0
     for place in range(scene.lit[cell], scene.lit[cell + 1]):
         index = scene.lit[place]
-        if index != part:
-            glow = part_glow(scene, index, part, f, x, y, z)
-            light = (light[0] + glow[0], light[1] + glow[1], light[2] + glow[2])
+        if scene.solids[index].group == own:
+            continue
+        at = footprint_distance(scene.solids[index], x, z)
+        # The solids of a part are neighbours in the list; only the nearest of them lights this point.
+        if nearest >= 0 and scene.solids[nearest].group == scene.solids[index].group:
+            if at < nearest_at:
+                nearest, nearest_at = index, at
+            continue
+        if nearest >= 0:
+            light = add_scaled(light, part_glow(scene, nearest, part, f, x, y, z), 1.0)
+        nearest, nearest_at = index, at
+    if nearest >= 0:
+        light = add_scaled(light, part_glow(scene, nearest, part, f, x, y, z), 1.0)
     gap = -rail_footprint(s, x, z) / s.unit
     if gap > 0.0 and part != RAIL:
         strength = s.halo * (0.55 * exp(-gap / 0.10) + 0.22 * exp(-gap / 0.45)) * exp(-y / (0.3 * s.unit))
@@ -98,29 +110,30 @@ def _add_glow(
 
 @internal
 def part_glow(scene: Scene, index: int, part: int, f: Surface, x: float, y: float, z: float) -> RGB:
-    """Return the light that one part throws onto another: its halo, and a cylinder's ring of light."""
+    """Return the light that one solid throws onto another: its halo, and a bumper's ring of light."""
     s = scene.stage[0]
-    solid, c = scene.solids[index], scene.shapes[index]
-    a = footprint_distance(solid, c, x, z) / s.unit
+    solid = scene.solids[index]
+    a = footprint_distance(solid, x, z) / s.unit
     if a >= HALO:
         return 0.0, 0.0, 0.0
     fade = 1.0 - (max(a, 0.0) / HALO) ** 2
     fade *= fade
     near = max(a, 0.0)
-    above = max(y / s.unit - 0.45, 0.0)
+    up = max(y - solid.base, 0.0)
+    above = max(up / s.unit - 0.45, 0.0)
     strength = solid.glow * fade * (0.85 * exp(-near / 0.16) + 0.30 * exp(-near / 0.62)) * exp(-above / 0.2)
     tone = color_of(solid)
-    if solid.form == Form.WALL:
+    if solid.tube > 0.0:
         tone = ink(scene.inks, Ink.STRIP_2)
-        strength = s.halo * fade * (0.55 * exp(-near / 0.09) + 0.20 * exp(-near / 0.4)) * exp(-y / 0.3)
+        strength = solid.tube * fade * (0.55 * exp(-near / 0.09) + 0.20 * exp(-near / 0.4)) * exp(-up / 0.3)
     if part != FLOOR:
-        # Light comes from the part's side, so a face turned away from it gets less.
-        gx = footprint_distance(solid, c, x + 0.01, z) / s.unit - a
-        gz = footprint_distance(solid, c, x, z + 0.01) / s.unit - a
+        # Light comes from the solid's side, so a face turned away from it gets less.
+        gx = footprint_distance(solid, x + 0.01, z) / s.unit - a
+        gz = footprint_distance(solid, x, z + 0.01) / s.unit - a
         length = max(sqrt(gx * gx + gz * gz), 1e-9)
         strength *= clamp01(0.4 - 0.6 * (f.nx * gx + f.nz * gz) / length)
     glow = scale(multiply(tone, mix(f.paint, (1.0, 1.0, 1.0), 0.22)), strength)
-    if solid.form == Form.CYLINDER and part == FLOOR:
+    if solid.material == Material.BUMPER and part == FLOOR:
         off = abs(a - RING_AT)
         core = smoothstep(RING_CORE + 0.6 * s.pixel / s.unit, RING_CORE - 0.6 * s.pixel / s.unit, off)
         core *= min(1.0, 2.0 * RING_CORE * s.unit / s.pixel)

@@ -10,19 +10,19 @@ from silverball.drawing.kernels.solids import (
     CAP_SHARE,
     apron_distance,
     footprint_distance,
-    part_distance,
     rail_distance,
     rail_footprint,
+    solid_distance,
 )
 from silverball.drawing.kernels.stage import (
     APRON,
     FLOOR,
     RAIL,
-    Form,
     Frame,
     Ink,
+    Material,
+    Outline,
     Scene,
-    ShapeRecord,
     SolidRecord,
 )
 from silverball.drawing.kernels.tones import (
@@ -90,17 +90,19 @@ def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: flo
         return _rail(scene, hit)
     if part == APRON:
         return _apron(scene, hit)
-    solid, shape = scene.solids[part], scene.shapes[part]
-    if solid.form == Form.CYLINDER:
-        return _cylinder(scene, solid, shape, hit)
-    inside = -footprint_distance(solid, shape, x, z)
-    if solid.form == Form.PRISM:
-        return _prism(solid, hit, inside)
-    if solid.form == Form.PADDLE:
+    solid = scene.solids[part]
+    if solid.material == Material.BUMPER:
+        return _bumper(scene, solid, hit)
+    if solid.material == Material.BAR:
+        return _bar(scene, solid, hit)
+    inside = -footprint_distance(solid, x, z)
+    if solid.material == Material.ACRYLIC:
+        return _acrylic(solid, hit, inside)
+    if solid.material == Material.PADDLE:
         return _paddle(scene, solid, hit, inside)
-    if solid.form == Form.WALL:
-        return _wall(scene, solid, hit)
-    return Surface(nx, ny, nz, color_of(solid), (0.0, 0.0, 0.0), 0.05, 0.0)  # a filled corner
+    if solid.material >= Material.INSERT:
+        return _flat(scene, solid, hit, inside)
+    return _simple(scene, solid, hit, inside)
 
 
 @inlined
@@ -115,12 +117,14 @@ def _distance(scene: Scene, part: int, x: float, y: float, z: float) -> float:
         return rail_distance(scene.stage[0], x, y, z)
     if part == APRON:
         return apron_distance(scene.stage[0], x, y, z)
-    return part_distance(scene.solids[part], scene.shapes[part], x, y, z)
+    return solid_distance(scene.corners, scene.solids[part], x, y, z)
 
 
 @internal
 def _normal(scene: Scene, part: int, x: float, y: float, z: float) -> RGB:
     """Return the gradient of the distance as a unit vector, from four points around."""
+    if part >= 0 and scene.solids[part].outline == Outline.POLYGON:
+        return 0.0, 1.0, 0.0
     nx, ny, nz = 0.0, 0.0, 0.0
     h = STEP * scene.stage[0].unit
     for corner in range(4):  # of a tetrahedron: (+,−,−), (−,−,+), (−,+,−), (+,+,+)
@@ -208,20 +212,21 @@ def _apron(scene: Scene, hit: Hit) -> Surface:
 
 
 @internal
-def _cylinder(scene: Scene, solid: SolidRecord, c: ShapeRecord, hit: Hit) -> Surface:
+def _bumper(scene: Scene, c: SolidRecord, hit: Hit) -> Surface:
     """A bumper: a lit ribbed body, a steel ring, a domed cap with a star."""
     y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
-    tone = color_of(solid)
+    tone = color_of(c)
     s = scene.stage[0]
     rx, rz = hit.x - c.x, hit.z - c.z
     rho, angle = sqrt(rx * rx + rz * rz), atan2(rz, rx)
     unit = s.unit
     wide = CAP_SHARE * c.radius
-    if rho > wide - 0.01 * unit and y > solid.height - 0.078 * unit:
+    if rho > wide - 0.01 * unit and y > c.height - 0.078 * unit:
         return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.85, 1.0)
-    if y < solid.height:
+    if y < c.height:
+        share = (y - c.base) / (c.height - c.base)
         rib = 0.5 + 0.5 * cos(20.0 * angle)
-        shine = (0.22 + 0.5 * y / solid.height) * (0.45 + 0.55 * rib) * s.halo
+        shine = (0.22 + 0.5 * share) * (0.45 + 0.55 * rib) * s.halo
         return Surface(nx, ny, nz, scale(tone, 0.8), scale(tone, shine), 0.08, 0.0)
     share = rho / wide
     white = mix(tone, ink(scene.inks, Ink.CAP), s.cap_ground)
@@ -242,11 +247,11 @@ def _cylinder(scene: Scene, solid: SolidRecord, c: ShapeRecord, hit: Hit) -> Sur
 
 
 @internal
-def _prism(solid: SolidRecord, hit: Hit, inside: float) -> Surface:
+def _acrylic(solid: SolidRecord, hit: Hit, inside: float) -> Surface:
     """Lit acrylic: light gathers at the edges, and a second, fainter line runs inside the top."""
     y, nx, ny, nz, pixel = hit.y, hit.nx, hit.ny, hit.nz, hit.pixel
     tone = color_of(solid)
-    unit = solid.height / 0.34
+    unit = (solid.height - solid.base) / 0.34
     if ny > 0.85:
         edge = exp(-max(inside - solid.bevel, 0.0) / (0.07 * unit))
         line = coverage(abs(inside - 0.24 * unit) - 0.018 * unit, pixel)
@@ -258,7 +263,7 @@ def _prism(solid: SolidRecord, hit: Hit, inside: float) -> Surface:
         white = mix(tone, (1.0, 1.0, 1.0), 0.42)
         away = 1.0 - 0.65 * max(nx, 0.0)  # less at the far edges, which are thinner than a pixel
         return Surface(nx, ny, nz, tone, scale(white, 1.05 * away), 0.10, 0.0)
-    up = clamp01(y / solid.height)
+    up = clamp01((y - solid.base) / (solid.height - solid.base))
     return Surface(nx, ny, nz, scale(tone, 0.8), scale(tone, 0.16 + 0.42 * up * up), 0.10, 0.0)
 
 
@@ -270,7 +275,7 @@ def _paddle(scene: Scene, solid: SolidRecord, hit: Hit, inside: float) -> Surfac
     if hit.y > solid.height + 0.004:
         return Surface(nx, ny, nz, ink(scene.inks, Ink.STEEL), (0.0, 0.0, 0.0), 0.8, 1.0)
     edge = ink(scene.inks, Ink.PADDLE_EDGE)
-    rim = coverage(inside - 0.055 * solid.height / 0.33, hit.pixel)
+    rim = coverage(inside - 0.055 * (solid.height - solid.base) / 0.33, hit.pixel)
     light = scale(mix(tone, edge, rim), 0.16)
     if ny < 0.5:
         return Surface(nx, ny, nz, scale(mix(tone, edge, 0.45), 0.85), scale(tone, 0.10), 0.06, 0.0)
@@ -278,13 +283,76 @@ def _paddle(scene: Scene, solid: SolidRecord, hit: Hit, inside: float) -> Surfac
 
 
 @internal
-def _wall(scene: Scene, solid: SolidRecord, hit: Hit) -> Surface:
-    """A slant wall: a steel bar, or a wooden one; a tube of light along its foot."""
-    y, nx, ny, nz = hit.y, hit.nx, hit.ny, hit.nz
+def _bar(scene: Scene, solid: SolidRecord, hit: Hit) -> Surface:
+    """A wall: a steel bar, or a wooden one; a tube of light along its foot."""
+    y, nx, ny, nz = hit.y - solid.base, hit.nx, hit.ny, hit.nz
     tone = color_of(solid)
     s = scene.stage[0]
     strip = exp(-(((y - 0.09 * s.unit) / (0.045 * s.unit)) ** 2)) if ny < 0.3 else 0.0
-    light = scale(ink(scene.inks, Ink.STRIP_2), 1.6 * strip * s.halo)
+    light = scale(ink(scene.inks, Ink.STRIP_2), 1.6 * strip * solid.tube)
     if s.frame == Frame.WOOD:
         return Surface(nx, ny, nz, tone, light, 0.25, 0.5)
     return Surface(nx, ny, nz, tone, light, 0.4, 0.55)
+
+
+@internal
+def _simple(scene: Scene, solid: SolidRecord, hit: Hit, inside: float) -> Surface:
+    """Steel, timber, plastic, rubber, the face of a target, or one colour."""
+    nx, ny, nz, pixel = hit.nx, hit.ny, hit.nz, hit.pixel
+    tone, dark = color_of(solid), (0.0, 0.0, 0.0)
+    unit = scene.stage[0].unit
+    if solid.material == Material.STEEL:
+        return Surface(nx, ny, nz, tone, dark, 0.6, 0.9)
+    if solid.material == Material.TIMBER:
+        grain = value_noise(1.3 * hit.x, 11.0 * hit.z) + 0.5 * value_noise(3.1 * hit.x, 37.0 * hit.z)
+        return Surface(nx, ny, nz, scale(tone, 0.6 + 0.45 * grain), dark, 0.10, 0.0)
+    if solid.material == Material.PLASTIC:
+        if solid.outline == Outline.POLYGON:
+            stripe = clamp01(0.5 + 2.0 * sin(2.6 * (hit.x + hit.z) / unit))
+            return Surface(nx, ny, nz, scale(tone, 0.55 + 0.15 * stripe), scale(tone, 0.06), 0.12, 0.0)
+        return Surface(nx, ny, nz, scale(tone, 0.85), scale(tone, 0.22), 0.16, 0.0)
+    if solid.material == Material.RUBBER:
+        return Surface(nx, ny, nz, tone, scale(tone, 0.05), 0.05, 0.0)
+    if solid.material == Material.TARGET:
+        white = mix(tone, (1.0, 1.0, 1.0), 0.75)
+        if ny > 0.5:
+            core = coverage(0.045 * unit - inside, pixel)
+            return Surface(nx, ny, nz, mix(white, tone, core), scale(tone, 0.18 * core), 0.10, 0.0)
+        up = (hit.y - solid.base) / (solid.height - solid.base)
+        band = coverage(abs(up - 0.55) - 0.12, 0.06)
+        return Surface(nx, ny, nz, mix(tone, white, band), scale(tone, 0.24), 0.10, 0.0)
+    return Surface(nx, ny, nz, tone, dark, 0.05, 0.0)
+
+
+@internal
+def _flat(scene: Scene, solid: SolidRecord, hit: Hit, inside: float) -> Surface:
+    """What lies in the playfield (a lens, a hole, the mouth of a passage), or a turning blade."""
+    nx, ny, nz, pixel = hit.nx, hit.ny, hit.nz, hit.pixel
+    tone = color_of(solid)
+    s = scene.stage[0]
+    unit = s.unit
+    if solid.material == Material.INSERT:
+        deep = clamp01(inside / max(solid.radius, 1e-9))
+        rim = coverage(inside - 0.035 * unit, pixel)
+        paint = mix(scale(tone, 0.55), mix(tone, (1.0, 1.0, 1.0), 0.6), 0.8 * rim)
+        shine = (0.16 + 0.5 * deep * deep) * (0.4 + 0.6 * s.halo)
+        return Surface(nx, ny, nz, paint, scale(tone, shine), 0.06, 0.0)
+    if solid.material == Material.PIT:
+        rim = coverage(inside - 0.07 * unit, pixel)
+        # The far wall of the pit is lit; the near one hides its floor.
+        deep = inside / max(solid.radius, 1e-9)
+        wall = clamp01((hit.x - solid.x) / max(solid.radius, 1e-9)) * (1.0 - deep)
+        paint = mix(scale(tone, 0.12 + 0.75 * wall), ink(scene.inks, Ink.STEEL), rim)
+        return Surface(nx, ny, nz, paint, scale(tone, 0.04 + 0.25 * wall), 0.02 + 0.45 * rim, rim)
+    if solid.material == Material.BLADE:
+        foot = (hit.x - solid.x0) * solid.along_x0 + (hit.z - solid.z0) * solid.along_z0
+        band = coverage(abs(foot - 0.5 * solid.length0) - 0.16 * solid.length0, pixel)
+        white = mix(tone, (1.0, 1.0, 1.0), 0.8)
+        return Surface(nx, ny, nz, mix(tone, white, band), scale(mix(tone, white, band), 0.10), 0.2, 0.2)
+    # The mouth of a passage: arrows across the line
+    along = (hit.x - solid.x0) * solid.along_x0 + (hit.z - solid.z0) * solid.along_z0
+    across = (hit.x - solid.x0) * solid.inward_x + (hit.z - solid.z0) * solid.inward_z
+    step = 0.3 * unit
+    place = (along + abs(across)) / step
+    arrow = coverage((abs(place - place // 1.0 - 0.5) - 0.25) * step, pixel)
+    return Surface(nx, ny, nz, scale(tone, 0.25 + 0.6 * arrow), scale(tone, 0.30 * arrow), 0.06, 0.0)

@@ -11,17 +11,48 @@ import hashlib
 import json
 from base64 import urlsafe_b64encode
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from silverball.physics.records import WORLD
+from silverball.physics import PHYSICS_VERSION
+from silverball.physics.records import LEFT, PADDLE, WORLD, Part
 
-FIELDS = WORLD.fields
-assert FIELDS is not None, "a world record has fields"
-_PADDLES, _TICK, _SEED, _SCORE, _REST = (
-    int(FIELDS[name][1]) for name in ("paddle", "tick", "seed", "score", "created")
-)
+if TYPE_CHECKING:
+    from silverball.world import World
+
+OLDEST_PHYSICS = 3
+"""The oldest version of the physics that moves balls on tables of format 1 as this one does."""
+
+FIRST_SHAPE_3 = 5  # row of the first stationary shape in version 3: after three borders and two paddles
+
+_WORLD_3 = np.dtype(
+    [
+        (
+            "ball",
+            [
+                *((name, "f8") for name in ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")),
+                ("id", "i8"),
+                *((name, "f8") for name in ("start_x", "start_z", "start_vx", "start_vz")),
+                ("accel_x", "f8"), ("accel_z", "f8"), ("motion", "i8"), ("roll_age", "f8"),
+                ("ticks", "i8"), ("offset", "f8"), ("age", "f8"),
+                ("contact_age", "f8"), ("contact_row", "i8"),
+            ],
+            (2,),
+        ),
+        ("paddle", PADDLE, (2,)),
+        *(
+            (name, "i8")
+            for name in (
+                "tick", "seed", "draws", "score", "created", "drained", "wall_hits", "slant_wall_hits",
+                "paddle_hits", "triangular_prism_hits", "cylinder_hits", "ball_hits", "touches", "jams",
+                "fault",
+            )
+        ),
+    ],
+    align=True,
+)  # fmt: skip
+"""The record of a world in version 3 of the physics, whose bytes the digests of its replays hash."""
 
 GROUPS = ("paddles", "random", "balls", "counts", "points", "rules")
 """In the order in which differences spread from one to the next."""
@@ -29,27 +60,61 @@ GROUPS = ("paddles", "random", "balls", "counts", "points", "rules")
 CHARACTERS = 2  # length of the digest of a group
 
 
-def short_digests(record: bytes, rules: str) -> str:
+def short_digests(record: bytes, rules: str, physics: int = PHYSICS_VERSION) -> str:
     """The digests of all groups, one after the other.
 
     Args:
-        record: The bytes of the world's record.
+        record: The bytes of the world's record, as `record_bytes` returns them.
         rules: The state of the rules as JSON.
+        physics: The version of the physics in whose layout the bytes are.
     """
-    parts = (
-        record[_PADDLES:_TICK],
-        record[_SEED:_SCORE],
-        record[:_PADDLES],
-        record[_TICK:_SEED] + record[_REST:],
-        record[_SCORE:_REST],
-        rules.encode("ascii"),
-    )
+    spans = _SPANS if physics == PHYSICS_VERSION else _SPANS_3
+    parts = (*(b"".join(record[start:end] for start, end in group) for group in spans), rules.encode("ascii"))
     return "".join(_short(part) for part in parts)
 
 
 def full_digest(record: bytes, rules: str) -> str:
     """The SHA-256 of the whole state of a game, in hex digits."""
     return hashlib.sha256(record + rules.encode("ascii")).hexdigest()
+
+
+def record_bytes(world: World, physics: int) -> bytes:
+    """The bytes of the record of a world, in the layout of a version of the physics.
+
+    Version 3 had a row for the left and for the right paddle on every board, also where there is none.
+    """
+    record, board, colliders = world.records
+    if physics == PHYSICS_VERSION:
+        return bytes(record.tobytes())
+    then = np.zeros((), _WORLD_3)
+    for name in _WORLD_3["ball"].base.names or ():
+        then["ball"][name] = record["ball"][name][:2]
+    rows = then["ball"]["contact_row"]
+    rows[rows >= board["shape_first"]] += FIRST_SHAPE_3 - board["shape_first"]
+    first = board["collider_first"] + Part.FIRST_PADDLE
+    for number in range(int(board["paddles"])):
+        then["paddle"][0 if colliders["button"][first + number] == LEFT else 1] = record["paddle"][number]
+    for name in (_WORLD_3.names or ())[2:]:
+        then[name] = record[name]
+    return bytes(then.tobytes())
+
+
+def _spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """The first byte and the end of every field of each group but the last, in the order of the layout."""
+    groups = (("paddle",), ("seed", "draws"), ("ball",), (), ("score",))
+    named = {name for group in groups for name in group}
+    assert layout.fields is not None, "a world record has fields"
+    spans = {}
+    for name in layout.names or ():
+        part, start = layout.fields[name][:2]
+        spans[name] = (int(start), int(start) + part.itemsize)
+    return tuple(
+        tuple(span for name, span in spans.items() if (name in group if group else name not in named))
+        for group in groups
+    )
+
+
+_SPANS, _SPANS_3 = _spans(WORLD), _spans(_WORLD_3)
 
 
 def differing_groups(expected: str, got: str) -> tuple[str, ...]:

@@ -66,6 +66,7 @@ class Replay:
         ended: "over", "stopped" (by the player), "running" (the game went on), or the name of a fault.
         digest: The digest of the whole state at the end.
         rules: The name of the rules that scored it; empty for the built-in rules of the mode.
+        physics: The version of the physics that moved the balls, in whose layout the digests are.
 
     Examples:
         >>> import silverball as sb
@@ -89,6 +90,7 @@ class Replay:
     ended: str
     digest: str
     rules: str = ""
+    physics: int = PHYSICS_VERSION
 
     @classmethod
     def of(
@@ -119,7 +121,7 @@ class Replay:
     def to_text(self) -> str:
         """The replay as text, for `from_text`."""
         form = FORMAT_WITH_RULES if self.rules else FORMAT
-        head = [f"{FIRST} {form}", f"program = {self.program}", f"physics = {PHYSICS_VERSION}"]
+        head = [f"{FIRST} {form}", f"program = {self.program}", f"physics = {self.physics}"]
         head += [f"rules = {RULES_VERSION}", f"mode = {self.mode}", f"seed = {self.seed}"]
         head += [f"tick_rate = {self.tick_rate}", f"table = {table_digest(self.table)}"]
         if self.rules:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from silverball.errors import SilverballError, StateError
 from silverball.game.core import GameCore
-from silverball.game.replay.recording import BALL, LEFT, RIGHT, Input, parse_inputs
+from silverball.game.replay.recording import BALL, LAUNCH, LEFT, RIGHT, Input, parse_inputs
 
 if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
@@ -46,7 +46,7 @@ class Playback:
         self.replay = replay
         self.game = GameCore(replay.table, replay.seed, replay.mode, replay.tick_rate, rules=rules)
         self.at_end = False
-        self._held = (False, False)
+        self._held, self._is_launch_held = (False, False), False
         self._second = -1  # the one that the inputs below belong to
         self._inputs: list[Input] = []
         self._next = 0
@@ -77,12 +77,12 @@ class Playback:
             self._apply_inputs()
             following = self._inputs[self._next].tick if self._next < len(self._inputs) else rate
             stop = min(target, self._second * rate + following)
-            self.game.step(*self._held, ticks=stop - self.tick)
+            self.game.step(*self._held, ticks=stop - self.tick, launch=self._is_launch_held)
 
     def jump(self, state: bytes) -> None:
         """Go to a state of `GameCore.save` that was saved at the beginning of a second."""
         self.game.restore(state)
-        self._held = self.game.held
+        self._held, self._is_launch_held = self.game.held, self.game.is_launch_held
         self.at_end = False
         self._begin_second(self.tick // self.replay.tick_rate)
 
@@ -102,6 +102,8 @@ class Playback:
                 self._held = (not left, right)
             elif kind == RIGHT:
                 self._held = (left, not right)
+            elif kind == LAUNCH:
+                self._is_launch_held = not self._is_launch_held
             else:
                 self._create_or_shove(kind)
 

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, NoReturn
 from pydantic import ValidationError
 
 from silverball.errors import StateError
+from silverball.game.replay.digest import OLDEST_PHYSICS
 from silverball.game.replay.recording import (
     FIRST,
     FORMAT,
@@ -82,7 +83,7 @@ class Reader:
         self._check_checksum(end)
         keys = HEADER_KEYS if form == FORMAT else (*HEADER_KEYS, RULES_KEY)
         values = self._values(head, keys)
-        self._integer(head, 1, values[1], PHYSICS_VERSION, PHYSICS_VERSION)
+        physics = self._integer(head, 1, values[1], OLDEST_PHYSICS, PHYSICS_VERSION)
         self._integer(head, 2, values[2], RULES_VERSION, RULES_VERSION)
         mode = self._choice(head, 3, values[3], tuple(Mode))
         seed = self._integer(head, 4, values[4], 0, 2**63 - 1)
@@ -94,9 +95,28 @@ class Reader:
         digest = self._hex(end, 3, ends[3])
         lines, tail = self._play(play, ticks, rate)
         board = self._table(table, self._hex(head, 6, values[6]))
+        if physics != PHYSICS_VERSION and board.format != 1:
+            self.refuse(
+                table.first, f"expected a table of format 1 with physics {physics}, got {board.format}"
+            )
         program = plain(values[0][:40])
         rules = "" if form == FORMAT else self._own_rules(head, 7, values[7])
-        return program, Mode(mode), board, seed, rate, lines, tail, ticks, score, ended, digest, rules
+        fields = (
+            program,
+            Mode(mode),
+            board,
+            seed,
+            rate,
+            lines,
+            tail,
+            ticks,
+            score,
+            ended,
+            digest,
+            rules,
+            physics,
+        )
+        return fields
 
     def refuse(self, line: int, message: str) -> NoReturn:
         """Raise `StateError` with a sentence about a line."""
@@ -115,10 +135,11 @@ class Reader:
         form = int(match[1])
         if form not in FORMATS:
             self.refuse(1, _other_version("format", form, FORMATS[-1]))
-        for number, (key, ours) in enumerate((("physics", PHYSICS_VERSION), ("rules", RULES_VERSION)), 3):
+        versions = (("physics", OLDEST_PHYSICS, PHYSICS_VERSION), ("rules", RULES_VERSION, RULES_VERSION))
+        for number, (key, oldest, ours) in enumerate(versions, 3):
             line = self.lines[number - 1] if len(self.lines) >= number else ""
             version = re.fullmatch(rf"{key} = (\d{{1,9}})", line, re.ASCII)
-            if version is not None and int(version[1]) != ours:
+            if version is not None and not oldest <= int(version[1]) <= ours:
                 program = self.lines[1].removeprefix("program = ")[:40]
                 self.refuse(number, _other_version(key, int(version[1]), ours, program))
         return form

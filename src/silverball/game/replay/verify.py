@@ -11,7 +11,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.errors import SilverballError
-from silverball.game.replay.digest import CHARACTERS, GROUPS, differing_groups, values
+from silverball.game.replay.digest import (
+    CHARACTERS,
+    GROUPS,
+    differing_groups,
+    full_digest,
+    record_bytes,
+    short_digests,
+    values,
+)
 from silverball.game.replay.player import InputRefusedError, Playback, check_rules
 from silverball.table import table_digest
 
@@ -88,7 +96,9 @@ def verify(
             return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
         if game.tick != (number + 1) * rate:
             return _ended_early(playback)
-        expected, got = line[: CHARACTERS * len(GROUPS)], game.short_digests
+        record = record_bytes(game.world, replay.physics)
+        expected = line[: CHARACTERS * len(GROUPS)]
+        got = short_digests(record, game.rules_text, replay.physics)
         if expected != got:
             return _differs_in_second(game.score, before, game.tick, expected, got)
         progress(game.tick)
@@ -102,10 +112,11 @@ def verify(
     if game.tick != replay.ticks:
         return _ended_early(playback)
     equal_until = len(replay.lines) * rate
+    record = record_bytes(game.world, replay.physics)
     ends = (
         ("ended", replay.ended, game.ended),
         ("score", str(replay.score), str(game.score)),
-        ("digest", replay.digest, game.digest()),
+        ("digest", replay.digest, full_digest(record, game.rules_text)),
     )
     for field, expected, got in ends:
         if expected != got:

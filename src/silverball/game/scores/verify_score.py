@@ -23,6 +23,7 @@ from functools import cache, lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.errors import SilverballError
+from silverball.game.mechanisms import SCORING
 from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, table_digest, table_names
 from silverball.table.file import SIZE_LIMIT
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from silverball.game.scores.score_records import Score
 
 COMPLETE = ("over", "stopped")  # a player may stop: playing on could only have brought more points
-CONTACTS = ("hit", "ball_hit")
+CONTACTS = SCORING | {"ball_hit"}
 NAME_LIMIT = 80  # characters of a name that are shown in a reason
 
 
