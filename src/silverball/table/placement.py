@@ -20,7 +20,7 @@ from silverball.errors import Problem, TableError
 from silverball.table.check import check_layout
 from silverball.table.geometry import Floats
 from silverball.table.kinds import Cylinder, TriangularPrism
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.placement_rules import Surroundings, allowed_rotations, circle_distances
 from silverball.table.recipe import RandomRecipe
 

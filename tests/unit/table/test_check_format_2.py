@@ -42,7 +42,7 @@ from silverball.table.kinds import (
     Slingshot,
     Wall,
 )
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.placement_rules import Surroundings
 from silverball.table.primitive import Mover, Primitive
 from silverball.table.reach import space
