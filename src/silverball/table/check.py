@@ -1,8 +1,9 @@
 """Checks of a layout: the errors that keep a table from being played, and warnings, with their paths.
 
 In this order: the board, the paddles, each part by itself (degenerate, outside the board), what lines, holes,
-gates and plungers need (`check_devices.py`), the swing of the paddles, parts against each other (overlaps, gaps
-that a ball barely fits), the ways out, the places where a ball would lie forever, and the rules of a recipe.
+gates and plungers need (`check_devices.py`), the swing of the paddles, parts against each other (overlaps,
+gaps that a ball barely fits), the ways out, the places where a ball would lie forever, and the rules of a
+recipe.
 
 What cannot work is an error; what a maker may want, because real tables have it, is a warning, once for each
 pair of parts. Single values are validated by the models of the parts, meshes in `mesh.py`; `placement.py`
