@@ -9,8 +9,8 @@ import pytest
 
 from silverball.drawing import THEMES, Camera, Moment, Renderer, best_size
 from silverball.drawing.bake_levels import FLOOR_CELL, floor_cells
-from silverball.drawing.finishes import LOOKS
 from silverball.drawing.layout import Layout
+from silverball.drawing.looks import LOOKS
 from silverball.drawing.moment import BallAt, BladeAt
 from silverball.drawing.moving import Motion, coarse_to_fine, moving_parts, pose_angle, turning_pose
 from silverball.drawing.pictures import levels_key, sprites_key, table_key
