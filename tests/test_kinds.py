@@ -242,7 +242,7 @@ def drawn(table: Table, kind: str) -> None:
 
 def coloured(table: Table, kind: str) -> None:
     """Each finish has a look in the picture and a colour in the pictures for agents."""
-    from silverball.drawing.finishes import LOOKS
+    from silverball.drawing.looks import LOOKS
     from silverball.envs.sprites import COLORS
 
     for row in expand(table).rows:
