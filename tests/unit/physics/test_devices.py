@@ -278,10 +278,8 @@ def everything() -> Table:
 def play(world: World, tick: int, rng: np.random.Generator) -> None:
     """One tick of random play."""
     if tick % 20 == 0 and len(world.balls) < 5:
-        try:
+        with contextlib.suppress(NoRoom):
             world.create_ball()
-        except Exception:
-            pass
     if tick % 97 == 0:
         world.open_gate("door", tick % 2 == 0)
     left, right, jitter, launch = (rng.random(4) < (0.3, 0.3, 0.02, 0.8)).tolist()
