@@ -25,6 +25,8 @@ from silverball.world.saved_world import pack
 LEFT = Paddle(side="left", pivot=(-7.2, -2.5))
 RIGHT = Paddle(side="right", pivot=(-7.2, 2.5))
 PADDLES = (LEFT, RIGHT)
+FIRST_SHAPE = 5
+"""Row of the first stationary shape on a board: after three borders and two paddles."""
 TABLES = Path(__file__).with_name("tables")
 """Tables that stay as they are, so that tuning the built-in ones changes no golden digest and no test."""
 CLASSIC = load_table(TABLES / "classic.toml")

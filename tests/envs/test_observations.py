@@ -10,7 +10,7 @@ import pytest
 
 from silverball.envs import GROUPS, PinballEnv
 from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, fields
-from silverball.physics.records import BALL_COUNT
+from silverball.envs.state import BALL_COUNT
 from silverball.table import generate_table, load_table
 from silverball.world import World
 

@@ -1,7 +1,8 @@
 """Write the golden digests again: `python tests/golden/make_digests.py`.
 
 A digest is that of `World.digest`, taken with the version of the physics since which the scene gives these
-bits. So raising the version keeps the digests of all scenes whose bits it does not change.
+bits, and with the layout of the record in that version. So raising the version keeps the digests of all
+scenes whose bits it does not change.
 
 A digest that differs means that the same table, seed and inputs now give other bits, so that replays
 no longer hold: PHYSICS_VERSION must be raised. New scenes may be added at any time; digests of removed scenes
@@ -22,6 +23,7 @@ import tomli_w
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # run as a program, it finds its scenes there
 
+from golden.layouts import record_bytes
 from scenes import SCENES, played
 from silverball.physics import PHYSICS_VERSION
 from silverball.world import World
@@ -43,7 +45,7 @@ class Golden(NamedTuple):
 
 def digest(world: World, since: int) -> str:
     """What `World.digest` says, or said in an earlier version of the physics."""
-    return hashlib.sha256(since.to_bytes(8, "little") + world.records[0].tobytes()).hexdigest()
+    return hashlib.sha256(since.to_bytes(8, "little") + record_bytes(world, since)).hexdigest()
 
 
 def read(file: Path = FILE) -> Golden:

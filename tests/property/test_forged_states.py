@@ -136,7 +136,7 @@ def test_a_contact_that_is_put_off_happens_when_it_should(later: float, way, rub
     honest, world = played(board(rub), 3), played(board(rub), 3)
 
     def put_off(record) -> None:
-        record["ball"]["contact_age"] += later
+        record["ball"]["contact_age"][:2] += later
 
     batch = way(world, put_off)
     row = 1 if len(batch) > 1 else 0
@@ -193,7 +193,7 @@ def test_no_flight_that_fits_its_ball_but_comes_through_a_wall_leads_it_on(
         )
         ball["x"] = ball["start_x"] + a * (ball["start_vx"] + 0.5 * ball["accel_x"] * a)
         ball["z"] = ball["start_z"] + a * (ball["start_vz"] + 0.5 * ball["accel_z"] * a)
-        ball["contact_age"], ball["contact_part"] = due, meets
+        ball["contact_age"], ball["contact_row"] = due, meets
 
     hypothesis_event(plays_on_outside(way, world, change))
 

@@ -133,7 +133,7 @@ NUMBERS = (
     "age",
     "contact_age",
 )
-COUNTS = ("contact_part", "motion", "ticks")
+COUNTS = ("contact_row", "motion", "ticks")
 
 
 @settings(max_examples=150)

@@ -84,7 +84,7 @@ def soak(tables: list[Table], ticks: int, tick_rate: int = 60, seed: int = 0, wi
     rest, up = batch.boards.collider["angle_rest"][rows], batch.boards.collider["angle_up"][rows]
     cap = batch.boards.board["speed_cap"][batch.board_of][:, None]
     beyond = 0
-    ball = batch.state["ball"]
+    ball = batch.state["ball"][:, :2]
     for tick in range(ticks):
         batch.create_balls()
         held[0, :, :2] ^= rng.random((count, 2)) < 6.0 / tick_rate
@@ -94,12 +94,12 @@ def soak(tables: list[Table], ticks: int, tick_rate: int = 60, seed: int = 0, wi
             thrown = (ball["id"] > 0) & (rng.random((count, 2)) < 0.1)
             ball["vx"] = np.where(thrown, speed * np.sin(turn), ball["vx"])
             ball["vz"] = np.where(thrown, speed * np.cos(turn), ball["vz"])
-        before = batch.state["paddle"]["angle"].copy()
+        before = batch.state["paddle"]["angle"][:, :2].copy()
         batch.step_unchecked(held, 1)
         _look(
             batch.state, batch.boards.board, batch.board_of, batch.boards.collider, batch.logs, before, seen
         )
-        angle = batch.state["paddle"]["angle"]
+        angle = batch.state["paddle"]["angle"][:, :2]
         beyond += int(((angle < rest) | (angle > up)).sum())
     hits = sum(
         int(batch.state[name].sum())

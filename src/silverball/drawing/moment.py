@@ -48,7 +48,7 @@ class Moment(NamedTuple):
         from silverball.world.events import read_balls, read_paddles
 
         balls = tuple(BallAt(ball.id, ball.position[0], ball.position[2]) for ball in read_balls(record, 0.0))
-        left, right = (math.degrees(paddle.angle) for paddle in read_paddles(record))
+        left, right = (math.degrees(paddle.angle) for paddle in read_paddles(record, 2))
         return cls(int(record["tick"]) / tick_rate, balls, (left, right), int(record["score"]))
 
     @classmethod

@@ -17,13 +17,13 @@ from silverball.envs.observations import BALLS, GAME, LAYOUT, PADDLES, BallSlot,
 from silverball.envs.pixels import PICTURE_STATE_SIZE, copy_stack, draw_first, draw_step, redraw_stack
 from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
-from silverball.envs.state import COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
+from silverball.envs.state import BALL_COUNT, COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.portable_math import WORD, threefry
-from silverball.physics.records import BALL_COUNT, WORLD, BatchGeometry, Fault, Lanes, Outcome
+from silverball.physics.records import LEFT, RIGHT, WORLD, BatchGeometry, Fault, Lanes, Outcome
 from silverball.physics.step import run_worlds
-from silverball.world.single_step import INT, LEFT, RIGHT, array_at
+from silverball.world.single_step import INT, array_at
 
 BLOCK = 64  # worlds stepped before their rewards are computed, so that their records stay in the cache
 WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize

@@ -18,7 +18,7 @@ from gymnasium import spaces
 from numpy.typing import NDArray
 
 from silverball.envs.options import Options
-from silverball.physics.records import BALL_COUNT
+from silverball.envs.state import BALL_COUNT
 
 
 class BallSlot(IntEnum):

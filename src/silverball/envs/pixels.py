@@ -17,9 +17,9 @@ from typing import Any
 
 from silverball.envs import pointers as views
 from silverball.envs.pointers import BYTE, Pointers, copy_bytes
-from silverball.envs.state import LIT_BITS, PICTURE_STATE, PictureStateRecord, RasterRecord
+from silverball.envs.state import BALL_COUNT, LIT_BITS, PICTURE_STATE, PictureStateRecord, RasterRecord
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import BALL_COUNT, ColliderRecord, EventKind, Kind, Part
+from silverball.physics.records import ColliderRecord, EventKind, Kind
 from silverball.physics.shapes import distance
 from silverball.world.single_step import array_at
 
@@ -133,10 +133,10 @@ def record_state(ptr: Pointers, index: int, number: int) -> None:
         turn = (world.paddle[side].angle - rules.rest_angle[side]) * rules.angle_scale[side]
         has_paddle = rules.angle_scale[side] != 0.0
         state.paddle[side] = int(turn * (ANGLES - 1) + 0.5) if has_paddle else -1
-    lit = 0
+    lit, first = 0, views.boards(ptr)[state.board].shape_first
     for entry in range(log.count):
         event = log.event[entry]
-        shape = event.part - Part.FIRST_SHAPE
+        shape = event.part - first
         if event.kind == EventKind.HIT and 0 <= shape < LIT_BITS:
             lit |= 1 << shape
     state.lit = lit
@@ -264,7 +264,8 @@ def visible_box(raster: RasterRecord, c: ColliderRecord) -> tuple[int, int, int,
 def light_up(ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, address: int) -> int:
     """Brighten the prisms and cylinders that were hit; returns one past the lowest changed row."""
     picture = array_at(address, (ptr.pixels,), BYTE)
-    first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
+    board = views.boards(ptr)[state.board]
+    first, lowest = board.collider_first + board.shape_first, 0
     for shape in range(LIT_BITS):
         if state.lit >> shape & 1 == 0:
             continue
@@ -293,7 +294,8 @@ def erase_lit_parts(
     ptr: Pointers, raster: RasterRecord, state: PictureStateRecord, picture: int, background: int
 ) -> int:
     """Restore the background of the lit parts; returns one past the lowest changed row."""
-    first, lowest = views.boards(ptr)[state.board].collider_first + Part.FIRST_SHAPE, 0
+    board = views.boards(ptr)[state.board]
+    first, lowest = board.collider_first + board.shape_first, 0
     for shape in range(LIT_BITS):
         if state.lit >> shape & 1 != 0:
             top, bottom, left, right = visible_box(raster, views.colliders(ptr)[first + shape])

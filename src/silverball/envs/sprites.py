@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from silverball.envs.board_pool import Pool
 from silverball.envs.pixels import ANGLES, SUBPIXELS, count_coverage
 from silverball.envs.state import RASTER
-from silverball.physics.records import Kind, Part, records
+from silverball.physics.records import Kind, records
 from silverball.table.geometry import offsets, paddle_cores
 
 SAMPLES = 4  # along each axis of a pixel
@@ -125,7 +125,7 @@ def _background(raster: NDArray[Any], pool: Pool, board: int) -> Bytes:
     covered = np.zeros((height, width), np.int64)
     first, end = pool.boards.board["collider_first"][board], pool.boards.board["collider_end"][board]
     counts = {Kind.SLANT_WALL: 0, Kind.TRIANGULAR_PRISM: 0, Kind.CYLINDER: 0}
-    for index in range(first + Part.FIRST_SHAPE, end):
+    for index in range(first + pool.boards.board["shape_first"][board], end):
         collider = pool.boards.collider[index]
         kind = Kind(int(collider["kind"]))
         count_coverage(raster[0], collider, SAMPLES, covered)

@@ -12,7 +12,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from silverball.physics.records import BALL_COUNT
+BALL_COUNT = 2
+"""Balls that an observation shows."""
 
 
 class ResetMode(IntEnum):

@@ -38,7 +38,7 @@ from silverball.physics.records import (
     WorldRecord,
     records,
 )
-from silverball.physics.step import step_world
+from silverball.physics.step import button_bits, step_world
 from silverball.players.simple import LOOK_AHEAD, PlayerKind, pressed, strikes
 from silverball.world import WorldBatch
 
@@ -242,7 +242,7 @@ def play_balls(
             else:
                 left, right = pressed(setup.player, world, board, colliders, tick)
             score = world.score
-            step_world(lane, geometry, left, right, False, tick)
+            step_world(lane, geometry, button_bits(left, right), tick)
             game.ticks += 1
             follow_hits(lane, geometry, game, traces.reached[index], traces.seen[index], maps.gaps)
             game.dry = game.dry + 1 if world.score == score else 0

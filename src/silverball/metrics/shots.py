@@ -21,7 +21,7 @@ from silverball.physics.balls import put_ball
 from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import NOTHING, BatchGeometry, BoardGeometry, EventKind, Lane, Lanes, records
-from silverball.physics.step import step_world
+from silverball.physics.step import button_bits, step_world
 from silverball.table import SlantWall, Table
 from silverball.world import WorldBatch
 
@@ -188,7 +188,7 @@ def shoot(
             clear_log(log)
             up = now < approach.wait or shot.press <= now < shot.press + int(HOLD / tick)
             before = ball.x
-            step_world(lane, geometry, up and left, up and not left, False, tick)
+            step_world(lane, geometry, button_bits(up and left, up and not left), tick)
             if ball.id == 0:
                 break
             if now < shot.press:

@@ -18,4 +18,4 @@ cache of compiled code.
 `PHYSICS_VERSION` is incremented when a change gives different bits for the same table, seed and inputs.
 """
 
-PHYSICS_VERSION = 3
+PHYSICS_VERSION = 4

@@ -12,7 +12,7 @@ from math import cos, hypot, inf, sin, sqrt
 
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.records import (
-    BALL_COUNT,
+    MAX_BALLS,
     BoardRecord,
     ColliderRecord,
     Colliders,
@@ -125,7 +125,7 @@ def depth_in_borders(board: BoardRecord, colliders: Colliders, x: float, z: floa
 def depth_in_stationary(board: BoardRecord, colliders: Colliders, x: float, z: float) -> float:
     """Compute how deep a ball at (x, z) is inside a stationary part [u]; 0 if it is not."""
     depth, radius = 0.0, board.ball_radius
-    for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
+    for index in range(board.collider_first + board.shape_first, board.collider_end):
         c = colliders[index]
         if not is_outside_box(c, x, z, radius):
             depth = max(depth, radius - part_gap(c, 0.0, x, z))
@@ -142,27 +142,30 @@ def depth_in_paddle(c: ColliderRecord, angle: float, x: float, z: float, radius:
 
 @kernel
 def depth_in_other_ball(world: WorldRecord, radius: float) -> float:
-    """Compute how deep the two balls are inside each other [u]; 0 if they are not."""
-    a, b = world.ball[0], world.ball[1]
-    if a.id == 0 or b.id == 0:
-        return 0.0
-    return max(0.0, 2.0 * radius - hypot(a.x - b.x, a.z - b.z))
+    """Compute how deep any two balls are inside each other [u]; 0 if they are not."""
+    depth = 0.0
+    for other in range(1, MAX_BALLS):
+        for one in range(other):
+            a, b = world.ball[one], world.ball[other]
+            if a.id != 0 and b.id != 0:
+                depth = max(depth, 2.0 * radius - hypot(a.x - b.x, a.z - b.z))
+    return depth
 
 
 @kernel
 def deepest(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> float:
     """Compute how deep any ball is inside any part, border or other ball [u]; 0 if none is."""
     depth = depth_in_other_ball(world, board.ball_radius)
-    paddles = board.collider_first + Part.LEFT_PADDLE
-    for slot in range(BALL_COUNT):
+    paddles = board.collider_first + Part.FIRST_PADDLE
+    for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
         depth = max(depth, depth_in_borders(board, colliders, ball.x, ball.z))
         depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
-        for side in range(2):
-            angle = world.paddle[side].angle
-            inside = depth_in_paddle(colliders[paddles + side], angle, ball.x, ball.z, board.ball_radius)
+        for index in range(board.paddles):
+            angle = world.paddle[index].angle
+            inside = depth_in_paddle(colliders[paddles + index], angle, ball.x, ball.z, board.ball_radius)
             depth = max(depth, inside)
     return depth
 

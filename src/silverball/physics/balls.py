@@ -17,8 +17,9 @@ from silverball.physics.motion import start_flight
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
-    BALL_COUNT,
+    MAX_BALLS,
     NOTHING,
+    BallRecord,
     BoardRecord,
     Colliders,
     Contact,
@@ -48,12 +49,12 @@ def clearance(
         smallest, part = right.z - z, as_int(Part.RIGHT_WALL)
     if top.x - x < smallest:
         smallest, part = top.x - x, as_int(Part.TOP_WALL)
-    for index in range(first + Part.LEFT_PADDLE, board.collider_end):
+    for index in range(first + Part.FIRST_PADDLE, board.collider_end):
         c = colliders[index]
         if c.kind == Kind.ABSENT:
             continue
-        if c.kind == Kind.PADDLE:
-            gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.LEFT_PADDLE].angle, x, z)
+        if index < first + board.shape_first:
+            gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.FIRST_PADDLE].angle, x, z)
         else:
             gap, _, _ = distance(c, x, z)
         if gap < smallest:
@@ -65,7 +66,7 @@ def clearance(
 def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float) -> float:
     """Compute the smallest gap [u] between a ball at (x, z) and the balls on the board."""
     smallest = 1e300
-    for index in range(BALL_COUNT):
+    for index in range(MAX_BALLS):
         ball = world.ball[index]
         if ball.id != 0:
             gap = sqrt((ball.x - x) ** 2 + (ball.z - z) ** 2) - 2.0 * board.ball_radius
@@ -125,7 +126,7 @@ def put_ball(
     vz: float,
 ) -> None:
     """Create a ball at (x, z) with a velocity, in an empty slot of the world."""
-    is_known = flight_checksum(world) == log.checksum
+    is_known = flight_checksum(world, board) == log.checksum
     world.created += 1
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
@@ -133,8 +134,8 @@ def put_ball(
     ball.id = world.created
     start_flight(ball, board, 0.0)
     if is_known:
-        store_checksum(world, log)
-    log_event(log, as_int(EventKind.CREATED), ball, world.tick, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
+        store_checksum(world, board, log)
+    log_event(log, as_int(EventKind.CREATED), ball, world.tick, NOTHING, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
 
 
 @kernel
@@ -169,7 +170,7 @@ def create_ball(
 @internal
 def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Jitter: give every ball on the board an impulse of fixed size in a random direction of its own."""
-    for slot in range(BALL_COUNT):
+    for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
@@ -179,21 +180,39 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
         ball.vz += board.jitter * cosine
         ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
         start_flight(ball, board, 0.0)
-        log_event(
-            log, as_int(EventKind.JITTER), ball, world.tick, Contact(0.0, NOTHING, sine, cosine), board.jitter
-        )
+        contact = Contact(0.0, NOTHING, sine, cosine)
+        log_event(log, as_int(EventKind.JITTER), ball, world.tick, NOTHING, contact, board.jitter)
 
 
 @kernel
 def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> bool:
-    """Move two overlapping balls apart, each by half of the overlap.
+    """Move overlapping balls apart, each pair by half of its overlap.
 
     Only a state that was modified externally can hold an overlap; an exact step never makes one.
 
     Returns:
-        Whether the balls are apart now; False, with nothing changed, if that would push one into a part.
+        Whether all balls are apart now; False if that would push one into a part or into a third ball. A
+        pair that cannot be moved apart is not changed.
     """
-    a, b = world.ball[0], world.ball[1]
+    for other in range(1, board.max_balls):
+        for one in range(other):
+            if not _separate_pair(world, board, colliders, world.ball[one], world.ball[other]):
+                return False
+    for other in range(1, board.max_balls):
+        for one in range(other):
+            a, b = world.ball[one], world.ball[other]
+            dx, dz = a.x - b.x, a.z - b.z
+            reach = 2.0 * board.ball_radius - FREE_GAP
+            if a.id != 0 and b.id != 0 and dx * dx + dz * dz < reach * reach:
+                return False
+    return True
+
+
+@internal
+def _separate_pair(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, a: BallRecord, b: BallRecord
+) -> bool:
+    """Move two balls apart if they overlap; return whether they are apart now."""
     if a.id == 0 or b.id == 0:
         return True
     dx, dz = a.x - b.x, a.z - b.z

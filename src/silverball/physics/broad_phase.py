@@ -9,7 +9,7 @@ Borders and paddles are not in the grid; they are tested by their coordinates.
 from __future__ import annotations
 
 from silverball.physics.kernel import inlined, kernel
-from silverball.physics.records import BallMotion, BoardRecord, ColliderRecord, Colliders, Grid, Part
+from silverball.physics.records import BallMotion, BoardRecord, ColliderRecord, Colliders, Grid
 from silverball.physics.shapes import distance
 from silverball.physics.tolerances import SPEED_MARGIN
 
@@ -40,7 +40,7 @@ def fill_grid(board: BoardRecord, colliders: Colliders, grid: Grid) -> int:
         z = (cell % board.grid_columns + 0.5) * side - board.half_width
         if board.grid_first + cell < len(grid):
             grid[board.grid_first + cell] = end
-        for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
+        for index in range(board.collider_first + board.shape_first, board.collider_end):
             gap, _, _ = distance(colliders[index], x, z)
             if gap < reach:
                 if end < len(grid):

@@ -15,7 +15,7 @@ from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, start_flight, start_rolling
-from silverball.physics.paddle import contact_with_paddle, surface_velocity
+from silverball.physics.paddle import contact_with_paddle, read_sweep, surface_velocity
 from silverball.physics.records import (
     GUTTER,
     NOTHING,
@@ -27,8 +27,8 @@ from silverball.physics.records import (
     EventKind,
     Kind,
     Lane,
+    LogRecord,
     Motion,
-    PaddleSweep,
     Part,
     WorldRecord,
 )
@@ -41,7 +41,7 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     """Resume the search along a ball's flight at `contact_age`, covering a distance of at most `board.skin`.
 
     The flight of a slipping ball is searched to the end of the tick only, where it ends. At equal times the
-    part that comes first in the table wins, also on a mirrored table that lists its parts in the same order.
+    row that comes first wins, also on a mirrored table that lists its parts in the same order.
     """
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     start = ball.contact_age
@@ -53,28 +53,28 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     max_mean_speed = speed + 0.5 * board.max_accel * span
     if max_mean_speed * span > board.skin:
         span = board.skin / max_mean_speed
-    time, part = start + span, NOTHING
+    time, row = start + span, NOTHING
     if ball.roll_age < time:
-        time, part = max(ball.roll_age, start), ROLL_START
+        time, row = max(ball.roll_age, start), ROLL_START
     sagitta = 0.5 * board.max_accel * span * span  # upper bound of the distance from the straight line
     travel = max_mean_speed * span
 
     if state.z - travel < board.low_z:
         at = start + time_to_border(state.z - board.low_z, state.vz, ball.accel_z)
         if at < time:
-            time, part = at, as_int(Part.LEFT_WALL)
+            time, row = at, as_int(Part.LEFT_WALL)
     if state.z + travel > board.high_z:
         at = start + time_to_border(board.high_z - state.z, -state.vz, -ball.accel_z)
         if at < time:
-            time, part = at, as_int(Part.RIGHT_WALL)
+            time, row = at, as_int(Part.RIGHT_WALL)
     if state.x + travel > board.top_x:
         at = start + time_to_border(board.top_x - state.x, -state.vx, -ball.accel_x)
         if at < time:
-            time, part = at, as_int(Part.TOP_WALL)
+            time, row = at, as_int(Part.TOP_WALL)
     if state.x - travel < board.gutter:
         at = start + time_to_border(state.x - board.gutter, state.vx, ball.accel_x)
         if at < time:
-            time, part = at, GUTTER
+            time, row = at, GUTTER
 
     reach = board.ball_radius + FREE_GAP
     cell = cell_of(board, state.x, state.z)
@@ -84,55 +84,44 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
             continue
         at, is_hit = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
         if at < time:
-            time, part = at, index - board.collider_first if is_hit else NOTHING
-    ball.contact_age, ball.contact_part = time, part
+            time, row = at, index - board.collider_first if is_hit else NOTHING
+    ball.contact_age, ball.contact_row = time, row
 
 
 @internal
 def first_contact(
-    geometry: BoardGeometry,
-    left: PaddleSweep,
-    right: PaddleSweep,
-    ball: BallRecord,
-    start: float,
-    limit: float,
-    tick: float,
+    geometry: BoardGeometry, log: LogRecord, ball: BallRecord, start: float, limit: float, tick: float
 ) -> Contact:
     """Find the first contact of a ball between two times of the tick [s].
 
-    At equal times a stationary part comes before a paddle, and the left paddle before the right one. The
+    At equal times a stationary part comes before a paddle, and paddles follow each other in their order. The
     normal is set for paddles only; that of a stationary part is computed in `resolve`.
     """
     if ball.id == 0:
         return Contact(limit, NOTHING, 0.0, 0.0)
     searches = 0
-    while ball.contact_part == NOTHING and ball.contact_age < ball.age + limit:
+    while ball.contact_row == NOTHING and ball.contact_age < ball.age + limit:
         if searches == FLIGHT_STEPS:
             return Contact(start, NULL_EVENT, 0.0, 0.0)
         find_contact(geometry, ball, tick)
         searches += 1
     board, colliders = geometry.board, geometry.colliders
     best = Contact(limit, NOTHING, 0.0, 0.0)
-    if ball.contact_part != NOTHING:
+    if ball.contact_row != NOTHING:
         time = max(ball.contact_age - ball.age, start)
         if time < limit:
-            best = Contact(time, ball.contact_part, 0.0, 0.0)
+            best = Contact(time, ball.contact_row, 0.0, 0.0)
     state = state_at(ball, ball.age + start)
     span = best.time - start
     if state.x + span * (min(state.vx, 0.0) - board.max_accel * span) > board.paddle_top:
         return best
     speed = sqrt(state.vx * state.vx + state.vz * state.vz)
     travel = span * (speed + board.max_accel * span)
-    if is_near(state.x, state.z, board.left_x, board.left_z, board.left_reach + travel):
-        c = colliders[board.collider_first + Part.LEFT_PADDLE]
-        best = contact_with_paddle(
-            c, as_int(Part.LEFT_PADDLE), left, ball, board.ball_radius, speed, start, best
-        )
-    if is_near(state.x, state.z, board.right_x, board.right_z, board.right_reach + travel):
-        c = colliders[board.collider_first + Part.RIGHT_PADDLE]
-        best = contact_with_paddle(
-            c, as_int(Part.RIGHT_PADDLE), right, ball, board.ball_radius, speed, start, best
-        )
+    for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
+        c = colliders[board.collider_first + row]
+        if is_near(state.x, state.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
+            sweep = read_sweep(log.sweep[row - Part.FIRST_PADDLE])
+            best = contact_with_paddle(c, row, sweep, ball, board.ball_radius, speed, start, best)
     return best
 
 
@@ -143,20 +132,19 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     `omega` is the angular velocity of the paddle met [rad/s].
     """
     world, board, time = lane.world, geometry.board, contact.time
-    if contact.part == NULL_EVENT:
+    if contact.row == NULL_EVENT:
         return
-    if contact.part == ROLL_START:
+    if contact.row == ROLL_START:
         start_rolling(ball, board)
         return
     advance_to(ball, board, ball.age + time)
-    if contact.part == GUTTER:
+    if contact.row == GUTTER:
         world.drained += 1
-        log_event(
-            lane.log, as_int(EventKind.GUTTER), ball, world.tick, Contact(time, GUTTER, 1.0, 0.0), -ball.vx
-        )
+        contact = Contact(time, GUTTER, 1.0, 0.0)
+        log_event(lane.log, as_int(EventKind.GUTTER), ball, world.tick, GUTTER, contact, -ball.vx)
         clear_ball(ball)
         return
-    c = geometry.colliders[board.collider_first + contact.part]
+    c = geometry.colliders[board.collider_first + contact.row]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
     acceleration = board.gravity
     if c.kind == Kind.WALL:
@@ -166,17 +154,17 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     elif omega != 0.0:
         ux, uz = surface_velocity(c, omega, ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz)
         acceleration += omega * omega * c.reach
-    contact = Contact(time, contact.part, nx, nz)
+    contact = Contact(time, contact.row, nx, nz)
     speed = bounce(ball, board, c, contact, ux, uz, acceleration)
     kind = as_int(EventKind.TOUCH)
     if speed > board.hit_speed:
         kind = as_int(EventKind.HIT)
         world.score += c.points
-        lane.tally[contact.part] += 1
+        lane.tally[c.part] += 1
         count_hit(world, c.kind)
     else:
         world.touches += 1
-    log_event(lane.log, kind, ball, world.tick, contact, speed)
+    log_event(lane.log, kind, ball, world.tick, c.part, contact, speed)
     start_flight(ball, board, time)
 
 
@@ -188,7 +176,7 @@ def clear_ball(ball: BallRecord) -> None:
     ball.id = 0
     ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = 0.0, 0.0, 0.0, 0.0
     ball.accel_x, ball.accel_z, ball.motion, ball.roll_age = 0.0, 0.0, 0, 0.0
-    ball.ticks, ball.offset, ball.age, ball.contact_age, ball.contact_part = 0, 0.0, 0.0, 0.0, 0
+    ball.ticks, ball.offset, ball.age, ball.contact_age, ball.contact_row = 0, 0.0, 0.0, 0.0, 0
 
 
 @internal

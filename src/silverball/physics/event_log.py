@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.records import (
-    BALL_COUNT,
     LOG_LENGTH,
     LOG_RESERVE,
     LOG_SIZE,
+    MAX_BALLS,
     BallRecord,
+    BoardRecord,
     Contact,
     EventKind,
     LogRecord,
@@ -21,7 +22,7 @@ def begin_step(log: LogRecord) -> None:
     """Drop the events of the previous step, but not the balls created since it ended."""
     if log.count == 0 and log.lost == 0:
         return
-    carried = min(max(log.count - log.done, 0), BALL_COUNT)
+    carried = min(max(log.count - log.done, 0), MAX_BALLS)
     first = log.count - carried
     for number in range(carried):
         log.event[number] = log.event[first + number]
@@ -35,7 +36,9 @@ def clear_log(log: LogRecord) -> None:
 
 
 @internal
-def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: Contact, speed: float) -> None:
+def log_event(
+    log: LogRecord, kind: int, ball: BallRecord, tick: int, part: int, contact: Contact, speed: float
+) -> None:
     """Append an event of a ball at its present position (see `records.EVENT`), or count it as lost."""
     capacity = log.carried + LOG_SIZE
     if kind <= EventKind.BALL_TOUCH:
@@ -47,7 +50,7 @@ def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: C
         return
     event = log.event[log.count]
     log.count += 1
-    event.kind, event.part, event.ball = kind, contact.part, ball.id
+    event.kind, event.part, event.ball = kind, part, ball.id
     event.tick, event.offset = tick, contact.time
     event.x, event.z = ball.x, ball.z
     event.normal_x, event.normal_z = contact.nx, contact.nz
@@ -55,19 +58,23 @@ def log_event(log: LogRecord, kind: int, ball: BallRecord, tick: int, contact: C
 
 
 @internal
-def store_checksum(world: WorldRecord, log: LogRecord) -> None:
+def store_checksum(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Store the checksum of the state that a call leaves, for `validation.is_unchanged`."""
-    log.checksum = flight_checksum(world)
+    log.checksum = flight_checksum(world, board)
 
 
 @inlined
-def flight_checksum(world: WorldRecord) -> float:
+def flight_checksum(world: WorldRecord, board: BoardRecord) -> float:
     """Compute a number that identifies the flights, the next contacts and the paddles' angles.
 
     It detects changed states, but does not protect against deliberate collisions.
     """
-    angles = 3.0 * world.paddle[0].angle + 5.0 * world.paddle[1].angle
-    return _ball_checksum(world.ball[0]) + _ball_checksum(world.ball[1]) + angles
+    checksum = 0.0
+    for slot in range(board.max_balls):
+        checksum += _ball_checksum(world.ball[slot])
+    for index in range(board.paddles):
+        checksum += (3.0 + 2.0 * index) * world.paddle[index].angle
+    return checksum
 
 
 @inlined
@@ -75,4 +82,4 @@ def _ball_checksum(ball: BallRecord) -> float:
     """Compute the share of one ball."""
     start = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
     motion = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
-    return start + motion + (ball.contact_age + ball.contact_part)
+    return start + motion + (ball.contact_age + ball.contact_row)

@@ -36,7 +36,7 @@ play:
                   advance_ticks
     contact_age   find_contact,               searches, skip-ahead   ≥ age: there is no contact with a
                   reset_search                                       stationary part before this age
-    contact_part  find_contact,               searches, skip-ahead   what is met at contact_age: a part,
+    contact_row  find_contact,               searches, skip-ahead   what is met at contact_age: a part,
                   reset_search                                       GUTTER or ROLL_START; NOTHING: none is
                                                                      known, search on from contact_age
 
@@ -111,7 +111,7 @@ def _set_start(ball: BallRecord, offset: float) -> None:
 @inlined
 def reset_search(ball: BallRecord) -> None:
     """Discard the known next contact: the flight is searched again from its start."""
-    ball.contact_age, ball.contact_part = 0.0, NOTHING
+    ball.contact_age, ball.contact_row = 0.0, NOTHING
 
 
 @internal

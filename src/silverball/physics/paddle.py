@@ -17,7 +17,14 @@ from math import sqrt
 from silverball.physics.flight import newton_refined, state_at, stays_open, time_to_line
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import NULL_EVENT, BallRecord, ColliderRecord, Contact, PaddleSweep
+from silverball.physics.records import (
+    NULL_EVENT,
+    BallRecord,
+    ColliderRecord,
+    Contact,
+    PaddleSweep,
+    SweepRecord,
+)
 from silverball.physics.shapes import point_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, MIN_ADVANCE_GAP, NEVER
 
@@ -32,6 +39,23 @@ def start_sweep(c: ColliderRecord, angle: float, raised: bool) -> PaddleSweep:
     elif angle > stop:
         omega = -c.return_speed
     return PaddleSweep(angle, omega, stop)
+
+
+@inlined
+def read_sweep(record: SweepRecord) -> PaddleSweep:
+    """Read a paddle's motion in the present tick."""
+    return PaddleSweep(record.angle, record.omega, record.stop)
+
+
+@inlined
+def write_sweep(record: SweepRecord, paddle: PaddleSweep, stop_time: float) -> None:
+    """Write a paddle's motion in the present tick, and when it reaches its stop [s]."""
+    record.angle, record.omega, record.stop, record.stop_time = (
+        paddle.angle,
+        paddle.omega,
+        paddle.stop,
+        stop_time,
+    )
 
 
 @inlined
@@ -131,7 +155,7 @@ def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, flo
 @internal
 def contact_with_paddle(
     c: ColliderRecord,
-    part: int,
+    row: int,
     paddle: PaddleSweep,
     ball: BallRecord,
     radius: float,
@@ -177,7 +201,7 @@ def contact_with_paddle(
             gap, nx, nz = paddle_distance(
                 c, angle_at(paddle, time) if omega != 0.0 else angle, state.x, state.z
             )
-            return Contact(time, part, nx, nz)
+            return Contact(time, row, nx, nz)
         gap_accel = nx * ball.accel_x + nz * ball.accel_z if omega == 0.0 else -bound
         gap = max(gap, 0.0)
         if stays_open(gap, rate, gap_accel, limit - time):
@@ -185,7 +209,7 @@ def contact_with_paddle(
         step = time_to_line(gap, rate, gap_accel)
         if omega == 0.0:
             if step == 0.0:  # at rest on the paddle and pressed against it
-                return Contact(time, part, nx, nz)
+                return Contact(time, row, nx, nz)
         elif step < min_step and rate >= 0.0:
             # The ball runs along with the surface: advance, at most MIN_ADVANCE_GAP too far.
             step = min_step

@@ -18,31 +18,45 @@ from numpy.typing import NDArray
 
 from silverball.physics.kernel import SETTINGS
 
-BALL_COUNT = 2
-"""Balls in a world record; a table may allow one or two (`max_balls`)."""
+MAX_BALLS = 8
+"""Balls in a world record; a board uses the first `max_balls` of them."""
+
+MAX_PADDLES = 8
+"""Paddles in a world record; a board uses the first `paddles` of them."""
+
+MAX_PAIRS = MAX_BALLS * (MAX_BALLS - 1) // 2
+"""Pairs of balls, in the order (0, 1), (0, 2), (1, 2), (0, 3), …: those of the first n balls come first."""
 
 LOG_SIZE = 64
 """Events of one step that a world's log holds; later ones are counted as lost."""
 
-LOG_LENGTH = LOG_SIZE + 2 * BALL_COUNT
+LOG_LENGTH = LOG_SIZE + 2 * MAX_BALLS
 """Capacity of a log: the events of a step, and the balls created before it and after it."""
 
 LOG_RESERVE = 8
 """Slots of a log that contacts leave free: a jam comes after many touches and must not be lost."""
 
 
+# The buttons that are held in a tick, as bits; JITTER shoves the balls.
+LEFT, RIGHT, JITTER, LAUNCH = 1, 2, 4, 8
+
+
 class Part(IntEnum):
-    """The first colliders of every board; the table's other parts have the numbers from `FIRST_SHAPE` on."""
+    """The first colliders of every board, and parts of the same numbers.
+
+    The paddles are the `board.paddles` rows from `FIRST_PADDLE` on, the stationary shapes those from
+    `board.shape_first` on.
+    """
 
     LEFT_WALL = 0
     RIGHT_WALL = 1
     TOP_WALL = 2
+    FIRST_PADDLE = 3
     LEFT_PADDLE = 3
     RIGHT_PADDLE = 4
-    FIRST_SHAPE = 5
 
 
-# Special values in fields that hold part numbers; plain integers, so that both have one type in kernels.
+# Special values in fields that hold rows or parts; plain integers, so that both have one type in kernels.
 NOTHING = -1
 GUTTER = -2
 OTHER_BALL = -3
@@ -138,7 +152,7 @@ BALL = np.dtype(
         ("ticks", "i8"), ("offset", "f8"),  # ticks since it started, and the offset within its first tick [s]
         ("age", "f8"),  # at the start of the next tick [s]
         # The next contact with a stationary part; with NOTHING: there is none up to this age [s].
-        ("contact_age", "f8"), ("contact_part", "i8"),
+        ("contact_age", "f8"), ("contact_row", "i8"),
     ],
     align=True,
 )  # fmt: skip
@@ -154,8 +168,8 @@ PADDLE = np.dtype(
 
 WORLD = np.dtype(
     [
-        ("ball", BALL, (BALL_COUNT,)),
-        ("paddle", PADDLE, (2,)),  # left, right
+        ("ball", BALL, (MAX_BALLS,)),
+        ("paddle", PADDLE, (MAX_PADDLES,)),
         ("tick", "i8"),
         ("seed", "i8"), ("draws", "i8"),  # the random generator: key and counter
         ("score", "i8"),
@@ -183,10 +197,8 @@ BOARD = np.dtype(
         ("max_balls", "i8"),
         ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # limits of a ball's centre at the borders [u]
         ("paddle_top", "f8"),  # no paddle can touch a ball whose centre is above this x [u]
-        # Circles in which a ball's centre must be to touch the left or right paddle, at any angle.
-        ("left_x", "f8"), ("left_z", "f8"), ("left_reach", "f8"),
-        ("right_x", "f8"), ("right_z", "f8"), ("right_reach", "f8"),
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
+        ("paddles", "i8"), ("shape_first", "i8"),  # their number; the row of the first stationary shape
         # The grid (see broad_phase.py): this board's first cell, cells along x and z, and cells per u.
         ("grid_first", "i8"), ("grid_rows", "i8"), ("grid_columns", "i8"), ("grid_scale", "f8"),
         ("skin", "f8"),  # a cell lists all parts that a ball can touch within this travel [u]
@@ -217,9 +229,11 @@ COLLIDER = np.dtype(
         ("shape", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
-        # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]
+        # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the
+        # button; a circle in which a ball's centre must be to touch the paddle, at any angle.
         ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"),
-        ("lift_speed", "f8"), ("return_speed", "f8"),
+        ("lift_speed", "f8"), ("return_speed", "f8"), ("button", "i8"),
+        ("sweep_x", "f8"), ("sweep_z", "f8"), ("sweep_reach", "f8"),
         ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
     ],
     align=True,
@@ -228,7 +242,7 @@ COLLIDER = np.dtype(
 EVENT = np.dtype(
     [
         ("kind", "i8"),  # EventKind
-        ("part", "i8"),  # the collider's number on its board, or NOTHING, GUTTER, OTHER_BALL
+        ("part", "i8"),  # the part's number on its board, or NOTHING, GUTTER, OTHER_BALL
         ("ball", "i8"),  # id
         ("tick", "i8"),
         ("offset", "f8"),  # time within the tick [s]
@@ -239,12 +253,25 @@ EVENT = np.dtype(
     align=True,
 )  # fmt: skip
 
+SWEEP = np.dtype(
+    [
+        ("angle", "f8"), ("omega", "f8"), ("stop", "f8"),  # see `PaddleSweep`
+        ("stop_time", "f8"),  # when in the tick it reaches its stop [s], or NEVER
+    ],
+    align=True,
+)  # fmt: skip
+
 LOG = np.dtype(
     [
         ("count", "i8"), ("lost", "i8"),
         ("carried", "i8"),  # the first events: balls created before the last step
         ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "f8"),  # of the flights and angles that the last call left
+        # Scratch of a tick: the paddles' motion; for each ball its events since its last jam and its jams;
+        # for each pair of balls the contacts between them since a jam of either.
+        ("sweep", SWEEP, (MAX_PADDLES,)),
+        ("ball_events", "i8", (MAX_BALLS,)), ("ball_jams", "i8", (MAX_BALLS,)),
+        ("pair_events", "i8", (MAX_PAIRS,)),
         ("event", EVENT, (LOG_LENGTH,)),
     ],
     align=True,
@@ -257,6 +284,7 @@ BallRecord: TypeAlias = Any  # a BALL record
 PaddleRecord: TypeAlias = Any  # a PADDLE record
 BoardRecord: TypeAlias = Any  # a BOARD record
 ColliderRecord: TypeAlias = Any  # a COLLIDER record
+SweepRecord: TypeAlias = Any  # a SWEEP record
 LogRecord: TypeAlias = Any  # a LOG record
 Colliders: TypeAlias = Any  # COLLIDER records [collider] of all boards
 Grid: TypeAlias = Any  # i4 [number]: the grids of all boards
@@ -288,10 +316,10 @@ class PaddleSweep(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """A contact: its time [s], the part met, the unit normal from the part to the ball."""
+    """A contact: its time [s], the row of the collider met, the unit normal from it to the ball."""
 
     time: float
-    part: int
+    row: int
     nx: float
     nz: float
 

@@ -10,9 +10,18 @@ from __future__ import annotations
 from silverball.physics.broad_phase import is_near, max_travel
 from silverball.physics.contact import find_contact
 from silverball.physics.flight import contact_with_ball, state_at, time_to_line
-from silverball.physics.kernel import inlined, internal
+from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.motion import restart_slip, start_rolling
-from silverball.physics.records import NOTHING, ROLL_START, BallRecord, BoardGeometry, BoardRecord, Motion
+from silverball.physics.records import (
+    NOTHING,
+    ROLL_START,
+    BallRecord,
+    BoardGeometry,
+    BoardRecord,
+    Motion,
+    Part,
+    WorldRecord,
+)
 from silverball.physics.tolerances import FREE_GAP
 
 SHORTER = 1.0 - 1e-9  # factor on time bounds, so that their rounding cannot matter
@@ -21,28 +30,29 @@ SHORTER = 1.0 - 1e-9  # factor on time bounds, so that their rounding cannot mat
 @inlined
 def starts_rolling_next(ball: BallRecord, tick: float) -> bool:
     """Whether a ball's slip ends in the next tick, before it meets anything."""
-    return ball.contact_part == ROLL_START and ball.contact_age < ball.age + tick and ball.id != 0
+    return ball.contact_row == ROLL_START and ball.contact_age < ball.age + tick and ball.id != 0
 
 
 @inlined
 def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
-    """Whether a ball meets nothing in the next tick, apart from the other ball."""
+    """Whether a ball meets nothing in the next tick, apart from other balls."""
     if ball.id == 0:
         return True
     end = ball.age + tick
-    if ball.contact_age < end and ball.contact_part == NOTHING:
+    if ball.contact_age < end and ball.contact_row == NOTHING:
         find_contact(geometry, ball, tick)
-    if ball.contact_age < end and ball.contact_part != ROLL_START:
+    if ball.contact_age < end and ball.contact_row != ROLL_START:
         return False
     board = geometry.board
     margin = 1.0 if ball.contact_age >= end else 2.0  # a ball that starts to roll changes its flight
     if ball.x + margin * tick * (min(ball.vx, 0.0) - board.max_accel * tick) > board.paddle_top:
         return True
     travel = margin * tick * (abs(ball.vx) + abs(ball.vz) + board.max_accel * tick)
-    return not (
-        is_near(ball.x, ball.z, board.left_x, board.left_z, board.left_reach + travel)
-        or is_near(ball.x, ball.z, board.right_x, board.right_z, board.right_reach + travel)
-    )
+    for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
+        c = geometry.colliders[board.collider_first + row]
+        if is_near(ball.x, ball.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
+            return False
+    return True
 
 
 @inlined
@@ -68,7 +78,7 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: 
     """Compute a lower bound, at least one, of the ticks for which a ball stays undisturbed.
 
     The ball must be undisturbed in the next tick. The bound is the first time at which its contact is due, a
-    paddle can be in reach, or its speed reaches the cap. The other ball is ignored.
+    paddle can be in reach, or its speed reaches the cap. Other balls are ignored.
     """
     if ball.id == 0 or limit == 1:
         return limit
@@ -89,28 +99,47 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: 
 
 
 @internal
-def event_free_ticks(geometry: BoardGeometry, a: BallRecord, b: BallRecord, tick: float, limit: int) -> int:
+def event_free_ticks(geometry: BoardGeometry, world: WorldRecord, tick: float, limit: int) -> int:
     """Compute how many of the next ticks, at most `limit`, are free of events."""
     board = geometry.board
-    restart_slip(a, board)
-    restart_slip(b, board)
-    if not (is_undisturbed(geometry, a, tick) and is_undisturbed(geometry, b, tick)):
-        return 0
-    change_a, change_b = starts_rolling_next(a, tick), starts_rolling_next(b, tick)
-    # Twice the distance: if b does not roll undisturbed although a already rolls, the tick is played with a's
-    # new flight, which must not be evaluated before it began.
-    if not cannot_meet(board, a, b, tick, 2.0 if change_a or change_b else 1.0):
-        return 0
-    if change_a and not rolls_undisturbed(geometry, a, tick):
-        return 0
-    if change_b and not rolls_undisturbed(geometry, b, tick):
-        return 0
-    count = undisturbed_ticks(board, a, tick, limit)
-    count = undisturbed_ticks(board, b, tick, count)
-    if count == 1 or a.id == 0 or b.id == 0:
+    slots = board.max_balls
+    changes = False
+    for slot in range(slots):
+        restart_slip(world.ball[slot], board)
+    for slot in range(slots):
+        if not is_undisturbed(geometry, world.ball[slot], tick):
+            return 0
+        changes = changes or starts_rolling_next(world.ball[slot], tick)
+    # Twice the distance: if one ball does not roll undisturbed although another one already rolls, the tick
+    # is played with that one's new flight, which must not be evaluated before it began.
+    margin = 2.0 if changes else 1.0
+    for other in range(1, slots):
+        for one in range(other):
+            if not cannot_meet(board, world.ball[one], world.ball[other], tick, margin):
+                return 0
+    if changes:
+        for slot in range(slots):
+            ball = world.ball[slot]
+            if starts_rolling_next(ball, tick) and not rolls_undisturbed(geometry, ball, tick):
+                return 0
+    count = limit
+    for slot in range(slots):
+        count = undisturbed_ticks(board, world.ball[slot], tick, count)
+    if count == 1:
         return count
+    for other in range(1, slots):
+        for one in range(other):
+            a, b = world.ball[one], world.ball[other]
+            if a.id != 0 and b.id != 0:
+                count = apart_ticks(board, a, b, tick, count)
+    return count
+
+
+@inlined
+def apart_ticks(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, limit: int) -> int:
+    """Compute a lower bound, at least one, of the ticks for which two balls do not meet."""
     at_a, at_b = state_at(a, a.age), state_at(b, b.age)
     accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
-    end = count * tick
+    end = limit * tick
     contact = contact_with_ball(at_a, at_b, accel_x, accel_z, board.ball_radius + FREE_GAP, end)
-    return count if contact.part == NOTHING else max(1, int(contact.time * SHORTER / tick))
+    return limit if contact.row == NOTHING else max(1, int(contact.time * SHORTER / tick))

@@ -3,7 +3,7 @@
     set the paddles' motion
     → if nothing is near: advance balls and paddles to the end of the tick
     → else, until the tick is used up:
-        find the earliest contact of each ball (parts, gutter, other ball)
+        find the earliest contact of each ball (parts, gutter, other balls)
         → advance the ball to it → bounce → log the event → start a new flight
     → advance the balls to the end of the tick, clamp their speeds → count the tick
 
@@ -12,7 +12,7 @@ A search also ends at the moment a paddle reaches its stop, so a paddle's motion
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
@@ -26,13 +26,19 @@ from silverball.physics.paddle import (
     angle_at,
     end_at_stop,
     paddle_distance,
+    read_sweep,
     start_sweep,
     stop_sweep,
     time_to_stop,
+    write_sweep,
 )
 from silverball.physics.records import (
+    JITTER,
+    LAUNCH,
+    LEFT,
     NOTHING,
     NULL_EVENT,
+    RIGHT,
     BallRecord,
     BatchGeometry,
     BoardGeometry,
@@ -55,139 +61,172 @@ from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
 
+JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
 
-class EventCounts(NamedTuple):
-    """Events of this tick, to detect jams.
 
-    Attributes:
-        a: Events of ball 0 since its last jam.
-        b: The same for ball 1.
-        shared: How many of these were contacts between the two balls.
-        jams_a: Jams of ball 0.
-        jams_b: Jams of ball 1.
-    """
-
-    a: int
-    b: int
-    shared: int
-    jams_a: int
-    jams_b: int
+@inlined
+def button_bits(left: bool, right: bool) -> int:
+    """Compute the bits of two held buttons."""
+    return (LEFT if left else 0) | (RIGHT if right else 0)
 
 
 @kernel
-def step_world(
-    lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, shove: bool, tick: float
-) -> None:
-    """Advance a world by one tick [s]. A world with a fault does not move."""
+def step_world(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
+    """Advance a world by one tick [s], with these bits of buttons. A world with a fault does not move."""
     world, board = lane.world, geometry.board
     if can_step(world, geometry, lane.log, tick):
-        if shove:
+        if buttons & JITTER != 0:
             shove_balls(world, board, lane.log)
-        if event_free_ticks(geometry, world.ball[0], world.ball[1], tick, 1) == 1:
-            advance_paddles(world, board, geometry.colliders, raise_left, raise_right, tick)
+        if event_free_ticks(geometry, world, tick, as_int(1)) == 1:
+            advance_paddles(world, board, geometry.colliders, buttons, tick)
             finish_ticks(world, board, tick, as_int(1))
         else:
-            play_tick(lane, geometry, raise_left, raise_right, tick)
+            play_tick(lane, geometry, buttons, tick)
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # sets the fault
-        store_checksum(world, lane.log)
+        store_checksum(world, board, lane.log)
 
 
 @inlined
 def advance_paddles(
-    world: WorldRecord,
-    board: BoardRecord,
-    colliders: Colliders,
-    raise_left: bool,
-    raise_right: bool,
-    tick: float,
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, buttons: int, tick: float
 ) -> None:
     """Turn the paddles through a tick in which they meet nothing."""
-    left, right = world.paddle[0], world.paddle[1]
-    left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
-    right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
-    store_paddle(left, start_sweep(left_part, left.angle, raise_left), tick)
-    store_paddle(right, start_sweep(right_part, right.angle, raise_right), tick)
+    first = board.collider_first + Part.FIRST_PADDLE
+    for index in range(board.paddles):
+        c, paddle = colliders[first + index], world.paddle[index]
+        store_paddle(paddle, start_sweep(c, paddle.angle, buttons & c.button != 0), tick)
 
 
 @inlined
 def finish_ticks(world: WorldRecord, board: BoardRecord, tick: float, count: int) -> None:
     """Advance the balls to the end of a tick, or of several event-free ones, and count the ticks."""
-    advance_ticks(world.ball[0], board, tick, count)
-    advance_ticks(world.ball[1], board, tick, count)
+    for slot in range(board.max_balls):
+        advance_ticks(world.ball[slot], board, tick, count)
     world.tick += count
 
 
 @internal
-def play_tick(lane: Lane, geometry: BoardGeometry, raise_left: bool, raise_right: bool, tick: float) -> None:
-    """Play all events of one tick in their order."""
-    world, board, colliders = lane.world, geometry.board, geometry.colliders
-    left_part = colliders[board.collider_first + Part.LEFT_PADDLE]
-    right_part = colliders[board.collider_first + Part.RIGHT_PADDLE]
-    left = start_sweep(left_part, world.paddle[0].angle, raise_left)
-    right = start_sweep(right_part, world.paddle[1].angle, raise_right)
-    left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
-    a, b = world.ball[0], world.ball[1]
-    are_apart = cannot_meet(board, a, b, tick, 1.0)
+def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
+    """Play all events of one tick in their order.
+
+    At equal times the contact of a ball with a part comes before one with another ball, and balls follow
+    each other in the order of their slots.
+    """
+    world, board, log = lane.world, geometry.board, lane.log
+    start_tick(lane, geometry, buttons, tick)
+    near = near_pairs(world, board, tick)
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
-    counts = EventCounts(0, 0, 0, 0, 0)
     time = 0.0
     while True:
-        limit = min(tick, left_stop_time, right_stop_time)
-        contact_a = first_contact(geometry, left, right, a, time, limit, tick)
-        contact_b = first_contact(geometry, left, right, b, time, limit, tick)
-        ball_contact = Contact(min(contact_a.time, contact_b.time), NOTHING, 0.0, 0.0)
-        if not are_apart:
-            ball_contact = first_ball_contact(board, a, b, time, ball_contact.time)
-        time = min(ball_contact.time, limit)
-        is_free = ball_contact.part == NOTHING and contact_a.part == NOTHING and contact_b.part == NOTHING
-        if is_free and limit == tick:
+        limit = tick
+        for index in range(board.paddles):
+            limit = min(limit, log.sweep[index].stop_time)
+        slot, other, contact = -1, -1, Contact(limit, NOTHING, 0.0, 0.0)
+        for index in range(board.max_balls):
+            found = first_contact(geometry, log, world.ball[index], time, limit, tick)
+            if found.row != NOTHING and found.time < contact.time:
+                slot, contact = index, found
+        if near != 0:
+            slot, other, contact = first_ball_contact(world, board, near, time, slot, contact)
+        time = min(contact.time, limit)
+        if slot < 0 and limit == tick:
             break
 
-        if ball_contact.part != NOTHING:
-            resolve_ball_contact(world, board, lane.log, ball_contact)
-            counts = EventCounts(counts.a + 1, counts.b + 1, counts.shared + 1, counts.jams_a, counts.jams_b)
-        elif contact_a.part != NOTHING and contact_a.time <= contact_b.time:
-            omega = left.omega if contact_a.part == Part.LEFT_PADDLE else right.omega
-            resolve(lane, geometry, a, contact_a, omega)
-            counts = EventCounts(counts.a + 1, counts.b, counts.shared, counts.jams_a, counts.jams_b)
-        elif contact_b.part != NOTHING:
-            omega = left.omega if contact_b.part == Part.LEFT_PADDLE else right.omega
-            resolve(lane, geometry, b, contact_b, omega)
-            counts = EventCounts(counts.a, counts.b + 1, counts.shared, counts.jams_a, counts.jams_b)
-        if time >= left_stop_time:
-            left, left_stop_time = end_at_stop(left), NEVER
-        if time >= right_stop_time:
-            right, right_stop_time = end_at_stop(right), NEVER
+        if other >= 0:
+            resolve_ball_contact(lane, board, world.ball[slot], world.ball[other], contact)
+            count_pair_event(log, slot, other)
+        elif slot >= 0:
+            omega = 0.0
+            if Part.FIRST_PADDLE <= contact.row < board.shape_first:
+                omega = log.sweep[contact.row - Part.FIRST_PADDLE].omega
+            resolve(lane, geometry, world.ball[slot], contact, omega)
+            log.ball_events[slot] += 1
+        for index in range(board.paddles):
+            sweep = log.sweep[index]
+            if time >= sweep.stop_time:
+                write_sweep(sweep, end_at_stop(read_sweep(sweep)), NEVER)
 
-        if counts.a >= jam_limit or counts.b >= jam_limit:
-            left, right, counts = stop_jammed_balls(lane, geometry, left, right, time, counts, jam_limit)
-            left_stop_time, right_stop_time = time_to_stop(left, tick), time_to_stop(right, tick)
-    release(a, board, tick)
-    release(b, board, tick)
-    store_paddle(world.paddle[0], left, tick)
-    store_paddle(world.paddle[1], right, tick)
+        if slot >= 0 and (
+            log.ball_events[slot] >= jam_limit or (other >= 0 and log.ball_events[other] >= jam_limit)
+        ):
+            stop_jammed_balls(lane, geometry, time, jam_limit)
+    for index in range(board.max_balls):
+        release(world.ball[index], board, tick)
+    for index in range(board.paddles):
+        store_paddle(world.paddle[index], read_sweep(log.sweep[index]), tick)
     finish_ticks(world, board, tick, as_int(1))
 
 
 @inlined
-def first_ball_contact(
-    board: BoardRecord, a: BallRecord, b: BallRecord, start: float, limit: float
-) -> Contact:
-    """Find the first contact of the two balls between two times of the tick [s]."""
-    if a.id == 0 or b.id == 0:
-        return Contact(limit, NOTHING, 0.0, 0.0)
-    accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
-    at_a, at_b = state_at(a, a.age + start), state_at(b, b.age + start)
-    found = contact_with_ball(at_a, at_b, accel_x, accel_z, board.ball_radius, limit - start)
-    return Contact(min(start + found.time, limit), found.part, found.nx, found.nz)
+def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
+    """Set the paddles' motion in a tick, and empty the counters that detect jams."""
+    board, log = geometry.board, lane.log
+    first = board.collider_first + Part.FIRST_PADDLE
+    for index in range(board.paddles):
+        c = geometry.colliders[first + index]
+        sweep = start_sweep(c, lane.world.paddle[index].angle, buttons & c.button != 0)
+        write_sweep(log.sweep[index], sweep, time_to_stop(sweep, tick))
+    pair = 0
+    for slot in range(board.max_balls):
+        log.ball_events[slot], log.ball_jams[slot] = 0, 0
+        for _ in range(slot):
+            log.pair_events[pair] = 0
+            pair += 1
+
+
+@inlined
+def near_pairs(world: WorldRecord, board: BoardRecord, tick: float) -> int:
+    """Compute which pairs of balls may meet in a tick: bit n stands for the n-th pair (see `MAX_PAIRS`)."""
+    near, bit = 0, 1
+    for other in range(1, board.max_balls):
+        for one in range(other):
+            if not cannot_meet(board, world.ball[one], world.ball[other], tick, 1.0):
+                near |= bit
+            bit <<= 1
+    return near
+
+
+@inlined
+def count_pair_event(log: LogRecord, one: int, other: int) -> None:
+    """Count a contact of two balls, `one` in the slot before `other`."""
+    log.ball_events[one] += 1
+    log.ball_events[other] += 1
+    log.pair_events[other * (other - 1) // 2 + one] += 1
 
 
 @internal
-def resolve_ball_contact(world: WorldRecord, board: BoardRecord, log: LogRecord, contact: Contact) -> None:
-    """Bounce the two balls off each other. A ball that is held acts like a wall."""
-    a, b, time = world.ball[0], world.ball[1], contact.time
-    if contact.part == NULL_EVENT:
+def first_ball_contact(
+    world: WorldRecord, board: BoardRecord, near: int, start: float, slot: int, best: Contact
+) -> tuple[int, int, Contact]:
+    """Find the first contact of two balls from a time of the tick [s] on, if it is earlier than `best`.
+
+    Returns:
+        The slots of the two balls and their contact; or `slot`, −1 and `best`.
+    """
+    pair, partner = 0, -1
+    for other in range(1, board.max_balls):
+        for one in range(other):
+            a, b = world.ball[one], world.ball[other]
+            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0:
+                accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
+                at_a, at_b = state_at(a, a.age + start), state_at(b, b.age + start)
+                limit = best.time - start
+                found = contact_with_ball(at_a, at_b, accel_x, accel_z, board.ball_radius, limit)
+                if found.row != NOTHING:
+                    slot, partner = one, other
+                    best = Contact(min(start + found.time, best.time), found.row, found.nx, found.nz)
+            pair += 1
+    return slot, partner, best
+
+
+@internal
+def resolve_ball_contact(
+    lane: Lane, board: BoardRecord, a: BallRecord, b: BallRecord, contact: Contact
+) -> None:
+    """Bounce two balls off each other. A ball that is held acts like a wall."""
+    world, time = lane.world, contact.time
+    if contact.row == NULL_EVENT:
         return
     advance_to(a, board, a.age + time)
     advance_to(b, board, b.age + time)
@@ -203,7 +242,7 @@ def resolve_ball_contact(world: WorldRecord, board: BoardRecord, log: LogRecord,
         world.ball_hits += 1
     else:
         world.touches += 1
-    log_event(log, kind, a, world.tick, contact, speed)
+    log_event(lane.log, kind, a, world.tick, contact.row, contact, speed)
     if a.motion != Motion.HELD:
         start_flight(a, board, time)
     if b.motion != Motion.HELD:
@@ -211,84 +250,77 @@ def resolve_ball_contact(world: WorldRecord, board: BoardRecord, log: LogRecord,
 
 
 @internal
-def stop_jammed_balls(
-    lane: Lane,
-    geometry: BoardGeometry,
-    left: PaddleSweep,
-    right: PaddleSweep,
-    time: float,
-    counts: EventCounts,
-    limit: int,
-) -> tuple[PaddleSweep, PaddleSweep, EventCounts]:
+def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: int) -> None:
     """Stop the balls that have reached `limit` events in this tick, and stall the paddles next to them.
 
-    Both balls are stopped if contacts between the two make up at least 1/JAM_SHARE of `limit`.
-
-    Returns:
-        The updated paddles and counts.
+    A ball is stopped with another one if contacts between the two make up at least 1/JAM_SHARE of `limit`.
     """
-    a, b, jams_a, jams_b = counts.a, counts.b, counts.jams_a, counts.jams_b
-    is_shared = JAM_SHARE * counts.shared >= limit
-    if is_shared or counts.a >= limit:
-        left, right = stop_jammed_ball(lane, geometry, lane.world.ball[0], left, right, time, jams_a > 0)
-        a, jams_a = 0, jams_a + 1
-    if is_shared or counts.b >= limit:
-        left, right = stop_jammed_ball(lane, geometry, lane.world.ball[1], left, right, time, jams_b > 0)
-        b, jams_b = 0, jams_b + 1
-    return left, right, EventCounts(a, b, 0, jams_a, jams_b)
+    world, board, log = lane.world, geometry.board, lane.log
+    jammed, partners, pair = 0, 0, 0
+    for slot in range(board.max_balls):
+        if log.ball_events[slot] >= limit:
+            jammed |= 1 << slot
+    for other in range(1, board.max_balls):
+        for one in range(other):
+            both = 1 << one | 1 << other
+            if jammed & both != 0 and JAM_SHARE * log.pair_events[pair] >= limit:
+                partners |= both
+            pair += 1
+    jammed |= partners
+    pair = 0
+    for slot in range(board.max_balls):
+        is_jammed = jammed >> slot & 1 != 0
+        if is_jammed:
+            stop_jammed_ball(lane, geometry, world.ball[slot], time, log.ball_jams[slot] > 0)
+            log.ball_events[slot] = 0
+            log.ball_jams[slot] += 1
+        for one in range(slot):
+            if is_jammed or jammed >> one & 1 != 0:
+                log.pair_events[pair] = 0
+            pair += 1
 
 
 @internal
 def stop_jammed_ball(
-    lane: Lane,
-    geometry: BoardGeometry,
-    ball: BallRecord,
-    left: PaddleSweep,
-    right: PaddleSweep,
-    time: float,
-    is_repeat: bool,
-) -> tuple[PaddleSweep, PaddleSweep]:
+    lane: Lane, geometry: BoardGeometry, ball: BallRecord, time: float, is_repeat: bool
+) -> None:
     """Stop a jammed ball at a time of the tick, and stall the paddles next to it.
 
     A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
-
-    Returns:
-        The updated paddles.
     """
     if ball.id == 0 or ball.motion == Motion.HELD:
-        return left, right
+        return
     world, board, colliders = lane.world, geometry.board, geometry.colliders
     advance_to(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
-    left = stall_near(left, colliders[board.collider_first + Part.LEFT_PADDLE], ball, near, time, is_repeat)
-    right = stall_near(
-        right, colliders[board.collider_first + Part.RIGHT_PADDLE], ball, near, time, is_repeat
-    )
+    for index in range(board.paddles):
+        c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
+        sweep = read_sweep(lane.log.sweep[index])
+        if must_stall(sweep, c, ball, near, time, is_repeat):
+            write_sweep(lane.log.sweep[index], stop_sweep(sweep, time), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
-    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, Contact(time, NOTHING, 0.0, 0.0), 0.0)
+    contact = Contact(time, NOTHING, 0.0, 0.0)
+    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, NOTHING, contact, 0.0)
     if is_repeat:
         hold_still(ball, time)
     else:
         start_flight(ball, board, time)
-    return left, right
 
 
 @internal
-def stall_near(
+def must_stall(
     paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float, is_repeat: bool
-) -> PaddleSweep:
-    """Stop a paddle for the rest of the tick if it is within `near` [u] of a jammed ball's centre.
+) -> bool:
+    """Whether a turning paddle is within `near` [u] of a jammed ball's centre, so that it has to stop.
 
     If the ball is about to be held (`is_repeat`), a paddle that could reach it stops too: no paddle may run
     into a held ball.
     """
     if paddle.omega == 0.0:
-        return paddle
+        return False
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
-    if gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)):
-        return stop_sweep(paddle, time)
-    return paddle
+    return bool(gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
 
 
 @inlined
@@ -313,11 +345,21 @@ def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: 
 @inlined
 def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether the balls are within the borders: the only condition that a step itself can violate."""
-    a, b = world.ball[0], world.ball[1]
     x, z = board.half_length, board.half_width
-    return (a.id == 0 or (abs(a.x) <= x and abs(a.z) <= z)) and (
-        b.id == 0 or (abs(b.x) <= x and abs(b.z) <= z)
-    )
+    for slot in range(board.max_balls):
+        ball = world.ball[slot]
+        if ball.id != 0 and not (abs(ball.x) <= x and abs(ball.z) <= z):
+            return False
+    return True
+
+
+@inlined
+def held_buttons(actions: Any, row: int, index: int) -> int:
+    """Compute the bits of the buttons that a row of actions holds in a world; without the jitter."""
+    buttons = button_bits(actions[row, index, 0], actions[row, index, 1])
+    if actions.shape[2] > LAUNCH_COLUMN and actions[row, index, LAUNCH_COLUMN]:
+        buttons |= LAUNCH
+    return buttons
 
 
 @kernel
@@ -329,8 +371,8 @@ def run_worlds(
     Args:
         lanes: The worlds. Events of the previous step are dropped first, tallies are added to.
         geometries: Their boards.
-        actions: bool [1 or ticks, world, 3]: left, right, jitter. With one row the paddles are held for all
-            ticks and the jitter comes on the first.
+        actions: bool [1 or ticks, world, 3 or 4]: left, right, jitter and, if it is there, launch. With one
+            row the buttons are held for all ticks and the jitter comes on the first.
         first: The first world of the slice.
         end: One past its last world.
         ticks: How many ticks. A negative number continues the previous call by −ticks: logs are not emptied,
@@ -352,22 +394,23 @@ def run_worlds(
         tick_index = 0
         while tick_index < ticks and are_balls_on_board(world, board):
             row = 0 if is_held else tick_index
-            if actions[row, index, 2] and (not is_held or (tick_index == 0 and not is_continued)):
+            if actions[row, index, JITTER_COLUMN] and (not is_held or (tick_index == 0 and not is_continued)):
                 shove_balls(world, board, log)
-            free = event_free_ticks(geometry, world.ball[0], world.ball[1], tick, ticks - tick_index)
+            free = event_free_ticks(geometry, world, tick, ticks - tick_index)
             if free == 0:
-                left, right = actions[row, index, 0], actions[row, index, 1]
-                play_tick(lane, geometry, left, right, tick)
+                play_tick(lane, geometry, held_buttons(actions, row, index), tick)
                 tick_index += 1
                 continue
             count = 0
-            while count < free and (count == 0 or is_held or not actions[tick_index + count, index, 2]):
+            while count < free and (
+                count == 0 or is_held or not actions[tick_index + count, index, JITTER_COLUMN]
+            ):
                 row = 0 if is_held else tick_index + count
-                advance_paddles(world, board, colliders, actions[row, index, 0], actions[row, index, 1], tick)
+                advance_paddles(world, board, colliders, held_buttons(actions, row, index), tick)
                 count += 1
             finish_ticks(world, board, tick, count)
             tick_index += count
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # sets the fault
-        store_checksum(world, log)
+        store_checksum(world, board, log)
         log.done = log.count

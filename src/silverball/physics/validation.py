@@ -16,7 +16,7 @@ from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import has_valid_motion, is_on_flight, reset_search, start_flight
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.records import (
-    BALL_COUNT,
+    MAX_BALLS,
     BallRecord,
     BoardGeometry,
     BoardRecord,
@@ -32,11 +32,12 @@ from silverball.physics.tolerances import MAX_DEPTH, NEVER, SPEED_MARGIN
 @inlined
 def is_unchanged(world: WorldRecord, board: BoardRecord, log: LogRecord, tick: float) -> bool:
     """Whether the balls are on the flights, and the paddles at the angles, that the last call left."""
-    return (
-        flight_checksum(world) == log.checksum
-        and continues_flight(world.ball[0], board, tick)
-        and continues_flight(world.ball[1], board, tick)
-    )
+    if flight_checksum(world, board) != log.checksum:
+        return False
+    is_known = True
+    for slot in range(board.max_balls):
+        is_known = is_known and continues_flight(world.ball[slot], board, tick)
+    return bool(is_known)
 
 
 @inlined
@@ -57,7 +58,7 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
     board = geometry.board
     if not validate_world(world, board) or not validate_positions(world, geometry):
         return False
-    for slot in range(BALL_COUNT):
+    for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
@@ -72,16 +73,16 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
 def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
     """Check that the paddles are within their stops and no ball is inside anything; if not, set the fault.
 
-    Two overlapping balls are moved apart first, if that is possible.
+    Overlapping balls are moved apart first, if that is possible.
     """
     board, colliders = geometry.board, geometry.colliders
-    for side in range(2):
-        c, angle = colliders[board.collider_first + Part.LEFT_PADDLE + side], world.paddle[side].angle
+    for index in range(board.paddles):
+        c, angle = colliders[board.collider_first + Part.FIRST_PADDLE + index], world.paddle[index].angle
         if not min(c.angle_rest, c.angle_up) <= angle <= max(c.angle_rest, c.angle_up):
             world.fault = as_int(Fault.BEYOND_STOP)
             return False
     is_free = separate_balls(world, board, colliders)
-    for slot in range(BALL_COUNT):
+    for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id != 0:
             is_free = is_free and is_clear_of_parts(world, geometry, ball.x, ball.z)
@@ -102,10 +103,10 @@ def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: 
         gap, _, _ = distance(colliders[board.collider_first + grid[entry]], x, z)
         if gap < min_gap:
             return False
-    for side in range(2):
-        c = colliders[board.collider_first + Part.LEFT_PADDLE + side]
+    for index in range(board.paddles):
+        c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
         if is_near(x, z, c.x, c.z, c.reach + board.ball_radius):
-            gap, _, _ = paddle_distance(c, world.paddle[side].angle, x, z)
+            gap, _, _ = paddle_distance(c, world.paddle[index].angle, x, z)
             if gap < min_gap:
                 return False
     return True
@@ -114,7 +115,7 @@ def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: 
 @kernel
 def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
     """Check that positions and speeds of the balls are possible; if not, set the fault and return False."""
-    for slot in range(BALL_COUNT):
+    for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id == 0 or is_valid_ball(ball, board):
             continue
@@ -126,9 +127,10 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
         else:
             world.fault = as_int(Fault.TOO_FAST)
         return False
-    if not (is_finite(world.paddle[0].angle) and is_finite(world.paddle[1].angle)):
-        world.fault = as_int(Fault.NOT_FINITE)
-        return False
+    for index in range(board.paddles):
+        if not is_finite(world.paddle[index].angle):
+            world.fault = as_int(Fault.NOT_FINITE)
+            return False
     return True
 
 

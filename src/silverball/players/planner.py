@@ -36,7 +36,14 @@ from silverball.physics.records import (
     records,
 )
 from silverball.physics.skip_ahead import event_free_ticks
-from silverball.physics.step import advance_paddles, are_balls_on_board, can_step, finish_ticks, play_tick
+from silverball.physics.step import (
+    advance_paddles,
+    are_balls_on_board,
+    button_bits,
+    can_step,
+    finish_ticks,
+    play_tick,
+)
 from silverball.players.plan import (
     PLAN,
     PlanRecord,
@@ -349,13 +356,13 @@ def look_ahead(
         limit = horizon - played
         if now < plan.until:
             limit = min(limit, next_change(plan, now) - now)
-        free = event_free_ticks(geometry, a, b, length, limit)
+        free = event_free_ticks(geometry, world, length, limit)
         if free == 0:
-            play_tick(lane, geometry, left, right, length)
+            play_tick(lane, geometry, button_bits(left, right), length)
             played += 1
         else:
             for _ in range(free):
-                advance_paddles(world, board, colliders, left, right, length)
+                advance_paddles(world, board, colliders, button_bits(left, right), length)
             finish_ticks(world, board, length, free)
             played += free
         memory.moves += 1

@@ -18,7 +18,7 @@ from silverball.physics.balls import create_ball
 from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.records import (
-    BALL_COUNT,
+    MAX_BALLS,
     BatchGeometry,
     BoardGeometry,
     Fault,
@@ -27,7 +27,7 @@ from silverball.physics.records import (
     Places,
     WorldRecord,
 )
-from silverball.physics.step import step_world
+from silverball.physics.step import button_bits, step_world
 from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.simple import PlayerKind, pressed
 from silverball.world import WorldBatch
@@ -179,7 +179,7 @@ def play_worlds(
                 left, right = rollout.buttons[index, 0], rollout.buttons[index, 1]
             else:
                 left, right = pressed(rollout.player, world, board, colliders, tick)
-            step_world(lane, geometry, left, right, False, tick)
+            step_world(lane, geometry, button_bits(left, right), tick)
             if rollout.audit:
                 rollout.depths[index] = max(rollout.depths[index], deepest(world, board, colliders))
 
@@ -188,7 +188,7 @@ def play_worlds(
 def ball_count(world: WorldRecord) -> int:
     """The number of balls on the board."""
     count = 0
-    for slot in range(BALL_COUNT):
+    for slot in range(MAX_BALLS):
         if world.ball[slot].id != 0:
             count += 1
     return count

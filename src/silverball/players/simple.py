@@ -11,7 +11,7 @@ from typing import Any
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
-    BALL_COUNT,
+    MAX_BALLS,
     BoardRecord,
     ColliderRecord,
     Colliders,
@@ -95,7 +95,7 @@ def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: fl
     if c.kind != Kind.PADDLE:
         return False
     sine, cosine = sine_cosine(c.angle_rest)
-    for slot in range(BALL_COUNT):
+    for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id == 0:
             continue

@@ -24,7 +24,7 @@ from silverball.physics.audit import (
 )
 from silverball.physics.kernel import as_int, kernel
 from silverball.physics.records import (
-    BALL_COUNT,
+    JITTER,
     BallRecord,
     BatchGeometry,
     BoardGeometry,
@@ -39,8 +39,8 @@ from silverball.physics.records import (
     Places,
     WorldRecord,
 )
-from silverball.physics.step import step_world
-from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action
+from silverball.physics.step import button_bits, step_world
+from silverball.soak.driver import WATCHED_BALLS, ActionRecord, Drivers, apply_action, choose_action
 from silverball.soak.regions import (
     BLOCKED,
     MAIN_REGION,
@@ -99,7 +99,7 @@ STUCK_TRACKER = np.dtype(
 
 WATCH = np.dtype(
     [
-        ("tracker", STUCK_TRACKER, (BALL_COUNT,)),
+        ("tracker", STUCK_TRACKER, (WATCHED_BALLS,)),
         ("frames", "i8"),  # ticks watched
         ("deepest", "f8"),  # [u]
         ("found", "i8"),  # Found
@@ -152,7 +152,7 @@ class Watches(NamedTuple):
 @kernel
 def register_new_balls(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Record where new balls start. On a checked board, that can only be the region of the gutter."""
-    for slot in range(BALL_COUNT):
+    for slot in range(WATCHED_BALLS):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id != tracker.id:
             tracker.id, tracker.x, tracker.z = ball.id, ball.x, ball.z
@@ -173,7 +173,7 @@ def report(world: WorldRecord, watch: WatchRecord, found: int, slot: int, since:
 def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
     """Check that every ball is at a possible place and not inside anything."""
     board, colliders, now = truth.board, truth.colliders, world.tick
-    for slot in range(BALL_COUNT):
+    for slot in range(WATCHED_BALLS):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
@@ -327,7 +327,7 @@ def check_tunnelling(
 @kernel
 def check_stuck(world: WorldRecord, watch: WatchRecord, tick: float) -> None:
     """Check that no ball stays in one place for too long without a jam."""
-    for slot in range(BALL_COUNT):
+    for slot in range(WATCHED_BALLS):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id == 0:
             continue
@@ -368,8 +368,8 @@ def watched_tick(
         PreviousBall(b.id, b.x, b.z),
         (world.paddle[0].angle, world.paddle[1].angle),
     )
-    left, right, shove = action.left != 0, action.right != 0, action.shove != 0
-    step_world(lane, geometry, left, right, shove, tick)
+    buttons = button_bits(action.left != 0, action.right != 0) | (JITTER if action.shove != 0 else 0)
+    step_world(lane, geometry, buttons, tick)
     watch.frames += 1
     if world.fault != Fault.NONE:
         report(world, watch, as_int(Found.FAULT), 0, world.tick, 0.0)

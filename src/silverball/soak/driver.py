@@ -22,7 +22,6 @@ from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
-    BALL_COUNT,
     BoardRecord,
     Colliders,
     LogRecord,
@@ -31,6 +30,7 @@ from silverball.physics.records import (
     records,
 )
 
+WATCHED_BALLS = 2  # balls that are kicked and watched
 SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's
 # All of the following are chosen.
 HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] times of a press or a release, equally likely
@@ -45,8 +45,8 @@ ACTION = np.dtype(
     [
         ("left", "i8"), ("right", "i8"), ("shove", "i8"),  # buttons, 0 or 1
         ("create", "i8"),  # whether to create a ball
-        ("kick", "i8", (BALL_COUNT,)),  # whether the ball in the slot gets this velocity [u/s]
-        ("vx", "f8", (BALL_COUNT,)), ("vz", "f8", (BALL_COUNT,)),
+        ("kick", "i8", (WATCHED_BALLS,)),  # whether the ball in the slot gets this velocity [u/s]
+        ("vx", "f8", (WATCHED_BALLS,)), ("vz", "f8", (WATCHED_BALLS,)),
     ],
     align=True,
 )  # fmt: skip
@@ -56,7 +56,8 @@ DRIVER = np.dtype(
     [
         ("draws", "i8"),  # random numbers used
         # The first ticks at which these may change: the buttons (left, right), a shove, a kick, a creation.
-        ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (BALL_COUNT,)), ("create_at", "i8"),
+        ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (WATCHED_BALLS,)),
+        ("create_at", "i8"),
     ],
     align=True,
 )  # fmt: skip
@@ -118,7 +119,7 @@ def choose_action(
     elif now >= driver.shove_at:
         action.shove = 1
         driver.shove_at = now + 1 + int(next_random(world, driver) * SHOVE_EVERY / tick)
-    for slot in range(BALL_COUNT):
+    for slot in range(WATCHED_BALLS):
         action.kick[slot] = 0
         if world.ball[slot].id == 0:
             continue
@@ -147,7 +148,7 @@ def apply_action(
 ) -> None:
     """Apply the part of an action that comes before the tick: new velocities and a new ball."""
     clear_log(log)
-    for slot in range(BALL_COUNT):
+    for slot in range(WATCHED_BALLS):
         if action.kick[slot] != 0 and world.ball[slot].id != 0:
             world.ball[slot].vx, world.ball[slot].vz = action.vx[slot], action.vz[slot]
     if action.create != 0:

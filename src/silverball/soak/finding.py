@@ -19,10 +19,10 @@ from pydantic.dataclasses import dataclass
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import BALL_COUNT, NOTHING, BoardGeometry, Lane, Motion
+from silverball.physics.records import NOTHING, BoardGeometry, Lane, Motion
 from silverball.physics.validation import validate_world
 from silverball.soak.checks import Found, watched_tick
-from silverball.soak.driver import ActionRecord
+from silverball.soak.driver import WATCHED_BALLS, ActionRecord
 from silverball.soak.json_file import STRICT, Amount, Count, file_text, parse_json
 from silverball.soak.rounds import KINDS, FindingPlace, Options, SoakBatch, round_batch
 from silverball.table import Table, dump_table, table_digest
@@ -41,8 +41,12 @@ def _action(values: list[Any]) -> list[Any]:
     """An action as `_action_values` writes it, or a ValueError."""
     buttons, kicks = values[: len(BUTTONS)], values[len(BUTTONS) :]
     are_valid = all(type(button) is int and button in (0, 1) for button in buttons)
-    if not are_valid or len(kicks) != BALL_COUNT or not all(kick is None or _is_kick(kick) for kick in kicks):
-        raise ValueError(f"must be four times 0 or 1 and {BALL_COUNT} velocities")
+    if (
+        not are_valid
+        or len(kicks) != WATCHED_BALLS
+        or not all(kick is None or _is_kick(kick) for kick in kicks)
+    ):
+        raise ValueError(f"must be four times 0 or 1 and {WATCHED_BALLS} velocities")
     return values
 
 
@@ -213,7 +217,7 @@ def _is_possible(soaked: SoakBatch) -> bool:
     numbers = [number for row in (*balls.tolist(), *state["paddle"].tolist()) for number in row]
     return bool(
         not any(map(math.isnan, numbers))  # a time may be infinite, which means never
-        and ((balls["contact_part"] >= NOTHING) & (balls["contact_part"] < parts)).all()
+        and ((balls["contact_row"] >= NOTHING) & (balls["contact_row"] < parts)).all()
         and np.isin(balls["motion"], list(Motion)).all()
         and state["tick"] >= 0
         and validate_world(state, board)

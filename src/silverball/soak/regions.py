@@ -97,7 +97,7 @@ def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderR
             gap = min(z - left, right - z, top - x)
             label = BLOCKED if gap < -half else NARROW if gap <= half else CLEAR
             labels[header.first + row * header.columns + column] = label
-    for index in range(first + Part.FIRST_SHAPE, board.collider_end):
+    for index in range(first + board.shape_first, board.collider_end):
         c = colliders[index]
         low_x, high_x, low_z, high_z = box(c)
         wide = radius + half

@@ -136,8 +136,9 @@ class WorldBatch:
         tick, as after a shorter call.
 
         Args:
-            actions: bool [world, 3]: left, right, jitter. The buttons are held for all ticks, the jitter
-                comes on the first. Or bool [ticks, world, 3], one row for every tick.
+            actions: bool [world, 3] or [world, 4]: left, right, jitter, launch. The buttons are held for all
+                ticks, the jitter comes on the first. Or one such row for every tick, bool [ticks, world, 3]
+                or [ticks, world, 4].
             ticks: The number of ticks, 0 or more.
 
         Raises:
@@ -147,10 +148,11 @@ class WorldBatch:
         action_rows = np.ascontiguousarray(actions, np.bool_)
         if action_rows.ndim == 2:
             action_rows = action_rows[None]
-        if action_rows.shape not in ((1, self.count, 3), (ticks, self.count, 3)):
+        columns = 4 if action_rows.shape[-1] == 4 else 3  # with the launch button or without it
+        if action_rows.shape not in ((1, self.count, columns), (ticks, self.count, columns)):
             raise ValueError(
                 f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), "
-                f"got {np.shape(actions)}"
+                f"or 4 columns with the launch button, got {np.shape(actions)}"
             )
         self.step_unchecked(action_rows, ticks)
 
@@ -158,7 +160,7 @@ class WorldBatch:
         """Advance every world, without the checks of `step`.
 
         Args:
-            held: The actions, a C-contiguous bool array [1 or ticks, world, 3].
+            held: The actions, a C-contiguous bool array [1 or ticks, world, 3 or 4].
             ticks: The number of ticks; a negative one continues the previous call: events are kept, and a
                 single row does not shove again.
         """

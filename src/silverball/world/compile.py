@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.broad_phase import fill_grid
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import BOARD, COLLIDER, WORLD, Kind, Part, records
+from silverball.physics.records import BOARD, COLLIDER, LEFT, MAX_PADDLES, RIGHT, WORLD, Kind, Part, records
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
@@ -50,7 +50,8 @@ FIRST_GRID_SIZE = 1024  # initial capacity of a board's grid [int32 entries]; mo
 TINY = 1e-300  # smallest divisor, to avoid division by zero
 FAR = 1e9  # [u] place of a paddle that the table does not have, out of every ball's reach
 FIRST_PART_NAMES = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
-PADDLES = ((Part.LEFT_PADDLE, "left"), (Part.RIGHT_PADDLE, "right"))
+PADDLES = ((Part.LEFT_PADDLE, "left", LEFT), (Part.RIGHT_PADDLE, "right", RIGHT))
+FIRST_SHAPE = int(Part.FIRST_PADDLE) + len(PADDLES)  # row of the first stationary shape
 SHARED_FIELDS = (
     "ball_radius", "ball_restitution", "friction", "gravity", "gutter", "hit_speed", "jitter", "max_balls",
     "speed_cap",
@@ -91,6 +92,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
     for row, table, parts in zip(boards, tables, colliders, strict=True):
         _set_board(row, table.board)
         _set_bounds(row, table, parts)
+        row["paddles"], row["shape_first"] = len(PADDLES), FIRST_SHAPE
         centers, size = ball_places(table)
         row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
         row["place_first"], row["place_end"] = place_count, place_count + len(centers)
@@ -118,13 +120,15 @@ def compile_parts(table: Table) -> NDArray[Any]:
         TableError: A part has no extent, or two paddles are on one side.
     """
     _refuse_degenerate(table)
-    rows = records(Part.FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
+    rows = records(FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
     rows["speed_factor"] = 1.0
+    rows["part"] = np.arange(len(rows))
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
-    for number, side in PADDLES:
-        _set_paddle(rows[number], paddles.get(side))
-    for row, part in zip(rows[Part.FIRST_SHAPE :], table.stationary_parts, strict=True):
+    for number, side, button in PADDLES:
+        _set_paddle(rows[number], paddles.get(side), table.board.ball_radius)
+        rows[number]["button"] = button
+    for row, part in zip(rows[FIRST_SHAPE:], table.stationary_parts, strict=True):
         if isinstance(part, SlantWall):
             _set_slant_wall(row, part, table.board)
         elif isinstance(part, TriangularPrism):
@@ -168,10 +172,11 @@ def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
     """
     worlds = records(len(board_of), WORLD)
     first = boards.board["collider_first"][board_of]
-    for side, (number, _) in enumerate(PADDLES):
-        rest = boards.collider["angle_rest"][first + number]
-        worlds["paddle"]["angle"][:, side] = rest
-        worlds["paddle"]["angle_commanded"][:, side] = rest
+    for index in range(MAX_PADDLES):
+        worlds_with = np.flatnonzero(boards.board["paddles"][board_of] > index)
+        rest = boards.collider["angle_rest"][first[worlds_with] + Part.FIRST_PADDLE + index]
+        worlds["paddle"]["angle"][worlds_with, index] = rest
+        worlds["paddle"]["angle_commanded"][worlds_with, index] = rest
     return worlds
 
 
@@ -194,11 +199,6 @@ def _set_bounds(row: Any, table: Table, parts: NDArray[Any]) -> None:
     row["low_z"] = parts[Part.LEFT_WALL]["z"] + radius
     row["high_z"] = parts[Part.RIGHT_WALL]["z"] - radius
     row["top_x"] = parts[Part.TOP_WALL]["x"] - radius
-    row["left_x"] = row["right_x"] = FAR
-    for paddle in table.paddle:
-        x, z, reach = _swept_circle(paddle)
-        side = paddle.side
-        row[f"{side}_x"], row[f"{side}_z"], row[f"{side}_reach"] = x, z, reach + radius
     row["paddle_top"] = max((_top(paddle) + radius for paddle in table.paddle), default=-FAR)
 
 
@@ -207,7 +207,7 @@ def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
     grid = np.zeros(FIRST_GRID_SIZE * len(boards), np.int32)
     used = 0
     for row in boards:
-        shapes = row["collider_end"] - row["collider_first"] - Part.FIRST_SHAPE
+        shapes = row["collider_end"] - row["collider_first"] - row["shape_first"]
         spacing = math.sqrt(4.0 * row["half_length"] * row["half_width"] / max(shapes, 1))
         row["grid_first"], row["skin"] = used, min(SKIN, SKIN_SHARE * spacing)
         row["search_time"] = _search_time(row)
@@ -283,16 +283,19 @@ def _set_borders(rows: NDArray[Any], board: Board) -> None:
     rows[Part.TOP_WALL]["inward_x"] = -1.0
 
 
-def _set_paddle(row: Any, paddle: Paddle | None) -> None:
+def _set_paddle(row: Any, paddle: Paddle | None, ball_radius: float) -> None:
     """Set a paddle in its own frame (see physics/paddle.py): pivot at the origin, tip along z′."""
     if paddle is None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
+        row["sweep_x"] = FAR
         return
     row["kind"] = Kind.PADDLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())
     row["reach"] = paddle.reach
+    row["sweep_x"], row["sweep_z"], reach = _swept_circle(paddle)
+    row["sweep_reach"] = reach + ball_radius
     row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
     swing = row["angle_up"] - row["angle_rest"]
     row["lift_speed"], row["return_speed"] = swing / paddle.stroke, swing / paddle.return_stroke

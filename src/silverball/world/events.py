@@ -38,7 +38,7 @@ class BallState(NamedTuple):
 
 
 class PaddleState(NamedTuple):
-    """A paddle; left and right report mirrored values, so that lifting is positive on both sides.
+    """A paddle; paddles to the left and to the right report mirrored values, so that lifting is positive.
 
     Attributes:
         angle: From the horizontal towards up [rad].
@@ -108,10 +108,9 @@ def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
     )
 
 
-def read_paddles(world: Any) -> tuple[PaddleState, PaddleState]:
-    """Return the left and the right paddle of a WORLD record."""
-    left, right = (PaddleState(angle, velocity) for angle, _, velocity in world["paddle"].tolist())
-    return left, right
+def read_paddles(world: Any, count: int) -> tuple[PaddleState, ...]:
+    """Return the first `count` paddles of a WORLD record."""
+    return tuple(PaddleState(angle, velocity) for angle, _, velocity in world["paddle"][:count].tolist())
 
 
 def read_events(log: Any, names: tuple[str, ...], height: float) -> tuple[Event, ...]:

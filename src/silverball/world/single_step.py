@@ -20,14 +20,24 @@ from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
 from silverball.physics.kernel import SETTINGS, bind_types, kernel
-from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD, BatchGeometry, Lanes
+from silverball.physics.records import (
+    BOARD,
+    COLLIDER,
+    JITTER,
+    LAUNCH,
+    LEFT,
+    LOG,
+    RIGHT,
+    WORLD,
+    BatchGeometry,
+    Lanes,
+)
 from silverball.physics.step import run_worlds
 from silverball.world.compile import Boards
 
-LEFT, RIGHT, JITTER = 1, 2, 4  # bits of the buttons
-
 cgutils, arrayobj = cast(Any, untyped_cgutils), cast(Any, untyped_arrayobj)
 intrinsic: Any = extending.intrinsic
+BUTTONS = 4  # columns of an action: left, right, jitter, launch
 INT, SHORT_INT, BOOL = np.dtype(np.int64), np.dtype(np.int32), np.dtype(np.bool_)
 
 ADDRESSES = np.dtype(
@@ -48,7 +58,7 @@ class SingleStepper:
         tallies: NDArray[np.int64], tick: float,
     ) -> None:  # fmt: skip
         """Store the addresses of the arrays; `tick` is the length of a tick [s]."""
-        self._action = np.zeros((1, 1, 3), np.bool_)
+        self._action = np.zeros((1, 1, BUTTONS), np.bool_)
         named: dict[str, NDArray[Any]] = {
             "world": state,
             "board": boards.board,
@@ -81,14 +91,14 @@ class SingleStepper:
         """Advance the world.
 
         Args:
-            buttons: Bits LEFT, RIGHT and JITTER.
+            buttons: Bits LEFT, RIGHT, JITTER and LAUNCH.
             ticks: The number of ticks, as `run_worlds` takes it.
 
         Returns:
             The fault of the world, 0 for none.
         """
         if SETTINGS.DISABLE_JIT:
-            self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER
+            self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER, buttons & LAUNCH
             state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
             run_worlds(
                 Lanes(state, board_of, logs, tallies), BatchGeometry(board, colliders, grid),
@@ -139,10 +149,11 @@ def step_single_world(addresses: Any, buttons: int, ticks: int) -> int:
     """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
     at = addresses[0]
     worlds = array_at(at.world, (1,), WORLD)
-    action = array_at(at.action, (1, 1, 3), BOOL)
+    action = array_at(at.action, (1, 1, BUTTONS), BOOL)
     action[0, 0, 0] = buttons & LEFT != 0
     action[0, 0, 1] = buttons & RIGHT != 0
     action[0, 0, 2] = buttons & JITTER != 0
+    action[0, 0, 3] = buttons & LAUNCH != 0
     lanes = Lanes(
         worlds,
         array_at(at.board_of, (1,), INT),

@@ -22,7 +22,7 @@ from silverball.physics.balls import (
     put_ball,
     separate_balls,
 )
-from silverball.physics.records import WORLD, Fault, Outcome, Part
+from silverball.physics.records import JITTER, LAUNCH, LEFT, RIGHT, WORLD, Fault, Outcome, Part
 from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
 from silverball.physics.validation import validate_world
 from silverball.table import Table
@@ -30,7 +30,7 @@ from silverball.world import saved_world
 from silverball.world.arguments import checked_int
 from silverball.world.batch import WorldBatch
 from silverball.world.events import BallState, Event, PaddleState, read_balls, read_events, read_paddles
-from silverball.world.single_step import JITTER, LEFT, RIGHT, SingleStepper
+from silverball.world.single_step import SingleStepper
 
 BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
@@ -72,6 +72,7 @@ class World:
         self._board = self._batch.boards.board[0]
         self._names = self._batch.boards.names[0]
         self._height = self.table.board.height
+        self._paddle_count = int(self._board["paddles"])
         batch = self._batch
         self._stepper = SingleStepper(
             batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
@@ -104,7 +105,14 @@ class World:
         world: World = rebuild(*arguments)
         return world
 
-    def step(self, left: bool = False, right: bool = False, jitter: bool = False, ticks: int = 1) -> None:
+    def step(
+        self,
+        left: bool = False,
+        right: bool = False,
+        jitter: bool = False,
+        ticks: int = 1,
+        launch: bool = False,
+    ) -> None:
         """Advance the world by a number of ticks.
 
         Ctrl-C ends a long call within a fraction of a second; the world is then at the end of a tick, as
@@ -115,12 +123,15 @@ class World:
             right: Whether the right button is held, in all ticks.
             jitter: Whether to shove the balls once, at the start of the first tick.
             ticks: The number of ticks, 0 or more.
+            launch: Whether the launch button is held, in all ticks.
 
         Raises:
             FaultError: The state of the world has become impossible, and it has stopped.
             ValueError: The number of ticks is not an integer ≥ 0.
         """
         buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
+        if launch:
+            buttons += LAUNCH
         if ticks.__class__ is not int or not 0 <= ticks <= CHUNK_TICKS:
             ticks = checked_int("ticks", ticks, 0, 2**40)
             ticks = self._step_in_chunks(buttons, ticks)
@@ -170,13 +181,13 @@ class World:
 
     @property
     def balls(self) -> tuple[BallState, ...]:
-        """The balls on the board, at most two; see `BallState`."""
+        """The balls on the board, at most `max_balls`; see `BallState`."""
         return read_balls(self._record, self._height)
 
     @property
-    def paddles(self) -> tuple[PaddleState, PaddleState]:
-        """The left and the right paddle; see `PaddleState`."""
-        return read_paddles(self._record)
+    def paddles(self) -> tuple[PaddleState, ...]:
+        """The paddles in their order, the left and the right one first; see `PaddleState`."""
+        return read_paddles(self._record, self._paddle_count)
 
     @property
     def events(self) -> tuple[Event, ...]:
@@ -304,7 +315,7 @@ class World:
     def restore(self, state: bytes) -> None:
         """Restore a saved state, bit for bit.
 
-        The events are dropped. Two overlapping balls in an edited state are moved apart equally. If an error
+        The events are dropped. Overlapping balls in an edited state are moved apart equally. If an error
         is raised, nothing is changed.
 
         Raises:
@@ -411,10 +422,10 @@ class World:
             raise StateError("the state holds a ball that is outside of the board, too fast, or not a number")
         if len(ids) > self.table.board.max_balls:
             raise StateError("the state holds more balls than the table allows")
-        paddles = self._batch.boards.collider[Part.LEFT_PADDLE : Part.RIGHT_PADDLE + 1]
+        paddles = self._batch.boards.collider[Part.FIRST_PADDLE : int(self._board["shape_first"])]
         low = np.minimum(paddles["angle_rest"], paddles["angle_up"])
         high = np.maximum(paddles["angle_rest"], paddles["angle_up"])
-        angles = record["paddle"]["angle"]
+        angles = record["paddle"]["angle"][: self._paddle_count]
         if not ((low <= angles) & (angles <= high)).all():
             raise StateError("the state holds a paddle beyond its stops")
         if not separate_balls(self._record, *self._static):

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from boards import FIRST_SHAPE
 from silverball.drawing import THEMES, Camera, best_size
 from silverball.drawing.bake_table import bake_table, without_obstacles
 from silverball.drawing.bake_threads import BakeThreads
@@ -14,7 +15,6 @@ from silverball.drawing.kernels.bake import new_canvas
 from silverball.drawing.kernels.stage import APRON, FLOOR, RAIL
 from silverball.drawing.scene import make_scene
 from silverball.physics import shapes
-from silverball.physics.records import Part
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table, load_table
 
 TABLE = load_table("classic")
@@ -46,13 +46,13 @@ def test_the_playfield_is_seen_exactly_where_no_part_stands(canvas, scene):
     assert len(rows) > 0.4 * canvas.part.size
     for row, column in zip(rows[::7], columns[::7], strict=True):
         x, z = CAMERA.to_board(column + 0.5, row + 0.5)
-        for shape in scene.shapes[Part.FIRST_SHAPE :]:
+        for shape in scene.shapes[FIRST_SHAPE:]:
             assert shapes.distance(shape, x, z)[0] > -half
 
 
 def near_edges(table):
     """Points of outlines with outward normals towards the player: there a face rises from the floor."""
-    number = Part.FIRST_SHAPE + len(table.slant_wall)
+    number = FIRST_SHAPE + len(table.slant_wall)
     for prism in table.triangular_prism:
         corners = prism.corners()
         for (x0, z0), (x1, z1) in zip(corners, (*corners[1:], corners[0]), strict=True):
@@ -92,7 +92,7 @@ def test_a_slant_wall_is_as_thick_as_in_the_physics(canvas):
     near = wall.thickness + pixel
     assert part_at(canvas, middle_x + near * nx, middle_z + near * nz) == FLOOR
     near = wall.thickness - pixel
-    assert part_at(canvas, middle_x + near * nx, middle_z + near * nz) == Part.FIRST_SHAPE
+    assert part_at(canvas, middle_x + near * nx, middle_z + near * nz) == FIRST_SHAPE
 
 
 def test_rails_begin_where_balls_meet_them_and_the_apron_hides_the_gutter(canvas):

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from boards import LEFT, RIGHT, launched, table_of
+from boards import FIRST_SHAPE, LEFT, RIGHT, launched, table_of
 from silverball.physics.audit import deepest, part_gap
 from silverball.physics.records import Part
 from silverball.table import Cylinder, SlantWall, TriangularPrism
@@ -55,15 +55,15 @@ def test_the_audit_agrees_with_a_brute_force_of_many_points(kind: str) -> None:
     for _ in range(200):
         angle = float(rng.uniform(-0.3, 0.9))
         if kind == "prism":
-            row, middle, corners = colliders[Part.FIRST_SHAPE + 1], (2.5, -0.7), PRISM.corners()
+            row, middle, corners = colliders[FIRST_SHAPE + 1], (2.5, -0.7), PRISM.corners()
         elif kind.endswith("paddle"):
             paddle = LEFT if kind == "left paddle" else RIGHT
             row = colliders[Part.LEFT_PADDLE if paddle is LEFT else Part.RIGHT_PADDLE]
             middle, corners = (-7.0, paddle.pivot[1] * 0.6), paddle.corners(math.degrees(angle))
         elif kind == "slant wall":
-            row, middle, corners = colliders[Part.FIRST_SHAPE], (0.0, 0.0), None
+            row, middle, corners = colliders[FIRST_SHAPE], (0.0, 0.0), None
         else:
-            row, middle, corners = colliders[Part.FIRST_SHAPE + 2], (4.0, 1.0), None
+            row, middle, corners = colliders[FIRST_SHAPE + 2], (4.0, 1.0), None
         x, z = (float(m + d) for m, d in zip(middle, rng.uniform(-2, 2, 2), strict=True))
         got = part_gap(row, angle, x, z)
         if corners is not None:

@@ -33,11 +33,11 @@ def test_new_balls_overlap_nothing_and_are_at_rest(crowd: WorldBatch) -> None:
     assert max(deepest(world, board, colliders) for world in crowd.state) == 0.0
     assert not crowd.state["ball"]["vx"].any()
     assert not crowd.state["ball"]["vz"].any()
-    assert (crowd.state["ball"]["id"] == [1, 2]).all()
+    assert (crowd.state["ball"]["id"] == [1, 2, 0, 0, 0, 0, 0, 0]).all()
 
 
 def test_new_balls_appear_above_the_paddles_reach(crowd: WorldBatch) -> None:
-    assert crowd.state["ball"]["x"].min() >= REACH + 0.25
+    assert crowd.state["ball"]["x"][:, :2].min() >= REACH + 0.25
 
 
 def test_new_balls_are_spread_evenly_over_the_free_board(crowd: WorldBatch) -> None:
@@ -215,8 +215,8 @@ def test_a_shove_has_its_size_and_any_direction() -> None:
     assert (batch.state["ball"] == before).all()
     batch.step(np.tile([False, False, True], (count, 1)), ticks=1)
     # After one tick of free fall the shove is the change of the velocity, but for gravity's.
-    dx = batch.state["ball"]["vx"] + 10.0 / 60
-    dz = batch.state["ball"]["vz"]
+    dx = batch.state["ball"]["vx"][:, :2] + 10.0 / 60
+    dz = batch.state["ball"]["vz"][:, :2]
     flying = (batch.state["touches"] == 0) & (batch.state["ball_hits"] == 0) & (batch.state["wall_hits"] == 0)
     dx, dz = dx[flying].ravel(), dz[flying].ravel()
     assert len(dx) > 1.8 * count

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from numba import njit
 
-from boards import full_table
+from boards import FIRST_SHAPE, full_table
 from silverball.benchmarks.marks import crowded_table
 from silverball.physics.audit import part_gap
 from silverball.physics.broad_phase import cell_of
-from silverball.physics.records import Part
 from silverball.table import generate_table
 from silverball.world import WorldBatch
 
@@ -40,7 +39,7 @@ def test_a_cell_lists_all_that_can_be_reached_from_its_corners(name: str) -> Non
                     assert cell == board["grid_first"] + row * board["grid_columns"] + column
                     listed = set(grid[grid[cell] : grid[cell + 1]].tolist())
                     assert sorted(listed) == grid[grid[cell] : grid[cell + 1]].tolist()
-                    for number in range(Part.FIRST_SHAPE, len(boards.collider)):
+                    for number in range(FIRST_SHAPE, len(boards.collider)):
                         if part_gap(boards.collider[number], 0.0, x, z) < reach:
                             assert number in listed
                             seen += 1

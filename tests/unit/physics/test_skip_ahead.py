@@ -13,11 +13,11 @@ import numba
 import numpy as np
 import pytest
 
-from boards import full_table, table_of
+from boards import FIRST_SHAPE, full_table, table_of
 from silverball.physics.contact import find_contact
 from silverball.physics.flight import time_to_shape
 from silverball.physics.motion import start_flight
-from silverball.physics.records import BALL, NOTHING, ROLL_START, BoardGeometry, Part
+from silverball.physics.records import BALL, NOTHING, ROLL_START, BoardGeometry
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table
 from silverball.world import World, WorldBatch
 from silverball.world.compile import Boards, compile_tables
@@ -118,17 +118,17 @@ def test_the_cached_contact_is_what_a_search_from_the_start_of_the_flight_finds(
             copy = np.zeros(1, BALL)
             copy[0] = ball
             again = copy[0]
-            again["contact_age"], again["contact_part"], again["age"] = 0.0, NOTHING, -again["offset"]
+            again["contact_age"], again["contact_row"], again["age"] = 0.0, NOTHING, -again["offset"]
             for _ in range(500):
                 _search(board, colliders, grid, again, 1 / 240)
-                if again["contact_age"] >= ball["contact_age"] or again["contact_part"] != NOTHING:
+                if again["contact_age"] >= ball["contact_age"] or again["contact_row"] != NOTHING:
                     break
-            assert (again["contact_age"], again["contact_part"]) == (
+            assert (again["contact_age"], again["contact_row"]) == (
                 ball["contact_age"],
-                ball["contact_part"],
+                ball["contact_row"],
             )
             compared += 1
-            met += ball["contact_part"] != NOTHING
+            met += ball["contact_row"] != NOTHING
     assert compared > 60
     assert met > 10
 
@@ -142,7 +142,7 @@ def test_a_game_whose_flights_are_searched_again_in_every_tick_is_the_same_game(
         world.create_ball((6.5, -3.0), (3.0, 19.0))
     for _ in range(240):
         for ball in worlds[1].records[0]["ball"]:
-            ball["contact_age"], ball["contact_part"] = max(ball["age"], 0.0), NOTHING
+            ball["contact_age"], ball["contact_row"] = max(ball["age"], 0.0), NOTHING
         for world in worlds:
             world.step()
         for one, other in zip(*(world.balls for world in worlds), strict=True):
@@ -189,7 +189,7 @@ def _meets(c, ball, radius, start, limit):  # pragma: no cover  (compiled)
 def _first_shape(board, colliders, ball, start, limit):  # pragma: no cover  (compiled)
     """The first shape of all that a flight meets between two ages, without grid and without short cuts."""
     time, part = limit, NOTHING
-    for index in range(board.collider_first + Part.FIRST_SHAPE, board.collider_end):
+    for index in range(board.collider_first + FIRST_SHAPE, board.collider_end):
         at, met = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
         if met and at < time:
             time, part = at, index - board.collider_first
@@ -217,8 +217,8 @@ def searches(boards: Boards, ball, tick: float) -> Iterator[tuple[float, float, 
     for _ in range(60):
         start = float(ball["contact_age"])
         _search(boards.board[0], boards.collider, boards.grid, ball, tick)
-        yield start, float(ball["contact_age"]), int(ball["contact_part"])
-        if ball["contact_part"] != NOTHING or ball["contact_age"] == start:
+        yield start, float(ball["contact_age"]), int(ball["contact_row"])
+        if ball["contact_row"] != NOTHING or ball["contact_age"] == start:
             return
 
 
@@ -235,7 +235,7 @@ def test_the_grid_misses_no_contact(parts: int, rub) -> None:
         ball = random_ball(rng, boards, world)
         for start, end, part in searches(boards, ball, 0.25):
             time, first = _first_shape(boards.board[0], boards.collider, ball, start, end)
-            if part >= Part.FIRST_SHAPE:
+            if part >= FIRST_SHAPE:
                 assert first == NOTHING  # none before it, and it is met at the very age
                 again, is_met = _meets(boards.collider[part], ball, 0.12, start, end + 1.0)
                 assert (again, is_met) == (end, True)
@@ -256,7 +256,7 @@ def test_the_first_of_all_shapes_would_be_seen() -> None:
     for _ in range(100):
         ball = random_ball(rng, boards, world)
         *_, (start, end, part) = searches(boards, ball, 0.25)
-        if part >= Part.FIRST_SHAPE and end > start:
+        if part >= FIRST_SHAPE and end > start:
             assert _first_shape(boards.board[0], boards.collider, ball, start, end + 1e-6) == (end, part)
             found += 1
     assert found > 30

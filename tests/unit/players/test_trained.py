@@ -185,7 +185,7 @@ def test_its_features_are_those_of_the_lowest_ball_and_zero_without_one():
     batch.step_unchecked(np.zeros((1, 2, 3), bool), 240)
     batch.create_balls(np.array([True, False]))
     raw = raw_features(batch.state, batch.boards.board[batch.board_of], batch.boards.collider)
-    lowest = batch.state["ball"]["x"][0].min() / batch.boards.board["half_length"][0]
+    lowest = batch.state["ball"]["x"][0, :2].min() / batch.boards.board["half_length"][0]
     assert raw[0, Raw.X] == lowest
     assert (raw[1, : Raw.VZ + 1] == 0.0).all()
     assert press_batch(batch).shape == (2, 2)

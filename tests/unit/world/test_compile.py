@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from boards import full_table, table_of
+from silverball.physics.records import Part
 from silverball.table import Paddle, load_table
 from silverball.world import World, WorldBatch
 from silverball.world.compile import blank_worlds, compile_parts, compile_tables, part_names, part_numbers
@@ -27,9 +28,10 @@ def test_top_and_circle_hold_every_corner_at_every_angle(side: str, shape: dict)
     z = -2.5 if side == "left" else 2.5
     paddle = Paddle(side=side, pivot=(-7.2, z), **shape)
     table = table_of(paddle)
-    board = WorldBatch(table).boards.board[0]
+    boards = WorldBatch(table).boards
+    board, row = boards.board[0], boards.collider[Part[f"{side.upper()}_PADDLE"]]
     radius = table.board.ball_radius
-    middle, reach = (board[f"{side}_x"], board[f"{side}_z"]), board[f"{side}_reach"]
+    middle, reach = (row["sweep_x"], row["sweep_z"]), row["sweep_reach"]
     for share in range(101):
         angle = paddle.rest_angle + (paddle.up_angle - paddle.rest_angle) * share / 100
         for corner in paddle.corners(angle):
@@ -39,9 +41,9 @@ def test_top_and_circle_hold_every_corner_at_every_angle(side: str, shape: dict)
 
 
 def test_a_paddle_that_is_not_there_is_out_of_reach() -> None:
-    board = WorldBatch(table_of()).boards.board[0]
-    assert board["paddle_top"] < -1e6
-    assert min(abs(board["left_x"]), abs(board["right_x"])) > 1e6
+    boards = WorldBatch(table_of()).boards
+    assert boards.board[0]["paddle_top"] < -1e6
+    assert np.abs(boards.collider["sweep_x"][Part.LEFT_PADDLE : Part.RIGHT_PADDLE + 1]).min() > 1e6
 
 
 def test_the_number_of_a_part_is_its_row_and_its_column_of_tallies() -> None:
@@ -76,4 +78,4 @@ def test_blank_worlds_are_the_worlds_of_a_new_batch() -> None:
     blank = blank_worlds(batch.boards, batch.board_of)
     assert blank.tobytes() == batch.state.tobytes()
     assert np.array_equal(blank["paddle"]["angle"], blank["paddle"]["angle_commanded"])
-    assert blank["paddle"]["angle"][0].tolist() == [math.radians(p.rest_angle) for p in tables[0].paddle]
+    assert blank["paddle"]["angle"][0, :2].tolist() == [math.radians(p.rest_angle) for p in tables[0].paddle]

@@ -228,7 +228,7 @@ def test_whatever_a_state_holds_it_is_refused_or_stays_finite(sensible, wild, co
             record["ball"]["id"][slot] = counts[slot]
         if counts[1] == 0:
             record["ball"][1] = 0
-        record["paddle"]["angle"] = numbers[8:]
+        record["paddle"]["angle"][:2] = numbers[8:]
         record["tick"], record["created"] = counts[2:]
 
     try:

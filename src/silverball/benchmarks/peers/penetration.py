@@ -58,7 +58,7 @@ class PenetrationMonitor:
     def depths(self, field: Playfield) -> list[float]:
         """Overlap of each ball with parts and borders [u]; updates `depth`, by the overlap of balls too."""
         balls = field.balls()
-        self.record["paddle"]["angle"] = field.angles()
+        self.record["paddle"]["angle"][:2] = field.angles()
         found = []
         for x, z, _, _ in balls:
             self.record["ball"][0]["x"], self.record["ball"][0]["z"], self.record["ball"][0]["id"] = x, z, 1

@@ -55,7 +55,7 @@ class SilverballPlayfield(Playfield):
 
     def angles(self) -> tuple[float, float]:
         """The left and the right paddle's angle [rad]."""
-        left, right = self.world.records[0]["paddle"]["angle"].tolist()
+        left, right = self.world.records[0]["paddle"]["angle"][:2].tolist()
         return left, right
 
     @property
