@@ -70,7 +70,7 @@ def full_table(*more: Any, boost: float = 1.25, restitution: float | None = None
         parts = [
             part.model_copy(
                 update={"restitution": restitution, "restitution_falloff": 0.0}
-                | ({"speed_factor": boost} if hasattr(part, "speed_factor") else {})
+                | ({"speed_factor": boost} if isinstance(part, TriangularPrism | Cylinder) else {})
             )
             for part in parts
         ]

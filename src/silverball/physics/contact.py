@@ -15,7 +15,14 @@ from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, start_flight, start_rolling
-from silverball.physics.paddle import contact_with_paddle, read_sweep, surface_velocity
+from silverball.physics.paddle import (
+    contact_with_paddle,
+    is_turning,
+    omega_at,
+    read_sweep,
+    surface_acceleration,
+    surface_velocity,
+)
 from silverball.physics.records import (
     GUTTER,
     NOTHING,
@@ -32,7 +39,7 @@ from silverball.physics.records import (
     Part,
     WorldRecord,
 )
-from silverball.physics.shapes import distance
+from silverball.physics.shapes import contact_normal
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
@@ -126,11 +133,8 @@ def first_contact(
 
 
 @internal
-def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, omega: float) -> None:
-    """Apply a contact: the ball bounces off a part, starts to roll, or leaves through the gutter.
-
-    `omega` is the angular velocity of the paddle met [rad/s].
-    """
+def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact) -> None:
+    """Apply a contact: the ball bounces off a part, starts to roll, or leaves through the gutter."""
     world, board, time = lane.world, geometry.board, contact.time
     if contact.row == NULL_EVENT:
         return
@@ -147,17 +151,20 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     c = geometry.colliders[board.collider_first + contact.row]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
     acceleration = board.gravity
-    if c.kind == Kind.WALL:
+    if contact.row < Part.FIRST_PADDLE:
         nx, nz = c.inward_x, c.inward_z
-    elif c.kind != Kind.PADDLE:
-        _, nx, nz = distance(c, ball.x, ball.z)
-    elif omega != 0.0:
-        ux, uz = surface_velocity(c, omega, ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz)
-        acceleration += omega * omega * c.reach
+    elif contact.row >= board.shape_first:
+        nx, nz = contact_normal(c, ball)
+    else:
+        paddle = read_sweep(lane.log.sweep[contact.row - Part.FIRST_PADDLE])
+        if is_turning(paddle):
+            at_x, at_z = ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz
+            ux, uz = surface_velocity(c, omega_at(paddle, time), at_x, at_z)
+            acceleration += surface_acceleration(c, paddle, time)
     contact = Contact(time, contact.row, nx, nz)
     speed = bounce(ball, board, c, contact, ux, uz, acceleration)
     kind = as_int(EventKind.TOUCH)
-    if speed > board.hit_speed:
+    if speed > c.hit_speed:
         kind = as_int(EventKind.HIT)
         world.score += c.points
         lane.tally[c.part] += 1

@@ -9,6 +9,14 @@ point perpendicular to n, so the ball cannot touch it before it has used up the 
 Advance by h and repeat until the gap is closed; one Newton step removes the rest. A flat face is found by the
 first step, corners and circles after a few: near the contact the step is Newton's, and it never overshoots.
 
+An arc is convex only as seen from outside its disc. Elsewhere the step is bounded in other ways:
+
+  * At any place the gap lasts at least until |v|·h + ½·|a|·h² = D.
+  * Inside the disc, at the distance ρ from the centre, D″ ≥ −(|a| + v²/ρ). The bound holds while ρ stays
+    above half of its value, which is itself bounded by the speed.
+  * Past the ends the ball meets one of the two end points, which are convex, or it first crosses a line from
+    the centre through an end, in a closed form.
+
 A flight is defined by the ball's record: the state at its start, the acceleration, and its age (see
 `motion.py`). All times in this file are ages of the flight [s].
 
@@ -29,9 +37,16 @@ from silverball.physics.records import (
     BallRecord,
     ColliderRecord,
     Contact,
+    Shape,
 )
-from silverball.physics.shapes import distance, point_distance
-from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, NEVER, NEWTON_TIME
+from silverball.physics.shapes import arc_contact, distance, is_beside_arc, point_distance
+from silverball.physics.tolerances import (
+    CONTACT_GAP,
+    FLIGHT_STEPS,
+    MIN_ADVANCE_GAP,
+    NEVER,
+    NEWTON_TIME,
+)
 
 # [u] a larger gap after a search means that it ran out of steps before the contact
 MAX_FOUND_GAP = CONTACT_GAP * 100.0
@@ -104,6 +119,8 @@ def time_to_shape(
         The age and True; or False and an age up to which there is no contact: the limit, or less if the
         search has not ended (a long graze).
     """
+    if c.shape == Shape.ARC:
+        return _time_to_arc(c, ball, radius, start, limit)
     time = start
     for _ in range(FLIGHT_STEPS):
         state = state_at(ball, time)
@@ -123,6 +140,82 @@ def time_to_shape(
         if not time < limit:
             return limit, False
     return time, False
+
+
+@internal
+def _time_to_arc(
+    c: ColliderRecord, ball: BallRecord, radius: float, start: float, limit: float
+) -> tuple[float, bool]:
+    """Find when a ball first touches an arc; arguments and result are those of `time_to_shape`."""
+    accel = sqrt(ball.accel_x * ball.accel_x + ball.accel_z * ball.accel_z)
+    state = state_at(ball, start)
+    max_speed = sqrt(state.vx * state.vx + state.vz * state.vz) + accel * (limit - start)
+    free_radius = c.arc_radius - c.radius - radius  # of the circle on which a ball touches it from inside
+    bound = accel + max_speed * max_speed / free_radius if free_radius > 0.0 else accel
+    min_step = sqrt(2.0 * MIN_ADVANCE_GAP / bound) if bound > 0.0 else NEVER
+    time = start
+    for _ in range(FLIGHT_STEPS):
+        state = state_at(ball, time)
+        gap, nx, nz = arc_contact(c, state.x, state.z, state.vx, state.vz)
+        gap -= radius
+        rate = nx * state.vx + nz * state.vz
+        if gap <= CONTACT_GAP and rate < 0.0:
+            return newton_refined(time, gap, rate), True
+        gap = max(gap, 0.0)
+        least = min_step if rate >= 0.0 else 0.0  # of a ball that runs along the surface, see MIN_ADVANCE_GAP
+        step, center_x, center_z = 0.0, state.x - c.x2, state.z - c.z2
+        if not is_beside_arc(c, state.x, state.z):
+            step = min(
+                _time_to_point(ball, state, c.x0, c.z0, c.radius + radius, min_step),
+                _time_to_point(ball, state, c.x1, c.z1, c.radius + radius, min_step),
+                max(_time_to_angle(c, ball, state), least),
+            )
+        elif nx * center_x + nz * center_z > 0.0:  # outside its disc
+            step = max(time_to_line(gap, rate, nx * ball.accel_x + nz * ball.accel_z), least)
+        else:
+            half = 0.5 * sqrt(center_x * center_x + center_z * center_z)
+            if half > 0.125 * c.arc_radius:  # nearer to the centre the bound on the speed is the better one
+                step = max(time_to_line(gap, rate, -(accel + max_speed * max_speed / half)), least)
+                step = min(step, time_to_line(half, -max_speed, -accel))
+        speed = sqrt(state.vx * state.vx + state.vz * state.vz)
+        time += max(step, time_to_line(gap, -speed, -accel))
+        if not time < limit:
+            return limit, False
+    return time, False
+
+
+@inlined
+def _time_to_point(
+    ball: BallRecord, state: BallMotion, px: float, pz: float, reach: float, min_step: float
+) -> float:
+    """Compute a time [s] for which a ball stays out of `reach` of a point; `min_step` if it recedes."""
+    gap, nx, nz = point_distance(state.x, state.z, px, pz)
+    rate = nx * state.vx + nz * state.vz
+    step = time_to_line(max(gap - reach, 0.0), rate, nx * ball.accel_x + nz * ball.accel_z)
+    return max(step, min_step) if rate >= 0.0 else step
+
+
+@internal
+def _time_to_angle(c: ColliderRecord, ball: BallRecord, state: BallMotion) -> float:
+    """Compute a time [s] for which a ball past the ends of an arc stays out of the arc's angle.
+
+    The angle lies between the lines from the centre through the ends: beyond both of them, or, if it is more
+    than a half turn, beyond either.
+    """
+    first = _time_to_tangent_side(ball, state, c.x0, c.z0, c.along_x0, c.along_z0)
+    second = _time_to_tangent_side(ball, state, c.x1, c.z1, c.along_x1, c.along_z1)
+    return min(first, second) if c.arc_is_major != 0 else max(first, second)
+
+
+@inlined
+def _time_to_tangent_side(
+    ball: BallRecord, state: BallMotion, px: float, pz: float, ux: float, uz: float
+) -> float:
+    """Compute when a ball gets ahead of the point (px, pz) in the direction (ux, uz); 0 if it is."""
+    gap = (px - state.x) * ux + (pz - state.z) * uz
+    if gap <= 0.0:
+        return 0.0
+    return time_to_line(gap, -(state.vx * ux + state.vz * uz), -(ball.accel_x * ux + ball.accel_z * uz))
 
 
 @internal

@@ -55,13 +55,13 @@ def _apply_friction_impulse(
 
 @internal
 def apply_surface_friction(
-    ball: BallRecord, board: BoardRecord, nx: float, nz: float, ux: float, uz: float, normal_impulse: float
+    ball: BallRecord, board: BoardRecord, nx: float, nz: float, ux: float, uz: float, limit: float
 ) -> None:
-    """Apply friction at a surface that moves with (ux, uz) and pushes along (nx, nz)."""
+    """Apply friction, at most `limit` [u/s], at a surface with velocity (ux, uz) and normal (nx, nz)."""
     radius = board.ball_radius
     slip_t = nx * (ball.vz - uz) - nz * (ball.vx - ux) + radius * ball.spin_y
     slip_y = radius * (ball.spin_x * nz - ball.spin_z * nx)
-    jt, jy = _friction(slip_t, slip_y, 1.0, board.friction * normal_impulse)
+    jt, jy = _friction(slip_t, slip_y, 1.0, limit)
     _apply_friction_impulse(ball, board.curvature, nx, nz, jt, jy)
 
 

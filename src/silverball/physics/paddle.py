@@ -8,6 +8,10 @@ At angle θ
     z′ = x·sin θ + z·cos θ,   x′ = x·cos θ − z·sin θ       (x, z from the pivot)
 
 and a surface that turns with ω moves with (ω·r_z, −ω·r_x) at r from the pivot.
+
+A paddle turns at constant speed, or as a coil drives it: with the constant angular acceleration α from
+standstill, so that a whole stroke takes the time √(2·Δθ/α). A coil's paddle that changes its direction starts
+from standstill again.
 """
 
 from __future__ import annotations
@@ -22,73 +26,100 @@ from silverball.physics.records import (
     BallRecord,
     ColliderRecord,
     Contact,
+    PaddleRecord,
     PaddleSweep,
+    Shape,
     SweepRecord,
 )
-from silverball.physics.shapes import point_distance
+from silverball.physics.shapes import point_distance, tapered_distance
 from silverball.physics.tolerances import CONTACT_GAP, FLIGHT_STEPS, MIN_ADVANCE_GAP, NEVER
 
 
 @inlined
-def start_sweep(c: ColliderRecord, angle: float, raised: bool) -> PaddleSweep:
-    """Set a paddle's motion in a tick: from this angle, at constant speed, to its button's stop."""
-    stop = c.angle_up if raised else c.angle_rest
-    omega = 0.0
+def start_sweep(c: ColliderRecord, paddle: PaddleRecord, raised: bool) -> PaddleSweep:
+    """Set a paddle's motion in a tick: from its present angle to its button's stop."""
+    angle, stop = paddle.angle, c.angle_up if raised else c.angle_rest
+    omega, alpha = 0.0, 0.0
     if angle < stop:
-        omega = c.lift_speed
+        omega, alpha = c.lift_speed, c.lift_accel
     elif angle > stop:
-        omega = -c.return_speed
-    return PaddleSweep(angle, omega, stop)
+        omega, alpha = -c.return_speed, -c.return_accel
+    if alpha != 0.0:
+        omega = _carried_speed(paddle.angular_velocity, omega)
+    return PaddleSweep(angle, omega, stop, alpha)
+
+
+@inlined
+def _carried_speed(omega: float, max_omega: float) -> float:
+    """Limit an angular velocity [rad/s] to the range 0 … max_omega, of either sign; NaN gives 0."""
+    speed, max_speed = (omega, max_omega) if max_omega > 0.0 else (-omega, -max_omega)
+    speed = min(speed, max_speed) if speed > 0.0 else 0.0
+    return speed if max_omega > 0.0 else -speed
+
+
+@inlined
+def is_turning(paddle: PaddleSweep) -> bool:
+    """Whether the paddle moves in this tick."""
+    return paddle.omega != 0.0 or paddle.alpha != 0.0
 
 
 @inlined
 def read_sweep(record: SweepRecord) -> PaddleSweep:
     """Read a paddle's motion in the present tick."""
-    return PaddleSweep(record.angle, record.omega, record.stop)
+    return PaddleSweep(record.angle, record.omega, record.stop, record.alpha)
 
 
 @inlined
 def write_sweep(record: SweepRecord, paddle: PaddleSweep, stop_time: float) -> None:
     """Write a paddle's motion in the present tick, and when it reaches its stop [s]."""
-    record.angle, record.omega, record.stop, record.stop_time = (
-        paddle.angle,
-        paddle.omega,
-        paddle.stop,
-        stop_time,
-    )
+    record.angle, record.omega, record.stop = paddle.angle, paddle.omega, paddle.stop
+    record.alpha, record.stop_time = paddle.alpha, stop_time
 
 
 @inlined
 def reaches_stop(paddle: PaddleSweep, tick: float) -> bool:
     """Whether the paddle turns and reaches its stop within the tick."""
-    return paddle.omega != 0.0 and angle_at(paddle, tick) == paddle.stop
+    return is_turning(paddle) and angle_at(paddle, tick) == paddle.stop
 
 
 @inlined
 def time_to_stop(paddle: PaddleSweep, tick: float) -> float:
-    """Compute when in the tick the paddle reaches its stop [s]; NEVER if it does not."""
-    return min((paddle.stop - paddle.angle) / paddle.omega, tick) if reaches_stop(paddle, tick) else NEVER
+    """Compute when in the tick the paddle reaches its stop [s]; NEVER if it does not.
+
+    With the way δ to the stop, ω·t + ½·α·t² = δ gives t = 2·δ / (ω ± √(ω² + 2·α·δ)), with the sign of δ.
+    """
+    if not reaches_stop(paddle, tick):
+        return NEVER
+    way = paddle.stop - paddle.angle
+    if paddle.alpha == 0.0:
+        return min(way / paddle.omega, tick)
+    speed_at_stop = sqrt(paddle.omega * paddle.omega + 2.0 * paddle.alpha * way)
+    return min(2.0 * abs(way) / (abs(paddle.omega) + speed_at_stop), tick)
 
 
 @inlined
 def angle_at(paddle: PaddleSweep, time: float) -> float:
     """Compute the angle at a time of the tick, never beyond the stop."""
-    angle = paddle.angle + paddle.omega * time
-    return min(angle, paddle.stop) if paddle.omega > 0.0 else max(angle, paddle.stop)
+    angle = paddle.angle + (paddle.omega + 0.5 * paddle.alpha * time) * time
+    return min(angle, paddle.stop) if paddle.angle < paddle.stop else max(angle, paddle.stop)
+
+
+@inlined
+def omega_at(paddle: PaddleSweep, time: float) -> float:
+    """Compute the angular velocity [rad/s] at a time of the tick before it reaches its stop."""
+    return paddle.omega + paddle.alpha * time
 
 
 @inlined
 def end_at_stop(paddle: PaddleSweep) -> PaddleSweep:
     """Place a paddle at its stop, where its angle is exact and it no longer turns."""
-    return PaddleSweep(paddle.stop, 0.0, paddle.stop)
+    return PaddleSweep(paddle.stop, 0.0, paddle.stop, 0.0)
 
 
 @inlined
 def stop_sweep(paddle: PaddleSweep, time: float) -> PaddleSweep:
     """Stop a paddle where it is at a time of the tick."""
-    if paddle.omega == 0.0:
-        return paddle
-    return PaddleSweep(angle_at(paddle, time), 0.0, paddle.stop)
+    return PaddleSweep(angle_at(paddle, time), 0.0, paddle.stop, 0.0)
 
 
 @inlined
@@ -97,6 +128,13 @@ def surface_velocity(c: ColliderRecord, omega: float, x: float, z: float) -> tup
     rx = x - c.x
     rz = c.side * (z - c.z)
     return omega * rz, c.side * (-omega * rx)
+
+
+@inlined
+def surface_acceleration(c: ColliderRecord, paddle: PaddleSweep, time: float) -> float:
+    """Bound the acceleration [u/s²] of the paddle's surface at a time of the tick:  (ω² + |α|)·ρ."""
+    omega = omega_at(paddle, time)
+    return omega * omega * c.reach + abs(paddle.alpha) * c.reach
 
 
 @kernel
@@ -128,11 +166,13 @@ def _distance_turned(
 
 @inlined
 def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
-    """Compute the distance from the paddle's triangle in its own frame, and the unit normal there.
+    """Compute the distance from the paddle's outline in its own frame, and the unit normal there.
 
-    The triangle is symmetric about the line from pivot to tip, so a point below it is mirrored to the upper
+    A triangle is symmetric about the line from pivot to tip, so a point below it is mirrored to the upper
     side. What is left is the flank from the tip (corner 1) to the base's end (corner 2), and the base.
     """
+    if c.shape == Shape.TAPERED:
+        return tapered_distance(c, x, z)
     side = 1.0 if x >= 0.0 else -1.0
     x = abs(x)
     flank_distance = (z - c.z1) * c.along_x1 - x * c.along_z1
@@ -167,27 +207,30 @@ def contact_with_paddle(
 
     In the frame of a turning paddle the flight is not a parabola, so n·a is replaced by its bound −A,
 
-        A = |a| + 2·|ω|·v + ω²·ρ,
+        A = |a| + 2·|ω|·v + (ω² + |α|)·ρ,
 
-    where v bounds the ball's speed up to the time limit, and ρ bounds its distance from the pivot while
-    contact is possible. `speed` is the ball's at the start, where it is within reach of the paddle.
+    where ω and v bound the angular velocity and the ball's speed up to the time limit, and ρ bounds its
+    distance from the pivot while contact is possible. `speed` is the ball's at the start, where it is within
+    reach of the paddle.
     """
-    omega, limit = paddle.omega, best.time
-    bound, min_step, sine, cosine = 0.0, 0.0, 0.0, 1.0
+    limit, is_moving = best.time, is_turning(paddle)
+    omega, bound, min_step, sine, cosine = 0.0, 0.0, 0.0, 0.0, 1.0
     angle = paddle.angle
-    if omega != 0.0:
+    if is_moving:
+        omega = max(abs(omega_at(paddle, start)), abs(omega_at(paddle, limit)))
         accel = abs(ball.accel_x) + abs(ball.accel_z)
         max_speed = speed + accel * (limit - start)
         max_distance = c.reach + radius + 2.0 * max_speed * (limit - start)
-        bound = accel + 2.0 * abs(omega) * max_speed + omega * omega * max_distance
+        bound = accel + 2.0 * omega * max_speed + omega * omega * max_distance
+        bound += abs(paddle.alpha) * max_distance
         min_step = sqrt(2.0 * MIN_ADVANCE_GAP / bound)
-    if omega == 0.0:
+    else:
         sine, cosine = stationary_sine_cosine(c, angle)
     time = start
     for _ in range(FLIGHT_STEPS):
         state = state_at(ball, ball.age + time)
-        if omega != 0.0:
-            angle = angle_at(paddle, time)
+        if is_moving:
+            angle, omega = angle_at(paddle, time), omega_at(paddle, time)
             sine, cosine = sine_cosine(angle)
         gap, nx, nz = _distance_turned(c, sine, cosine, state.x, state.z)
         gap -= radius
@@ -198,16 +241,14 @@ def contact_with_paddle(
             if not time < limit:
                 return best
             state = state_at(ball, ball.age + time)
-            gap, nx, nz = paddle_distance(
-                c, angle_at(paddle, time) if omega != 0.0 else angle, state.x, state.z
-            )
+            gap, nx, nz = paddle_distance(c, angle_at(paddle, time) if is_moving else angle, state.x, state.z)
             return Contact(time, row, nx, nz)
-        gap_accel = nx * ball.accel_x + nz * ball.accel_z if omega == 0.0 else -bound
+        gap_accel = nx * ball.accel_x + nz * ball.accel_z if not is_moving else -bound
         gap = max(gap, 0.0)
         if stays_open(gap, rate, gap_accel, limit - time):
             return best
         step = time_to_line(gap, rate, gap_accel)
-        if omega == 0.0:
+        if not is_moving:
             if step == 0.0:  # at rest on the paddle and pressed against it
                 return Contact(time, row, nx, nz)
         elif step < min_step and rate >= 0.0:

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.physics.forms import Response as Response, Shape as Shape  # noqa: PLC0414
 from silverball.physics.kernel import SETTINGS
 
 MAX_BALLS = 8
@@ -75,25 +76,11 @@ class Kind(IntEnum):
     CYLINDER = 5
 
 
-class Shape(IntEnum):
-    """How far a point is from a primitive, and which way is out."""
+class KickProfile(IntEnum):
+    """How the kick of a collider varies along it."""
 
-    PLANE = 0  # a border
-    CIRCLE = 1
-    CAPSULE = 2  # a segment with a radius
-    TRIANGLE = 3
-    TAPERED = 4  # a capsule with two radii: a paddle
-    ARC = 5  # with a radius
-    LINE = 6  # crossed by the ball's centre
-    DISC = 7  # entered by the ball's centre
-
-
-class Response(IntEnum):
-    """What a contact with a primitive does."""
-
-    BOUNCE = 0
-    PASS = 1  # an event, and the flight goes on
-    HOLD = 2  # the ball stays, until it is sent off
+    FLAT = 0
+    PARABOLA = 1  # 1 − ξ² between the two ends of a capsule or arc, ξ = −1 … 1
 
 
 class EventKind(IntEnum):
@@ -168,8 +155,6 @@ PADDLE = np.dtype(
 
 WORLD = np.dtype(
     [
-        ("ball", BALL, (MAX_BALLS,)),
-        ("paddle", PADDLE, (MAX_PADDLES,)),
         ("tick", "i8"),
         ("seed", "i8"), ("draws", "i8"),  # the random generator: key and counter
         ("score", "i8"),
@@ -179,6 +164,8 @@ WORLD = np.dtype(
         ("touches", "i8"),
         ("jams", "i8"),
         ("fault", "i8"),  # Fault
+        ("paddle", PADDLE, (MAX_PADDLES,)),
+        ("ball", BALL, (MAX_BALLS,)),  # behind what is read most, so that the first balls lie close to it
     ],
     align=True,
 )  # fmt: skip
@@ -235,6 +222,16 @@ COLLIDER = np.dtype(
         ("lift_speed", "f8"), ("return_speed", "f8"), ("button", "i8"),
         ("sweep_x", "f8"), ("sweep_z", "f8"), ("sweep_reach", "f8"),
         ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
+        # Tapered capsules: `radius` is that of the base, length0 leads to the tip (see shapes.py).
+        ("tip_radius", "f8"), ("taper_sine", "f8"), ("taper_cosine", "f8"),
+        # Arcs: ends 0 and 1, where along_* are the tangents towards the middle; centre 2, from which the
+        # middle lies in the direction `inward`; radius of the circle; 1 if it is more than half of it.
+        ("arc_radius", "f8"), ("arc_is_major", "i8"),
+        # Surface: coefficient of friction, [u/s] a contact above it is a hit, [u/s] kick, KickProfile
+        ("friction", "f8"), ("hit_speed", "f8"), ("kick", "f8"), ("kick_profile", "i8"),
+        ("one_way", "i8"),  # 1: only a ball that comes from the side of `inward` meets it
+        # Paddles: angular accelerations [rad/s²], 0 for constant speed; how far it gives way (see bounce.py)
+        ("lift_accel", "f8"), ("return_accel", "f8"), ("recoil", "f8"),
     ],
     align=True,
 )  # fmt: skip
@@ -255,7 +252,7 @@ EVENT = np.dtype(
 
 SWEEP = np.dtype(
     [
-        ("angle", "f8"), ("omega", "f8"), ("stop", "f8"),  # see `PaddleSweep`
+        ("angle", "f8"), ("omega", "f8"), ("stop", "f8"), ("alpha", "f8"),  # see `PaddleSweep`
         ("stop_time", "f8"),  # when in the tick it reaches its stop [s], or NEVER
     ],
     align=True,
@@ -308,11 +305,19 @@ class BallMotion(NamedTuple):
 
 
 class PaddleSweep(NamedTuple):
-    """A paddle's motion in one tick: angle at its start [rad], angular velocity [rad/s], stop [rad]."""
+    """A paddle's motion in one tick.
+
+    Attributes:
+        angle: Its angle at the start of the tick [rad].
+        omega: Its angular velocity at the start of the tick [rad/s].
+        stop: The angle at which it stops [rad].
+        alpha: Its angular acceleration towards the stop [rad/s²]; 0: it turns at constant speed.
+    """
 
     angle: float
     omega: float
     stop: float
+    alpha: float
 
 
 class Contact(NamedTuple):

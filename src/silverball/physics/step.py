@@ -25,6 +25,8 @@ from silverball.physics.motion import advance_ticks, advance_to, hold_still, rel
 from silverball.physics.paddle import (
     angle_at,
     end_at_stop,
+    is_turning,
+    omega_at,
     paddle_distance,
     read_sweep,
     start_sweep,
@@ -95,7 +97,7 @@ def advance_paddles(
     first = board.collider_first + Part.FIRST_PADDLE
     for index in range(board.paddles):
         c, paddle = colliders[first + index], world.paddle[index]
-        store_paddle(paddle, start_sweep(c, paddle.angle, buttons & c.button != 0), tick)
+        store_paddle(paddle, start_sweep(c, paddle, buttons & c.button != 0), tick)
 
 
 @inlined
@@ -137,10 +139,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             resolve_ball_contact(lane, board, world.ball[slot], world.ball[other], contact)
             count_pair_event(log, slot, other)
         elif slot >= 0:
-            omega = 0.0
-            if Part.FIRST_PADDLE <= contact.row < board.shape_first:
-                omega = log.sweep[contact.row - Part.FIRST_PADDLE].omega
-            resolve(lane, geometry, world.ball[slot], contact, omega)
+            resolve(lane, geometry, world.ball[slot], contact)
             log.ball_events[slot] += 1
         for index in range(board.paddles):
             sweep = log.sweep[index]
@@ -165,7 +164,7 @@ def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
     first = board.collider_first + Part.FIRST_PADDLE
     for index in range(board.paddles):
         c = geometry.colliders[first + index]
-        sweep = start_sweep(c, lane.world.paddle[index].angle, buttons & c.button != 0)
+        sweep = start_sweep(c, lane.world.paddle[index], buttons & c.button != 0)
         write_sweep(log.sweep[index], sweep, time_to_stop(sweep, tick))
     pair = 0
     for slot in range(board.max_balls):
@@ -317,7 +316,7 @@ def must_stall(
     If the ball is about to be held (`is_repeat`), a paddle that could reach it stops too: no paddle may run
     into a held ball.
     """
-    if paddle.omega == 0.0:
+    if not is_turning(paddle):
         return False
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
     return bool(gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
@@ -326,11 +325,10 @@ def must_stall(
 @inlined
 def store_paddle(record: PaddleRecord, paddle: PaddleSweep, tick: float) -> None:
     """Store a paddle at the end of the tick, together with the stop angle its button drives it to."""
-    angle, omega = paddle.angle, paddle.omega
-    if omega != 0.0:
+    angle, omega = paddle.angle, 0.0
+    if is_turning(paddle):
         angle = angle_at(paddle, tick)
-        if angle == paddle.stop:
-            omega = 0.0
+        omega = 0.0 if angle == paddle.stop else omega_at(paddle, tick)
     record.angle, record.angle_commanded, record.angular_velocity = angle, paddle.stop, omega
 
 

@@ -58,6 +58,12 @@ JAM_GAP = 1e-3
 FREE_GAP = 1e-9
 """[u] A ball is created only at this distance from everything or more, so that it starts clear."""
 
+CROSSED_GAP = 1e-9
+"""[u] A flight that starts this close to a line, or to the edge of a disc, has crossed it already; one that
+starts this deep below the blocked side of a one-way part still lies on it. Rounding leaves a ball within
+1e-14 u of what it crossed or met. Smaller: a ball that is set down on a line by hand crosses it again.
+Larger: a flight that starts just before a line misses it."""
+
 CREATE_TRIES = 32
 """Random places that are tried before the search turns systematic."""
 

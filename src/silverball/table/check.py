@@ -11,6 +11,7 @@ boards.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -27,17 +28,10 @@ from silverball.table.geometry import (
     offsets,
     side_of,
 )
-from silverball.table.parts import (
-    Board,
-    Cylinder,
-    Paddle,
-    RandomRecipe,
-    SlantWall,
-    StationaryPart,
-    TriangularPrism,
-)
+from silverball.table.kinds import Board, Cylinder, Paddle, Part, SlantWall, StationaryPart, TriangularPrism
 from silverball.table.placement_rules import recipe_problems
 from silverball.table.reach import PASSAGE_MARGIN, Space, creation_floor, space
+from silverball.table.recipe import RandomRecipe
 from silverball.table.sweep import CLEARANCE, touches_border, touches_paddle, touches_shape
 from silverball.table.traps import level_faces, pockets
 
@@ -67,13 +61,21 @@ class Layout(NamedTuple):
     @classmethod
     def of(cls, table: Table) -> Layout:
         """Return the layout of a whole table."""
+        return cls.of_parts(table.board, [(path, part) for path, _, part in table.parts()], table.random)
+
+    @classmethod
+    def of_parts(
+        cls, board: Board, parts: Sequence[tuple[str, Part]], recipe: RandomRecipe | None = None
+    ) -> Layout:
+        """Return the layout of some parts, each with its path in the file."""
+        paddles = [(path, part) for path, part in parts if isinstance(part, Paddle)]
         return cls(
-            table.board,
-            tuple((f"slant_wall[{i}]", part) for i, part in enumerate(table.slant_wall)),
-            tuple((f"paddle[{i}]", part) for i, part in enumerate(table.paddle)),
-            tuple((f"triangular_prism[{i}]", part) for i, part in enumerate(table.triangular_prism)),
-            tuple((f"cylinder[{i}]", part) for i, part in enumerate(table.cylinder)),
-            table.random,
+            board,
+            tuple((path, part) for path, part in parts if isinstance(part, SlantWall)),
+            tuple(sorted(paddles, key=lambda item: int(item[0][7:-1]))),  # in the order of the file
+            tuple((path, part) for path, part in parts if isinstance(part, TriangularPrism)),
+            tuple((path, part) for path, part in parts if isinstance(part, Cylinder)),
+            recipe,
         )
 
 
@@ -146,14 +148,9 @@ def _hop_problems(board: Board) -> list[Problem]:
 
 
 def _paddle_problems(layout: Layout) -> list[Problem]:
-    """Problems of single paddles: one per side, on the board, slower than the cap."""
+    """Problems of single paddles: on the board, slower than the cap."""
     problems = []
-    seen: dict[str, str] = {}
     for path, paddle in layout.paddles:
-        if paddle.side in seen:
-            message = f"must not be {paddle.side!r} again: {seen[paddle.side]} is on this side already"
-            problems.append(Problem(f"{path}.side", message))
-        seen.setdefault(paddle.side, path)
         x, z = paddle.pivot
         if not (layout.board.gutter < x < 0.5 * layout.board.length and abs(z) < 0.5 * layout.board.width):
             message = f"must lie on the board and above the gutter, got [{x:g}, {z:g}]"
@@ -175,7 +172,7 @@ def _speed_problems(path: str, paddle: Paddle, board: Board) -> list[Problem]:
     quick = "stroke" if paddle.stroke <= paddle.return_stroke else "return_stroke"
     travel = paddle.tip_speed * getattr(paddle, quick)  # [u] of the tip
     # The speed falls with the time of the stroke; find the least time in whole milliseconds.
-    times = (milliseconds / 1000.0 for milliseconds in range(20, 1001))
+    times = (milliseconds / 1000.0 for milliseconds in range(10, 1001))
     possible = (time for time in times if _tip_and_hop(travel / time, paddle, board) < board.speed_cap)
     shortest = next(possible, None)
     remedy = f"make it {shortest:g} s or longer" if shortest else "make the paddle shorter"

@@ -10,12 +10,12 @@ from __future__ import annotations
 import difflib
 import json
 import re
-from typing import Any, get_args
+from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
 from silverball.errors import Problem
-from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
+from silverball.table.model import field_of, key_of, list_sections, model_of
 from silverball.table.quantity import shown
 
 MAX_LISTED = 100  # mistakes that are listed; chosen: more than a person fixes at once
@@ -25,47 +25,83 @@ SYNONYMS: dict[str, tuple[str, ...]] = {
     "angle": ("rotation", "rest_angle", "slope"),
     "ball": ("board",),
     "balls": ("max_balls",),
+    "bank_name": ("bank",),
     "bat": ("paddle",),
     "boost": ("speed_factor",),
     "bounce": ("restitution", "wall_restitution"),
     "bounciness": ("restitution", "wall_restitution"),
     "bumper": ("cylinder",),
+    "capture": ("capture_speed", "hole"),
     "centre": ("center",),
+    "chain": ("wall",),
     "circle": ("cylinder",),
     "circumradius": ("size",),
-    "corners": ("vertices",),
+    "corners": ("vertices", "points"),
+    "curve": ("wall",),
     "diameter": ("radius", "ball_radius"),
-    "drain": ("gutter",),
+    "diverter": ("gate",),
+    "drain": ("gutter", "drain", "hole"),
+    "droptarget": ("drop_target",),
+    "eject": ("hole",),
+    "ejecthole": ("hole",),
     "elasticity": ("restitution", "wall_restitution"),
+    "elasticity_falloff": ("restitution_falloff",),
     "file": ("mesh",),
     "flipper": ("paddle",),
+    "force": ("kick",),
     "from": ("start",),
     "guide": ("slant_wall",),
+    "kicker": ("hole",),
+    "lane": ("wall", "rollover"),
+    "launcher": ("plunger",),
+    "layer": ("level",),
     "max_speed": ("speed_cap",),
     "model": ("mesh",),
     "nudge": ("jitter",),
+    "one_way": ("passes", "gate"),
+    "outhole": ("hole",),
+    "peg": ("post",),
     "playfield": ("board",),
-    "position": ("center", "pivot", "start"),
-    "post": ("cylinder",),
+    "polygon": ("wall",),
+    "pos": ("center", "pivot", "start", "position"),
+    "position": ("center", "pivot", "start", "position"),
+    "power": ("kick",),
     "prism": ("triangular_prism", "triangular_prisms"),
     "prisms": ("triangular_prisms", "triangular_prism"),
-    "pos": ("center", "pivot", "start"),
     "radius": ("ball_radius", "size"),
+    "ramp": ("passage", "level"),
     "reduction": ("speed_factor",),
+    "rubber": ("wall", "post"),
+    "saucer": ("hole",),
+    "scatter": ("spread",),
+    "scoop": ("hole",),
     "score": ("points",),
-    "sling": ("triangular_prism",),
-    "slingshot": ("triangular_prism",),
+    "sensor": ("rollover",),
+    "shooter": ("plunger",),
+    "sink": ("hole",),
+    "sling": ("slingshot",),
     "speed_limit": ("speed_cap",),
+    "spinner_gate": ("spinner",),
+    "standup": ("target",),
+    "standup_target": ("target",),
+    "strength": ("kick",),
+    "switch": ("rollover",),
     "table": ("board",),
+    "teleporter": ("hole",),
     "thickness": ("wall_thickness", "base"),
+    "threshold": ("hit_speed",),
     "tilt": ("slope",),
     "title": ("name",),
     "to": ("end",),
     "triangle": ("triangular_prism",),
+    "trigger": ("rollover",),
+    "trough": ("hole",),
+    "upper_playfield": ("level",),
     "value": ("points",),
     "version": ("format",),
-    "wall": ("slant_wall",),
+    "vuk": ("hole",),
     "width": ("base", "thickness"),
+    "wireform": ("passage",),
 }
 
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}\Z")
@@ -131,34 +167,25 @@ def _message(detail: dict[str, Any], root: type[BaseModel]) -> str:
 
 def _description(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
     """The description of a field, from the model that holds it."""
-    field = _model_at(location[:-1], root).model_fields[str(location[-1])]
-    return field.description or str(location[-1])
+    field = field_of(_model_at(location[:-1], root), str(location[-1]))
+    return (field.description if field else None) or str(location[-1])
 
 
 def _model_at(location: tuple[str | int, ...], root: type[BaseModel]) -> type[BaseModel]:
     """The model of a section of the file."""
     model = root
     for step in location:
-        if isinstance(step, str) and step in PART_KINDS and model is root:
-            model = PART_KINDS[step]
-        elif isinstance(step, str):
-            model = _section(model, step)
-    return model
-
-
-def _section(model: type[BaseModel], key: str) -> type[BaseModel]:
-    """The model of a section inside another one."""
-    annotation = model.model_fields[key].annotation
-    for kind in (annotation, *get_args(annotation)):  # a section that may be missing is `Model | None`
-        if isinstance(kind, type) and issubclass(kind, BaseModel):
-            return kind
+        field = field_of(model, step) if isinstance(step, str) else None
+        model = (model_of(field) if field else None) or model
     return model
 
 
 def _unknown_key(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
     """Return a suggestion for a key that the section does not have."""
     key = str(location[-1])
-    known = list(_model_at(location[:-1], root).model_fields)
+    here = _model_at(location[:-1], root)
+    kinds = list_sections(root)
+    known = [key_of(here, name) for name in here.model_fields]
     word = key.lower().replace("-", "_")
     if word in known:
         return f"unknown key: did you mean `{word}`?"
@@ -166,15 +193,18 @@ def _unknown_key(location: tuple[str | int, ...], root: type[BaseModel]) -> str:
     for ours in meanings:
         if ours in known:
             return f"unknown key: did you mean `{ours}`? That is its name here"
-        if ours in PART_KINDS:
+        if ours in kinds:
             return f"unknown key: did you mean a part of its own, under [[{ours}]]?"
     close = difflib.get_close_matches(word[:60], known, n=1)
     if close:
         return f"unknown key: did you mean `{close[0]}`?"
-    for section, model in (("board", Board), ("random", RandomRecipe), ("arcade", Arcade)):
-        if word in model.model_fields and location[0] != section:
+    sections = {name: model_of(field) for name, field in root.model_fields.items()}
+    for section, model in sections.items():
+        if model is None or section in kinds or location[0] == section:
+            continue
+        if word in model.model_fields:
             return f"unknown key: `{word}` belongs in [{section}]"
-    for section, part in PART_KINDS.items():
+    for section, part in kinds.items():
         if word in part.model_fields and location[0] not in (section, "random"):
             return f"unknown key: `{word}` belongs in a part, for example [[{section}]]"
     return f"unknown key: known here are {', '.join(known)}"

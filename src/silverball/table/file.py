@@ -25,11 +25,13 @@ from pydantic import BaseModel
 
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.plain import plain
-from silverball.table.parts import PART_KINDS, Arcade, Board
-from silverball.table.table import Table, checked_table
+from silverball.table.arcade import Arcade
+from silverball.table.kinds import Board, in_order
+from silverball.table.model import Model, is_since_2, key_of
+from silverball.table.table import PART_KINDS, Table, checked_table
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
-SIZE_LIMIT = 2**20  # [bytes] of a table file; chosen: a thousand parts take a tenth of it
+SIZE_LIMIT = 2**18  # [bytes] of a table file; chosen: a real table of 150 parts takes a tenth of it
 
 
 def table_names() -> tuple[str, ...]:
@@ -142,12 +144,22 @@ def table_digest(table: Table) -> str:
     Raises:
         TableError: A mesh cannot be read.
     """
-    # A default section is left out, so that digests from before it existed stay valid.
-    excluded = {"arcade"} if table.arcade == Arcade() else set()
-    text = json.dumps(
-        table.resolved().model_dump(mode="json", exclude=excluded), sort_keys=True, separators=(",", ":")
-    )
+    data = _digest_data(table.resolved())
+    if table.arcade == Arcade():
+        del data["arcade"]  # so that digests from before it existed stay valid
+    text = json.dumps(data, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def _digest_data(value: Any) -> Any:
+    """All values of a model, without the keys of format 2 that have their defaults."""
+    if isinstance(value, BaseModel):
+        return {
+            name: _digest_data(getattr(value, name))
+            for name, field in type(value).model_fields.items()
+            if not (is_since_2(field) and getattr(value, name) == field.default)
+        }
+    return [_digest_data(item) for item in value] if isinstance(value, tuple) else value
 
 
 @functools.cache
@@ -194,12 +206,11 @@ def _parse_toml(text: str, source: str) -> dict[str, Any]:
         raise _unreadable(source, f"is not valid TOML: {str(error)[:200]}") from error
 
 
-def _block(head: str, model: BaseModel) -> str:
+def _block(head: str, model: Model) -> str:
     """One section: its header, then the keys whose values differ from the defaults, positions first."""
-    values = model.model_dump(exclude_defaults=True)
-    own = type(model).__annotations__  # a part adds its position to the fields of its surface
-    keys = sorted(values, key=lambda key: (key != "name", key not in own))
-    return "\n".join([head, *(f"{key} = {_literal(values[key])}" for key in keys)])
+    kind, values = type(model), model.model_dump(exclude_defaults=True)
+    keys = [name for name in in_order(kind) if name in values]
+    return "\n".join([head, *(f"{key_of(kind, name)} = {_literal(values[name])}" for name in keys)])
 
 
 def _literal(value: Any) -> str:

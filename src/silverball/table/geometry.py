@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Board, Outline, Paddle, Point
+    from silverball.table.kinds import Board, Paddle
+    from silverball.table.model import Outline
+    from silverball.table.primitive import Point
 
 Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]

@@ -25,7 +25,8 @@ from silverball.table.geometry import Floats
 from silverball.table.meshfile import KINDS, MeshError, mesh_points
 
 if TYPE_CHECKING:
-    from silverball.table.parts import Point, Triangle
+    from silverball.table.model import Triangle
+    from silverball.table.primitive import Point
 
 MESH_LIMIT = 16 * 2**20  # [bytes] of a mesh file: 300,000 triangles of binary STL
 CORNERS_LIMIT = 1000  # corners of a prism's footprint, so that the largest triangle is found in a second

@@ -19,8 +19,9 @@ import numpy as np
 from silverball.errors import Problem, TableError
 from silverball.table.check import Layout, check_layout
 from silverball.table.geometry import Floats
-from silverball.table.parts import Cylinder, RandomRecipe, TriangularPrism
+from silverball.table.kinds import Cylinder, TriangularPrism
 from silverball.table.placement_rules import Surroundings, allowed_rotations, circle_distances
+from silverball.table.recipe import RandomRecipe
 
 if TYPE_CHECKING:
     from silverball.table.table import Table

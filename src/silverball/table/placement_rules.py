@@ -16,8 +16,9 @@ import numpy as np
 
 from silverball.errors import Problem
 from silverball.table.geometry import Floats, Shapes, border_gaps, distances
-from silverball.table.parts import Board, Paddle, RandomRecipe, SlantWall, StationaryPart
+from silverball.table.kinds import Board, Paddle, SlantWall, StationaryPart
 from silverball.table.reach import PASSAGE_MARGIN
+from silverball.table.recipe import RandomRecipe
 
 EDGE_ANGLE = 10  # [deg] least angle between an edge of a placed prism and an axis
 _TRIALS = 48  # sample points along each side of the area

@@ -16,7 +16,7 @@ import math
 from enum import Enum
 from typing import NamedTuple, TypeAlias
 
-from silverball.physics.records import Response, Shape
+from silverball.physics.forms import Response, Shape
 
 __all__ = ["Arc", "Finish", "Hold", "Launch", "Mover", "Point", "Primitive", "Spin", "Surface", "arc_of"]
 
@@ -59,7 +59,10 @@ class Surface(NamedTuple):
 
 
 class Mover(NamedTuple):
-    """How a paddle turns about its pivot; its points are those of a left paddle at 0 rad."""
+    """How a paddle turns about its pivot.
+
+    Its primitive's points are those of a left paddle at 0 rad, relative to the pivot.
+    """
 
     pivot: Point
     direction: float  # 1: the tip points to +z at 0 rad; −1: the mirror image
@@ -125,7 +128,8 @@ class Primitive(NamedTuple):
     Attributes:
         shape: PLANE (borders only), CIRCLE, CAPSULE, TRIANGLE, TAPERED, ARC, LINE or DISC.
         points: CIRCLE and DISC: the centre. CAPSULE, ARC and LINE: start and end. TRIANGLE: three corners,
-            counter-clockwise. TAPERED: pivot and tip. PLANE: one point on it and its unit normal.
+            counter-clockwise. TAPERED: pivot and tip. Those of a paddle are relative to its pivot. PLANE: one
+            point on it and its unit normal.
         radius: The radius around the core [u]: of a circle or disc, half the thickness of a capsule or arc,
             the base radius of a tapered capsule.
         tip_radius: TAPERED only [u].

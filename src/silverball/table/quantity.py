@@ -1,6 +1,6 @@
 """Validation rules for the numbers, points and intervals of a table file.
 
-The rules are small objects in the annotations of `parts.py`::
+The rules are small objects in the annotations of the models::
 
     gravity: Annotated[float, Quantity(0.0, 100.0, "u/s²")] = 10.0
 
@@ -60,6 +60,10 @@ class Rule(ABC):
     def json_schema(self) -> JsonSchemaValue:
         """Return the rule as JSON Schema, for editors and generated reference pages."""
 
+    def was_allowed(self, value: Any) -> bool:
+        """Whether a value that is allowed was so in format 1 too."""
+        return True
+
     def __get_pydantic_core_schema__(self, _source: Any, _handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self.check)
 
@@ -77,11 +81,13 @@ class Quantity(Rule):
         low: The least value that is allowed.
         high: The greatest value that is allowed.
         unit: The unit, empty for a pure number.
+        before: The bounds in format 1, if they were narrower.
     """
 
     low: float
     high: float
     unit: str = ""
+    before: tuple[float, float] | None = None
 
     @property
     def span(self) -> str:
@@ -104,14 +110,19 @@ class Quantity(Rule):
         """Return the schema of a number with its bounds."""
         return {"type": "number", "minimum": self.low, "maximum": self.high, "unit": self.unit}
 
+    def was_allowed(self, value: Any) -> bool:
+        """Whether a value lies in the bounds of format 1; true for what no format allows."""
+        return _was_within(self, value)
+
 
 @dataclass(frozen=True)
 class Count(Rule):
-    """An integer between two bounds (both allowed)."""
+    """An integer between two bounds (both allowed); `before` are the bounds in format 1, if narrower."""
 
     low: int
     high: int
     unit: str = ""
+    before: tuple[int, int] | None = None
 
     def check(self, value: Any) -> int:
         """Return the value as an int inside the range."""
@@ -126,6 +137,16 @@ class Count(Rule):
     def json_schema(self) -> JsonSchemaValue:
         """Return the schema of an integer with its bounds."""
         return {"type": "integer", "minimum": self.low, "maximum": self.high}
+
+    def was_allowed(self, value: Any) -> bool:
+        """Whether a value lies in the bounds of format 1; true for what no format allows."""
+        return _was_within(self, value)
+
+
+def _was_within(rule: Quantity | Count, value: Any) -> bool:
+    if rule.before is None or isinstance(value, bool) or not isinstance(value, int | float):
+        return True
+    return rule.before[0] <= value <= rule.before[1] or not rule.low <= value <= rule.high
 
 
 @dataclass(frozen=True)
@@ -152,6 +173,36 @@ class FixedList(Rule):
         """Return the schema of an array of exactly that many items."""
         schema: JsonSchemaValue = {"type": "array", "items": self.item.json_schema()}
         return schema | {"minItems": self.count, "maxItems": self.count}
+
+
+@dataclass(frozen=True)
+class ItemList(Rule):
+    """A list of one or more items of one rule.
+
+    Attributes:
+        item: The rule for each item.
+        most: The greatest number of items.
+        form: The notation in messages: ``[0, 2]``.
+        least: The least number of items.
+    """
+
+    item: Rule
+    most: int
+    form: str
+    least: int = 1
+
+    def check(self, value: Any) -> tuple[Any, ...]:
+        """Return the checked items as a tuple."""
+        if not isinstance(value, list | tuple) or len(value) < self.least:
+            refuse(f"must be written {self.form}, got {shown(value)}")
+        if len(value) > self.most:
+            refuse(f"must have at most {self.most:,} items, got {len(value):,}")
+        return tuple(self.item.check(item) for item in value)
+
+    def json_schema(self) -> JsonSchemaValue:
+        """Return the schema of an array of so many items."""
+        schema: JsonSchemaValue = {"type": "array", "items": self.item.json_schema()}
+        return schema | {"minItems": self.least, "maxItems": self.most}
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.table.geometry import Bools, Floats
-from silverball.table.parts import Board, Outline, Paddle, Triangle
+from silverball.table.kinds import Board, Paddle
+from silverball.table.model import Outline, Triangle
 
 if TYPE_CHECKING:
     from silverball.table.table import Table

@@ -16,7 +16,8 @@ from collections.abc import Callable
 import numpy as np
 
 from silverball.table.geometry import Floats, border_gaps, core_distances, distances, paddle_cores
-from silverball.table.parts import Board, Paddle, Triangle
+from silverball.table.kinds import Board, Paddle
+from silverball.table.model import Triangle
 
 CLEARANCE = 0.02  # [u] least gap to a turning paddle; chosen: far above rounding, far below a ball
 MIN_MOTION = 1e-4  # [u] least motion that is still bisected

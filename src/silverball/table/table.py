@@ -7,45 +7,70 @@ validates the fields only, so that unusual boards are possible; `check_table` li
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, NamedTuple
 
-from pydantic import BaseModel, BeforeValidator, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
 
 from silverball.errors import Problem, TableError
+from silverball.table.arcade import Arcade
 from silverball.table.check import Layout, check_layout
-from silverball.table.explain import explain
-from silverball.table.parts import (
-    PART_KINDS,
-    Arcade,
+from silverball.table.explain import explain, path_of
+from silverball.table.kinds import (
     Board,
     Cylinder,
-    Model,
-    Name,
+    DropTarget,
+    Gate,
+    Hole,
+    Level,
     Paddle,
-    RandomRecipe,
+    Part,
+    Passage,
+    Plunger,
+    Post,
+    Rollover,
     SlantWall,
+    Slingshot,
+    Spinner,
     StationaryPart,
+    Target,
     TriangularPrism,
+    Wall,
 )
+from silverball.table.model import SINCE_2, Model, Name, is_since_2, list_sections, places_of_format_2
 from silverball.table.placement import try_recipe
 from silverball.table.quantity import refuse, shown
+from silverball.table.recipe import RandomRecipe
 
-FORMAT: Literal[1] = 1  # version of the file format
-PARTS_LIMIT = 256  # parts of one kind in a table; chosen: ten times a rich table, checked in a second
+FORMATS = (1, 2)  # versions of the file format
+ROWS_LIMIT = 4096  # primitives of all parts of a table; real tables have 300
 MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
 
-_MeshPart: TypeAlias = TriangularPrism | Cylinder
+_AT_MOST = Field(max_length=ROWS_LIMIT)
 
 # Without these a layout cannot be measured; these are what `check` needs to know about a board.
 _MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
 
 
 def _known_format(value: Any) -> Any:
-    if value != FORMAT or isinstance(value, bool):
-        refuse(f"must be {FORMAT}, got {shown(value)}: a newer file needs a newer Silverball")
-    return FORMAT
+    if value not in FORMATS or isinstance(value, bool):
+        refuse(f"must be 1 or 2, got {shown(value)}: a newer file needs a newer Silverball")
+    return int(value)
+
+
+class TablePart(NamedTuple):
+    """One part of a table, and what it is called.
+
+    Attributes:
+        path: Its place in the file, in the messages of checks: ``paddle[1]``.
+        name: Its name in events and tallies: ``paddle.left`` for the first paddle of a side, else the path.
+        part: The part itself.
+    """
+
+    path: str
+    name: str
+    part: Part
 
 
 class Table(Model):
@@ -61,34 +86,99 @@ class Table(Model):
         (12.0, True)
     """
 
-    format: Annotated[Literal[1], BeforeValidator(_known_format)] = FORMAT
-    """The version of the file format."""
+    format: Annotated[Literal[1, 2], BeforeValidator(_known_format)] = 1
+    """The version of the file format: 2 if keys of format 2 are used."""
     name: Name = "Untitled"
     """The title of the table."""
     board: Board = Board()
     """The board and its borders."""
-    slant_wall: Annotated[tuple[SlantWall, ...], Field(max_length=PARTS_LIMIT)] = ()
+    slant_wall: Annotated[tuple[SlantWall, ...], _AT_MOST] = ()
     """The slant walls."""
-    paddle: Annotated[tuple[Paddle, ...], Field(max_length=PARTS_LIMIT)] = ()
-    """The paddles, at most one per side."""
-    triangular_prism: Annotated[tuple[TriangularPrism, ...], Field(max_length=PARTS_LIMIT)] = ()
+    paddle: Annotated[tuple[Paddle, ...], _AT_MOST] = ()
+    """The paddles; format 1 has at most one per side."""
+    triangular_prism: Annotated[tuple[TriangularPrism, ...], _AT_MOST] = ()
     """The triangular prisms."""
-    cylinder: Annotated[tuple[Cylinder, ...], Field(max_length=PARTS_LIMIT)] = ()
+    cylinder: Annotated[tuple[Cylinder, ...], _AT_MOST] = ()
     """The cylinders."""
+    wall: Annotated[tuple[Wall, ...], _AT_MOST, SINCE_2] = ()
+    """The walls."""
+    post: Annotated[tuple[Post, ...], _AT_MOST, SINCE_2] = ()
+    """The posts."""
+    slingshot: Annotated[tuple[Slingshot, ...], _AT_MOST, SINCE_2] = ()
+    """The slingshots."""
+    target: Annotated[tuple[Target, ...], _AT_MOST, SINCE_2] = ()
+    """The targets that stand."""
+    drop_target: Annotated[tuple[DropTarget, ...], _AT_MOST, SINCE_2] = ()
+    """The drop targets."""
+    rollover: Annotated[tuple[Rollover, ...], _AT_MOST, SINCE_2] = ()
+    """The rollovers."""
+    gate: Annotated[tuple[Gate, ...], _AT_MOST, SINCE_2] = ()
+    """The gates."""
+    spinner: Annotated[tuple[Spinner, ...], _AT_MOST, SINCE_2] = ()
+    """The spinners."""
+    hole: Annotated[tuple[Hole, ...], _AT_MOST, SINCE_2] = ()
+    """The holes and drains."""
+    plunger: Annotated[tuple[Plunger, ...], _AT_MOST, SINCE_2] = ()
+    """The plungers."""
+    passage: Annotated[tuple[Passage, ...], _AT_MOST, SINCE_2] = ()
+    """The lines at which balls change their level."""
+    level: Annotated[tuple[Level, ...], _AT_MOST, SINCE_2] = ()
+    """The levels above the playfield."""
     random: RandomRecipe | None = None
     """The obstacles to place at random for each seed, if any."""
     arcade: Arcade = Arcade()
     """The rules of an arcade game."""
 
+    @model_validator(mode="after")
+    def _has_the_format_of_its_keys(self) -> Table:
+        """Set format 2 for a table made in Python that needs it; files must say so themselves."""
+        if self.format == 1 and _needs_format_2(self):
+            self.__dict__["format"] = 2  # the model is frozen, but not made yet
+            self.__pydantic_fields_set__.add("format")
+        return self
+
+    def parts(self) -> tuple[TablePart, ...]:
+        """Return all parts, in the order of their numbers on a board.
+
+        The first paddle of each side, left and right, comes first, then other paddles, then the other kinds
+        in the order of the fields.
+
+        Examples:
+            >>> import silverball as sb
+            >>> sb.load_table("classic").parts()[0].name
+            'paddle.left'
+        """
+        sections = list_sections(type(self))
+        others = [
+            TablePart(path := f"{kind}[{index}]", path, part)
+            for kind, model in sections.items()
+            if issubclass(model, Part) and kind != "paddle"
+            for index, part in enumerate(getattr(self, kind))
+        ]
+        return (*self._named_paddles(), *others)
+
+    def _named_paddles(self) -> list[TablePart]:
+        first: list[TablePart] = []
+        for side in ("left", "right"):
+            of_side = [index for index, paddle in enumerate(self.paddle) if paddle.side == side]
+            first += [TablePart(f"paddle[{i}]", f"paddle.{side}", self.paddle[i]) for i in of_side[:1]]
+        known = {item.path for item in first}
+        paths = [f"paddle[{index}]" for index in range(len(self.paddle))]
+        return first + [
+            TablePart(path, path, part)
+            for path, part in zip(paths, self.paddle, strict=True)
+            if path not in known
+        ]
+
     @property
     def stationary_parts(self) -> tuple[StationaryPart, ...]:
-        """The parts that do not move: slant walls, triangular prisms, cylinders, in this order."""
+        """The slant walls, triangular prisms and cylinders, in this order."""
         return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
 
     @property
     def has_mesh(self) -> bool:
         """Whether a part names a mesh file."""
-        return any(part.mesh for part in self.triangular_prism) or any(part.mesh for part in self.cylinder)
+        return any(part.mesh_file is not None for _, _, part in self.parts())
 
     def resolved(self) -> Table:
         """Return the table with the footprints of its meshes, so that it needs no other file.
@@ -98,10 +188,15 @@ class Table(Model):
         """
         if not self.has_mesh:
             return self
+        return self._with_parts({path: part.resolved() for path, _, part in self.parts()})
+
+    def _with_parts(self, parts: Mapping[str, Part]) -> Table:
+        """Return the table with other parts of the same kinds, by their paths."""
         return self.model_copy(
             update={
-                "triangular_prism": tuple(part.resolved() for part in self.triangular_prism),
-                "cylinder": tuple(part.resolved() for part in self.cylinder),
+                kind: tuple(parts[f"{kind}[{index}]"] for index in range(len(getattr(self, kind))))
+                for kind, model in list_sections(type(self)).items()
+                if issubclass(model, Part)
             }
         )
 
@@ -128,7 +223,11 @@ class Table(Model):
             silverball.errors.TableError: Classic: 1 problem
               board.gravty: unknown key: did you mean `gravity`?
         """
-        return checked_table(_merged(self, changes), self.name)
+        return checked_table(_merged(self, changes), self.name, may_upgrade=True)
+
+
+PART_KINDS = list_sections(Table)
+"""The sections of a table file that hold a list of parts, and the model of each."""
 
 
 def check_table(table: Table) -> list[Problem]:
@@ -146,45 +245,107 @@ def check_table(table: Table) -> list[Problem]:
         >>> [problem.path for problem in sb.check_table(sb.Table(cylinder=(outside,)))]
         ['cylinder[0].center']
     """
-    return check_layout(Layout.of(table)) or try_recipe(table)
+    parts = [(path, part) for path, _, part in table.parts()]
+    problems = check_layout(Layout.of(table)) + _count_problems(table.board, parts)
+    problems += _format_problems(table) if table.format == 1 else _name_problems(parts)
+    return problems or try_recipe(table)
 
 
-def checked_table(data: Mapping[str, Any], source: str, folder: Path | None = None) -> Table:
+def checked_table(
+    data: Mapping[str, Any], source: str, folder: Path | None = None, *, may_upgrade: bool = False
+) -> Table:
     """Make a table from the data of a table file, with every check.
 
     Args:
         data: The sections of the file; a section may be a dict or a model.
         source: The name of the data in messages.
         folder: Where meshes are looked for; the current folder by default.
+        may_upgrade: Whether keys of format 2 are allowed without `format = 2`.
 
     Raises:
         TableError: The data have problems; all of them are in `problems`.
     """
     table: Table | None = None
+    board: Board | None = None
+    recipe: RandomRecipe | None = None
+    parts: list[tuple[str, Part]] = []
     problems: list[Problem] = []
     try:
         table = Table.model_validate(data)
-        layout: Layout | None = Layout.of(table)
+        board, recipe, parts = table.board, table.random, [(path, part) for path, _, part in table.parts()]
     except ValidationError as error:
         problems += explain(error, Table)
-        layout = _valid_layout(data, error)
-    if layout is not None:
-        layout, footprint_problems = _with_footprints(layout, folder or Path())
+        board = _valid_board(data, error)
+        if board is not None:
+            recipe, parts = _valid_recipe(data, error), _valid_parts(data, error)
+    is_first = not may_upgrade and data.get("format", 1) == 1
+    if is_first:
+        problems += _format_problems(data)
+    elif table is None or table.format > 1:
+        problems += _name_problems(parts)
+    if board is not None:
+        parts, footprint_problems = _with_footprints(parts, folder or Path())
         problems += footprint_problems
-        problems += check_layout(layout)
-    if problems or table is None or layout is None:
+        too_many = _count_problems(board, parts)
+        problems += too_many or check_layout(Layout.of_parts(board, parts, recipe))
+    if problems or table is None:
         raise TableError(source, problems)
     if table.has_mesh:
-        table = table.model_copy(
-            update={
-                "triangular_prism": tuple(part for _, part in layout.triangular_prisms),
-                "cylinder": tuple(part for _, part in layout.cylinders),
-            }
-        )
+        table = table._with_parts(dict(parts))
     problems = try_recipe(table)
     if problems:
         raise TableError(source, problems)
     return table
+
+
+def _needs_format_2(table: Table) -> bool:
+    sides = [paddle.side for paddle in table.paddle]
+    return len(set(sides)) < len(sides) or next(places_of_format_2(Table, table), None) is not None
+
+
+def _format_problems(data: Mapping[str, Any] | Table) -> list[Problem]:
+    """The keys and values of format 2 in a table of format 1, and second paddles of a side."""
+    remedy = "write format = 2 at the top of the file"
+    problems = []
+    for place, field, value in places_of_format_2(Table, data):
+        if is_since_2(field):
+            message = f"is new in format 2: {remedy}"
+        else:
+            message = f"may be {shown(value)} in format 2 only: {remedy}"
+        problems.append(Problem(path_of(place), message))
+    seen: dict[Any, str] = {}
+    paddles = data.paddle if isinstance(data, Table) else data.get("paddle", ())
+    for index, paddle in enumerate(paddles if isinstance(paddles, list | tuple) else ()):
+        side = paddle.get("side") if isinstance(paddle, Mapping) else getattr(paddle, "side", None)
+        if not isinstance(side, str):
+            continue
+        if side in seen:
+            message = f"must not be {shown(side)} again: {seen[side]} is on this side already; or {remedy}"
+            problems.append(Problem(f"paddle[{index}].side", message))
+        seen.setdefault(side, f"paddle[{index}]")
+    return problems
+
+
+def _name_problems(parts: list[tuple[str, Part]]) -> list[Problem]:
+    """The names that two parts share; rules speak of parts by their names."""
+    problems = []
+    seen: dict[str, str] = {}
+    for path, part in parts:
+        if part.name in seen:
+            message = f"must not be {shown(part.name)} again: {seen[part.name]} has this name already"
+            problems.append(Problem(f"{path}.name", message))
+        elif part.name:
+            seen[part.name] = path
+    return problems
+
+
+def _count_problems(board: Board, parts: list[tuple[str, Part]]) -> list[Problem]:
+    """Limit the number of primitives."""
+    count = sum(len(part.primitives(board)) for _, part in parts)
+    if count <= ROWS_LIMIT:
+        return []
+    message = f"has {count:,} shapes, an edge of a wall counting as one, at most {ROWS_LIMIT:,}: remove parts"
+    return [Problem("", message)]
 
 
 def _merged(model: BaseModel, changes: Mapping[str, Any]) -> dict[str, Any]:
@@ -210,68 +371,66 @@ def _plain_data(value: Any) -> Any:
     return value
 
 
-def _valid_layout(data: Mapping[str, Any], error: ValidationError) -> Layout | None:
-    """The layout of the valid parts, under their own paths, so that they are checked too.
+def _broken_places(error: ValidationError) -> list[tuple[Any, ...]]:
+    return [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
 
-    None if the board itself cannot be measured.
-    """
-    broken = [detail["loc"] for detail in error.errors(include_url=False, include_input=False)]
+
+def _valid_board(data: Mapping[str, Any], error: ValidationError) -> Board | None:
+    """The board without its broken keys; None if it cannot be measured."""
+    broken = _broken_places(error)
     if ("board",) in broken or any(place[0] == "board" and place[1] in _MEASURES for place in broken):
         return None
     bad_keys = {place[1] for place in broken if place[0] == "board"}
     # Each remaining key is valid, but perhaps not together with the default of an invalid one (`rolling`
     # needs `friction`), so the board is built without validation.
-    board = Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
-    valid: dict[str, list[tuple[str, Any]]] = {}
+    return Board.model_construct(**{k: v for k, v in data.get("board", {}).items() if k not in bad_keys})
+
+
+def _valid_recipe(data: Mapping[str, Any], error: ValidationError) -> RandomRecipe | None:
+    if "random" not in data or any(place[0] == "random" for place in _broken_places(error)):
+        return None
+    return RandomRecipe.model_validate(data["random"])
+
+
+def _valid_parts(data: Mapping[str, Any], error: ValidationError) -> list[tuple[str, Part]]:
+    """The valid parts under their own paths, so that they are checked too."""
+    return list(_each_valid_part(data, _broken_places(error)))
+
+
+def _each_valid_part(data: Mapping[str, Any], broken: list[tuple[Any, ...]]) -> Iterator[tuple[str, Part]]:
     for kind, model in PART_KINDS.items():
-        usable = (kind,) not in broken
+        if not issubclass(model, Part) or (kind,) in broken:
+            continue
         bad = {place[1] for place in broken if place[0] == kind and len(place) > 1}
-        valid[kind] = [
-            (f"{kind}[{index}]", model.model_validate(item))
-            for index, item in enumerate(data.get(kind, []) if usable else [])
-            if index not in bad
-        ]
-    recipe = None
-    if "random" in data and not any(place[0] == "random" for place in broken):
-        recipe = RandomRecipe.model_validate(data["random"])
-    parts = {f"{kind}s": tuple(valid[kind]) for kind in PART_KINDS}
-    return Layout(board=board, random=recipe, **parts)
+        for index, item in enumerate(data.get(kind, [])):
+            if index not in bad:
+                yield f"{kind}[{index}]", model.model_validate(item)
 
 
-def _with_footprints(layout: Layout, folder: Path) -> tuple[Layout, list[Problem]]:
-    """The layout with every mesh replaced by its footprint, without the parts whose mesh is unusable."""
+def _with_footprints(
+    parts: list[tuple[str, Part]], folder: Path
+) -> tuple[list[tuple[str, Part]], list[Problem]]:
+    """The parts with every mesh replaced by its footprint, without those whose mesh is unusable."""
     problems: list[Problem] = []
-    known: dict[tuple[type, str], _MeshPart | TableError] = {}  # a file that many parts name is read once
-
-    def resolved(part: _MeshPart) -> _MeshPart | TableError:
-        assert part.mesh is not None
-        key = (type(part), part.mesh)
+    known: dict[tuple[type, str], Mapping[str, Any] | TableError] = {}  # each file is read once
+    kept: list[tuple[str, Part]] = []
+    for path, part in parts:
+        if part.mesh_file is None:
+            kept.append((path, part))
+            continue
+        key = (type(part), part.mesh_file)
         if key not in known and len(known) >= MESHES_LIMIT:
             message = f"is one mesh too many: a table has at most {MESHES_LIMIT}: give its footprint instead"
-            return TableError(part.mesh, [Problem("mesh", message)])
+            problems.append(Problem(f"{path}.mesh", message))
+            continue
         if key not in known:
             try:
-                known[key] = part.resolved(folder)
+                known[key] = part.footprint(folder / part.mesh_file)
             except TableError as error:
                 known[key] = error
         found = known[key]
         if isinstance(found, TableError):
-            return found
-        place = {"vertices"} if isinstance(found, TriangularPrism) else {"center", "radius"}
-        return part.model_copy(update={"mesh": None, **{key: getattr(found, key) for key in place}})
-
-    def with_footprints(parts: tuple[tuple[str, Any], ...]) -> tuple[tuple[str, Any], ...]:
-        kept: list[tuple[str, _MeshPart]] = []
-        for path, part in parts:
-            found = part if part.mesh is None else resolved(part)
-            if isinstance(found, TableError):
-                problems.extend(Problem(f"{path}.mesh", problem.message) for problem in found.problems)
-            else:
-                kept.append((path, found))
-        return tuple(kept)
-
-    whole = layout._replace(
-        triangular_prisms=with_footprints(layout.triangular_prisms),
-        cylinders=with_footprints(layout.cylinders),
-    )
-    return whole, problems
+            problems += [Problem(f"{path}.mesh", problem.message) for problem in found.problems]
+        else:
+            kept.append((path, part.model_copy(update={"mesh": None, **found})))
+    return kept, problems

@@ -36,7 +36,8 @@ from silverball.table.geometry import (
     offsets,
     outward_normals,
 )
-from silverball.table.parts import Board, Point
+from silverball.table.kinds import Board
+from silverball.table.primitive import Point
 from silverball.table.reach import Space
 
 LEVEL = 2.0  # [deg] a face below this slope is level: a ball on it slides a table's width in 8 s

@@ -24,7 +24,18 @@ from numpy.typing import NDArray
 from silverball.errors import Problem, TableError
 from silverball.physics.broad_phase import fill_grid
 from silverball.physics.portable_math import sine_cosine
-from silverball.physics.records import BOARD, COLLIDER, LEFT, MAX_PADDLES, RIGHT, WORLD, Kind, Part, records
+from silverball.physics.records import (
+    BOARD,
+    COLLIDER,
+    LEFT,
+    MAX_PADDLES,
+    RIGHT,
+    WORLD,
+    Kind,
+    Part,
+    Shape,
+    records,
+)
 from silverball.physics.tolerances import (
     CELL_SHARE,
     GRID_CELL,
@@ -42,6 +53,7 @@ from silverball.table import (
     Table,
     TriangularPrism,
     ball_places,
+    expand,
     table_digest,
 )
 
@@ -121,7 +133,8 @@ def compile_parts(table: Table) -> NDArray[Any]:
     """
     _refuse_degenerate(table)
     rows = records(FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
-    rows["speed_factor"] = 1.0
+    rows["speed_factor"], rows["levels"] = 1.0, 1
+    rows["friction"], rows["hit_speed"] = table.board.friction, table.board.hit_speed
     rows["part"] = np.arange(len(rows))
     _set_borders(rows, table.board)
     paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
@@ -141,11 +154,7 @@ def compile_parts(table: Table) -> NDArray[Any]:
 
 def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
-    kinds = ("slant_wall", "triangular_prism", "cylinder")
-    return (
-        *FIRST_PART_NAMES,
-        *(f"{kind}[{index}]" for kind in kinds for index in range(len(getattr(table, kind)))),
-    )
+    return (*FIRST_PART_NAMES, *(name for name in expand(table).names if name not in FIRST_PART_NAMES))
 
 
 def part_numbers(table: Table) -> dict[str, int]:
@@ -233,7 +242,7 @@ def _search_time(board: Any) -> float:
 
 
 def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"] = Kind.SLANT_WALL
+    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
     _set_side(row, 0, wall.start, wall.end)
     row["x1"], row["z1"] = wall.end
     row["radius"] = wall.thickness
@@ -243,14 +252,14 @@ def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
 
 
 def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"] = Kind.TRIANGULAR_PRISM
+    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
     corners = prism.corners(sine_cosine)
     _set_triangle(row, corners)
     row["x"], row["z"], row["reach"] = _circle_around(corners)
 
 
 def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"] = Kind.CYLINDER
+    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
     row["x"], row["z"], row["radius"] = cylinder.circle()
     row["reach"] = row["radius"]
 
@@ -289,7 +298,7 @@ def _set_paddle(row: Any, paddle: Paddle | None, ball_radius: float) -> None:
         row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
         row["sweep_x"] = FAR
         return
-    row["kind"] = Kind.PADDLE
+    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
     row["side"] = paddle.direction
     row["x"], row["z"] = paddle.pivot
     _set_triangle(row, paddle.local_corners())

@@ -15,7 +15,8 @@ import tomli_w
 
 from silverball.errors import TableError
 from silverball.table import Table, parse_table
-from silverball.table.parts import PART_KINDS, Arcade, Board, RandomRecipe
+from silverball.table.parts import Arcade, Board, RandomRecipe
+from silverball.table.table import PART_KINDS
 
 GOOD = {
     "name": "Everything",

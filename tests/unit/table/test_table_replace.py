@@ -76,10 +76,10 @@ REFUSALS = {
     "a value out of range": ({"board": {"gravity": -1}}, ["board.gravity: must be 0 to 100 u/s², got -1"]),
     "nothing": ({"board": None}, ["board: must be a section with keys and values, got None"]),
     "two mistakes": (
-        {"board": {"gravity": "x", "max_balls": 3}},
+        {"board": {"gravity": "x", "max_balls": 9}},
         [
             "board.gravity: must be a number, 0 to 100 u/s², got 'x'",
-            "board.max_balls: must be 1 to 2 balls, got 3",
+            "board.max_balls: must be 1 to 8 balls, got 9",
         ],
     ),
     "parts that overlap": (

@@ -16,7 +16,7 @@ from silverball.benchmarks.peers.random_play import Game
 from silverball.physics.audit import deepest
 from silverball.physics.records import WORLD, records
 from silverball.table import Paddle, Table
-from silverball.table.parts import Point
+from silverball.table.primitive import Point
 from silverball.world.compile import compile_tables
 
 AXIS_SHARE = 0.75  # of a paddle's axis that no ball can cross; a fast ball may cut across the rest

@@ -1,0 +1,56 @@
+"""The kinds of parts that a table may have: one file a kind, each part a model that knows its primitives.
+
+A new kind is one file here, with its model, its docstring for the reference and its `primitives`, and one
+field of `Table`. Whatever reads a table reads the primitives (see `expand.py`).
+"""
+
+from typing import TypeAlias
+
+from silverball.table.kinds.board import BORDERS, LEVELS, MAX_BALLS, Board
+from silverball.table.kinds.cylinder import Cylinder, CylinderSurface
+from silverball.table.kinds.gate import Gate
+from silverball.table.kinds.hole import Hole
+from silverball.table.kinds.level import Level, Passage
+from silverball.table.kinds.paddle import Paddle
+from silverball.table.kinds.part import Bouncing, Part, in_order
+from silverball.table.kinds.plunger import Plunger
+from silverball.table.kinds.post import Post
+from silverball.table.kinds.rollover import Rollover
+from silverball.table.kinds.slant_wall import SlantWall
+from silverball.table.kinds.slingshot import Slingshot
+from silverball.table.kinds.spinner import Spinner
+from silverball.table.kinds.target import DropTarget, Target
+from silverball.table.kinds.triangular_prism import PrismSurface, TriangularPrism
+from silverball.table.kinds.wall import Wall
+
+StationaryPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
+"""A part of format 1 that does not move."""
+
+__all__ = [
+    "BORDERS",
+    "LEVELS",
+    "MAX_BALLS",
+    "Board",
+    "Bouncing",
+    "Cylinder",
+    "CylinderSurface",
+    "DropTarget",
+    "Gate",
+    "Hole",
+    "Level",
+    "Paddle",
+    "Part",
+    "Passage",
+    "Plunger",
+    "Post",
+    "PrismSurface",
+    "Rollover",
+    "SlantWall",
+    "Slingshot",
+    "Spinner",
+    "StationaryPart",
+    "Target",
+    "TriangularPrism",
+    "Wall",
+    "in_order",
+]
