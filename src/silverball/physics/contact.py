@@ -97,7 +97,7 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
 
 @internal
 def first_contact(
-    geometry: BoardGeometry, log: LogRecord, ball: BallRecord, start: float, limit: float, tick: float
+    geometry: BoardGeometry, scratch: LogRecord, ball: BallRecord, start: float, limit: float, tick: float
 ) -> Contact:
     """Find the first contact of a ball between two times of the tick [s].
 
@@ -127,7 +127,7 @@ def first_contact(
     for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
         c = colliders[board.collider_first + row]
         if is_near(state.x, state.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
-            sweep = read_sweep(log.sweep[row - Part.FIRST_PADDLE])
+            sweep = read_sweep(scratch.sweep[row - Part.FIRST_PADDLE])
             best = contact_with_paddle(c, row, sweep, ball, board.ball_radius, speed, start, best)
     return best
 
@@ -156,7 +156,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     elif contact.row >= board.shape_first:
         nx, nz = contact_normal(c, ball)
     else:
-        paddle = read_sweep(lane.log.sweep[contact.row - Part.FIRST_PADDLE])
+        paddle = read_sweep(lane.scratch.sweep[contact.row - Part.FIRST_PADDLE])
         if is_turning(paddle):
             at_x, at_z = ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz
             ux, uz = surface_velocity(c, omega_at(paddle, time), at_x, at_z)
