@@ -11,9 +11,11 @@ from __future__ import annotations
 from math import sqrt
 
 from silverball.physics.bounce import clamp_speed
+from silverball.physics.contact import is_present
+from silverball.physics.devices import free_plunger
 from silverball.physics.event_log import flight_checksum, log_event, store_checksum
 from silverball.physics.kernel import as_int, internal, kernel
-from silverball.physics.motion import start_flight
+from silverball.physics.motion import capture, start_flight
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
@@ -24,11 +26,12 @@ from silverball.physics.records import (
     Colliders,
     Contact,
     EventKind,
-    Kind,
     LogRecord,
+    Motion,
     Outcome,
     Part,
     Places,
+    Response,
     WorldRecord,
 )
 from silverball.physics.shapes import distance
@@ -39,9 +42,12 @@ TWO_PI = 6.283185307179586
 
 @kernel
 def clearance(
-    world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, x: float, z: float, level: int
 ) -> tuple[float, int]:
-    """Compute the smallest gap [u] between a ball at (x, z) and the parts, and which part it is."""
+    """Compute the smallest gap [u] between a ball at (x, z) on a level and the parts, and which part it is.
+
+    Sensors and parts that are away do not count, nor do one-way parts, which a ball may overlap.
+    """
     first = board.collider_first
     left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
     smallest, part = z - left.z, as_int(Part.LEFT_WALL)
@@ -51,24 +57,24 @@ def clearance(
         smallest, part = top.x - x, as_int(Part.TOP_WALL)
     for index in range(first + Part.FIRST_PADDLE, board.collider_end):
         c = colliders[index]
-        if c.kind == Kind.ABSENT:
+        if c.response != Response.BOUNCE or c.one_way != 0 or not is_present(c, level, world.off):
             continue
         if index < first + board.shape_first:
             gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.FIRST_PADDLE].angle, x, z)
         else:
             gap, _, _ = distance(c, x, z)
         if gap < smallest:
-            smallest, part = gap, index - first
+            smallest, part = gap, int(c.part)
     return smallest - board.ball_radius, part
 
 
 @kernel
-def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float) -> float:
-    """Compute the smallest gap [u] between a ball at (x, z) and the balls on the board."""
+def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float, level: int) -> float:
+    """Compute the smallest gap [u] between a ball at (x, z) on a level and the balls on it."""
     smallest = 1e300
     for index in range(MAX_BALLS):
         ball = world.ball[index]
-        if ball.id != 0:
+        if ball.id != 0 and ball.level == level:
             gap = sqrt((ball.x - x) ** 2 + (ball.z - z) ** 2) - 2.0 * board.ball_radius
             smallest = min(smallest, gap)
     return smallest
@@ -79,8 +85,8 @@ def is_free(world: WorldRecord, board: BoardRecord, colliders: Colliders, x: flo
     """Whether a ball at (x, z) would overlap nothing."""
     if x <= board.gutter + board.ball_radius:
         return False
-    gap, _ = clearance(world, board, colliders, x, z)
-    return gap >= FREE_GAP and clearance_of_balls(world, board, x, z) >= FREE_GAP
+    gap, _ = clearance(world, board, colliders, x, z, as_int(0))
+    return gap >= FREE_GAP and clearance_of_balls(world, board, x, z, as_int(0)) >= FREE_GAP
 
 
 @internal
@@ -131,7 +137,7 @@ def put_ball(
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
-    ball.id = world.created
+    ball.id, ball.level = world.created, 0
     start_flight(ball, board, 0.0)
     if is_known:
         store_checksum(world, board, log)
@@ -151,7 +157,7 @@ def empty_slot(world: WorldRecord, board: BoardRecord) -> int:
 def create_ball(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, places: Places, log: LogRecord
 ) -> int:
-    """Create a ball at rest in a free place.
+    """Create a ball at rest in a free place; on a board with plungers, on one of them.
 
     Returns:
         An `Outcome`: CREATED, or why not (then nothing is changed).
@@ -159,6 +165,17 @@ def create_ball(
     slot = empty_slot(world, board)
     if slot < 0:
         return as_int(Outcome.BOARD_FULL)
+    if board.plungers != 0:
+        row = free_plunger(world, board, colliders)
+        if row < 0:
+            return as_int(Outcome.NO_ROOM)
+        c = colliders[board.collider_first + row]
+        is_known = flight_checksum(world, board) == log.checksum
+        put_ball(world, board, log, slot, c.x, c.z, 0.0, 0.0)
+        capture(world.ball[slot], row, c.x, c.z, 0.0)
+        if is_known:
+            store_checksum(world, board, log)
+        return as_int(Outcome.CREATED)
     found, x, z, draws = find_free_place(world, board, colliders, places)
     if not found:
         return as_int(Outcome.NO_ROOM)
@@ -172,7 +189,7 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Jitter: give every ball on the board an impulse of fixed size in a random direction of its own."""
     for slot in range(MAX_BALLS):
         ball = world.ball[slot]
-        if ball.id == 0:
+        if ball.id == 0 or ball.motion == Motion.CAPTURED:
             continue
         sine, cosine = sine_cosine(TWO_PI * uniform(world.seed, world.draws))
         world.draws += 1
@@ -203,7 +220,7 @@ def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders)
             a, b = world.ball[one], world.ball[other]
             dx, dz = a.x - b.x, a.z - b.z
             reach = 2.0 * board.ball_radius - FREE_GAP
-            if a.id != 0 and b.id != 0 and dx * dx + dz * dz < reach * reach:
+            if a.id != 0 and b.id != 0 and a.level == b.level and dx * dx + dz * dz < reach * reach:
                 return False
     return True
 
@@ -213,7 +230,7 @@ def _separate_pair(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, a: BallRecord, b: BallRecord
 ) -> bool:
     """Move two balls apart if they overlap; return whether they are apart now."""
-    if a.id == 0 or b.id == 0:
+    if a.id == 0 or b.id == 0 or a.level != b.level:
         return True
     dx, dz = a.x - b.x, a.z - b.z
     apart = sqrt(dx * dx + dz * dz)
@@ -223,8 +240,8 @@ def _separate_pair(
     nx, nz = (dx / apart, dz / apart) if apart > 0.0 else (0.0, 1.0)
     shift = 0.5 * (overlap + FREE_GAP)
     ax, az, bx, bz = a.x + shift * nx, a.z + shift * nz, b.x - shift * nx, b.z - shift * nz
-    gap_a, _ = clearance(world, board, colliders, ax, az)
-    gap_b, _ = clearance(world, board, colliders, bx, bz)
+    gap_a, _ = clearance(world, board, colliders, ax, az, a.level)
+    gap_b, _ = clearance(world, board, colliders, bx, bz, b.level)
     if gap_a < 0.0 or gap_b < 0.0:
         return False
     a.x, a.z, b.x, b.z = ax, az, bx, bz

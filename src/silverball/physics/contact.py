@@ -11,10 +11,13 @@ from math import sqrt
 
 from silverball.physics.bounce import bounce
 from silverball.physics.broad_phase import cell_of, is_culled, is_near
+from silverball.physics.crossing import disc_entry, line_crossing
+from silverball.physics.devices import cross_sensor, drop_target
 from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
 from silverball.physics.kernel import as_int, inlined, internal, kernel
-from silverball.physics.motion import advance_to, start_flight, start_rolling
+from silverball.physics.motion import advance_to, clear_ball, start_flight, start_rolling
+from silverball.physics.one_way import time_to_one_way
 from silverball.physics.paddle import (
     contact_with_paddle,
     is_turning,
@@ -30,13 +33,16 @@ from silverball.physics.records import (
     ROLL_START,
     BallRecord,
     BoardGeometry,
+    ColliderRecord,
     Contact,
+    Device,
     EventKind,
     Kind,
     Lane,
-    LogRecord,
     Motion,
     Part,
+    Response,
+    Shape,
     WorldRecord,
 )
 from silverball.physics.shapes import contact_normal
@@ -44,14 +50,75 @@ from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 
 @kernel
-def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None:
+def find_contact(geometry: BoardGeometry, ball: BallRecord, off: int, tick: float) -> None:
     """Resume the search along a ball's flight at `contact_age`, covering a distance of at most `board.skin`.
+
+    `off` has a bit for each switch whose colliders are away. Crossings of sensors do not change the flight,
+    and must not change how it is searched either: the contacts with solid rows are searched for as if there
+    were no sensors, and crossings are searched for before the next of them.
+    """
+    if geometry.board.sensors == 0:
+        ball.contact_age, ball.contact_row = next_solid(geometry, ball, off, ball.contact_age, tick)
+        return
+    start = ball.contact_age
+    if ball.solid_row == NOTHING and ball.solid_age <= start:
+        ball.solid_age, ball.solid_row = next_solid(geometry, ball, off, start, tick)
+    ball.contact_age, ball.contact_row = next_crossing(geometry, ball, off, max(start, ball.passed_age))
+
+
+@internal
+def next_crossing(geometry: BoardGeometry, ball: BallRecord, off: int, start: float) -> tuple[float, int]:
+    """Find the first crossing of a sensor from an age on, before the next contact with a solid row.
+
+    Returns:
+        The age and the row; those of the solid contact, if there is no crossing before it.
+    """
+    board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
+    time, row = ball.solid_age, ball.solid_row
+    if not start < time:
+        return time, row
+    state = state_at(ball, start)
+    speed = sqrt(state.vx * state.vx + state.vz * state.vz)
+    span = time - start
+    travel = (speed + 0.5 * board.max_accel * span) * span + FREE_GAP
+    sagitta = 0.5 * board.max_accel * span * span + FREE_GAP
+    cell = cell_of(board, state.x, state.z)
+    for entry in range(grid[cell], grid[cell + 1]):
+        c = colliders[board.collider_first + grid[entry]]
+        if c.response == Response.BOUNCE or not is_present(c, ball.level, off):
+            continue
+        if is_culled(c, state, speed, travel, sagitta):
+            continue
+        is_past_start = grid[entry] <= ball.passed_row and start == ball.passed_age
+        if c.shape == Shape.LINE:
+            at, direction = line_crossing(c, ball, start, is_past_start, time)
+            is_crossed = direction != 0
+        else:
+            at, is_crossed = disc_entry(c, ball, start, is_past_start, time)
+        if is_crossed:
+            time, row = at, int(grid[entry])
+    return time, row
+
+
+@inlined
+def is_present(c: ColliderRecord, level: int, off: int) -> bool:
+    """Whether a ball on a level can meet a collider: it is on this level too, and not away."""
+    return c.levels >> level & 1 != 0 and c.switch & off == 0
+
+
+@internal
+def next_solid(
+    geometry: BoardGeometry, ball: BallRecord, off: int, start: float, tick: float
+) -> tuple[float, int]:
+    """Find the next contact of a flight with a solid row, the gutter or the start of a roll, from an age on.
 
     The flight of a slipping ball is searched to the end of the tick only, where it ends. At equal times the
     row that comes first wins, also on a mirrored table that lists its parts in the same order.
+
+    Returns:
+        The age and what is met there; or an age up to which nothing is met, and NOTHING.
     """
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
-    start = ball.contact_age
     state = state_at(ball, start)
     speed = sqrt(state.vx * state.vx + state.vz * state.vz)
     span = board.search_time
@@ -87,30 +154,35 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, tick: float) -> None
     cell = cell_of(board, state.x, state.z)
     for entry in range(grid[cell], grid[cell + 1]):
         index = board.collider_first + grid[entry]
+        if not is_present(colliders[index], ball.level, off) or colliders[index].response != Response.BOUNCE:
+            continue
         if is_culled(colliders[index], state, speed, reach + travel, reach + sagitta):
             continue
-        at, is_hit = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
+        if colliders[index].one_way != 0:
+            at, is_hit = time_to_one_way(colliders[index], ball, board.ball_radius, start, time)
+        else:
+            at, is_hit = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
         if at < time:
             time, row = at, index - board.collider_first if is_hit else NOTHING
-    ball.contact_age, ball.contact_row = time, row
+    return time, row
 
 
 @internal
 def first_contact(
-    geometry: BoardGeometry, scratch: LogRecord, ball: BallRecord, start: float, limit: float, tick: float
+    lane: Lane, geometry: BoardGeometry, ball: BallRecord, start: float, limit: float, tick: float
 ) -> Contact:
     """Find the first contact of a ball between two times of the tick [s].
 
     At equal times a stationary part comes before a paddle, and paddles follow each other in their order. The
     normal is set for paddles only; that of a stationary part is computed in `resolve`.
     """
-    if ball.id == 0:
+    if ball.id == 0 or ball.motion == Motion.CAPTURED:
         return Contact(limit, NOTHING, 0.0, 0.0)
     searches = 0
     while ball.contact_row == NOTHING and ball.contact_age < ball.age + limit:
         if searches == FLIGHT_STEPS:
             return Contact(start, NULL_EVENT, 0.0, 0.0)
-        find_contact(geometry, ball, tick)
+        find_contact(geometry, ball, lane.world.off, tick)
         searches += 1
     board, colliders = geometry.board, geometry.colliders
     best = Contact(limit, NOTHING, 0.0, 0.0)
@@ -126,20 +198,25 @@ def first_contact(
     travel = span * (speed + board.max_accel * span)
     for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
         c = colliders[board.collider_first + row]
+        if c.levels >> ball.level & 1 == 0:
+            continue
         if is_near(state.x, state.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
-            sweep = read_sweep(scratch.sweep[row - Part.FIRST_PADDLE])
+            sweep = read_sweep(lane.scratch.sweep[row - Part.FIRST_PADDLE])
             best = contact_with_paddle(c, row, sweep, ball, board.ball_radius, speed, start, best)
     return best
 
 
 @internal
-def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact) -> None:
-    """Apply a contact: the ball bounces off a part, starts to roll, or leaves through the gutter."""
+def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact, tick: float) -> None:
+    """Apply a contact: the ball bounces, crosses a sensor, starts to roll, or leaves through the gutter."""
     world, board, time = lane.world, geometry.board, contact.time
     if contact.row == NULL_EVENT:
         return
     if contact.row == ROLL_START:
         start_rolling(ball, board)
+        return
+    if contact.row >= 0 and is_sensor(geometry, contact.row):
+        cross_sensor(lane, geometry, ball, contact.row, tick)
         return
     advance_to(ball, board, ball.age + time)
     if contact.row == GUTTER:
@@ -150,7 +227,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
         return
     c = geometry.colliders[board.collider_first + contact.row]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
-    acceleration = board.gravity
+    acceleration = board.level_size[ball.level]
     if contact.row < Part.FIRST_PADDLE:
         nx, nz = c.inward_x, c.inward_z
     elif contact.row >= board.shape_first:
@@ -173,17 +250,15 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
         world.touches += 1
     log_event(lane.log, kind, ball, world.tick, c.part, contact, speed)
     start_flight(ball, board, time)
+    if c.device == Device.DROP_TARGET and kind == EventKind.HIT:
+        drop_target(lane, geometry, c, time, tick)
 
 
 @inlined
-def clear_ball(ball: BallRecord) -> None:
-    """Set all fields of a ball's slot to zero: the slot is empty."""
-    ball.x, ball.z, ball.vx, ball.vz = 0.0, 0.0, 0.0, 0.0
-    ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
-    ball.id = 0
-    ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = 0.0, 0.0, 0.0, 0.0
-    ball.accel_x, ball.accel_z, ball.motion, ball.roll_age = 0.0, 0.0, 0, 0.0
-    ball.ticks, ball.offset, ball.age, ball.contact_age, ball.contact_row = 0, 0.0, 0.0, 0.0, 0
+def is_sensor(geometry: BoardGeometry, row: int) -> bool:
+    """Whether balls pass a row instead of bouncing off it."""
+    board = geometry.board
+    return board.sensors != 0 and geometry.colliders[board.collider_first + row].response != Response.BOUNCE
 
 
 @internal
@@ -197,5 +272,5 @@ def count_hit(world: WorldRecord, kind: int) -> None:
         world.paddle_hits += 1
     elif kind == Kind.TRIANGULAR_PRISM:
         world.triangular_prism_hits += 1
-    else:
+    elif kind == Kind.CYLINDER:
         world.cylinder_hits += 1

@@ -10,11 +10,14 @@ from silverball.physics.records import (
     MAX_BALLS,
     BallRecord,
     BoardRecord,
+    ColliderRecord,
     Contact,
     EventKind,
     LogRecord,
     WorldRecord,
 )
+
+LOW_BITS = 1023
 
 
 @internal
@@ -58,6 +61,18 @@ def log_event(
 
 
 @internal
+def log_part_event(log: LogRecord, kind: int, c: ColliderRecord, tick: int, time: float) -> None:
+    """Append an event of a part without a ball, at the place of its collider, or count it as lost."""
+    if log.count >= log.carried + LOG_SIZE:
+        log.lost += 1
+        return
+    event = log.event[log.count]
+    log.count += 1
+    event.kind, event.part, event.ball, event.tick, event.offset = kind, c.part, 0, tick, time
+    event.x, event.z, event.normal_x, event.normal_z, event.speed = c.x, c.z, 0.0, 0.0, 0.0
+
+
+@internal
 def store_checksum(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Store the checksum of the state that a call leaves, for `validation.is_unchanged`."""
     log.checksum = flight_checksum(world, board)
@@ -70,10 +85,26 @@ def flight_checksum(world: WorldRecord, board: BoardRecord) -> float:
     It detects changed states, but does not protect against deliberate collisions.
     """
     checksum = 0.0
+    if board.switches != 0 or board.sensors != 0:
+        checksum += _device_checksum(world, board)
     for slot in range(board.max_balls):
         checksum += _ball_checksum(world.ball[slot])
     for index in range(board.paddles):
         checksum += (3.0 + 2.0 * index) * world.paddle[index].angle
+    return checksum
+
+
+@internal
+def _device_checksum(world: WorldRecord, board: BoardRecord) -> float:
+    """Compute the share of the devices. Of integers only some bits count, so that no other digits are lost."""
+    checksum = 3.0 * (world.off % 1021) + (world.next_clock & LOW_BITS)
+    checksum += 5.0 * (world.launch_held & LOW_BITS) + 7.0 * (world.banks_due & LOW_BITS)
+    for number in range(board.spinners):
+        spinner = world.spinner[number]
+        checksum += (spinner.angle + spinner.speed) + (spinner.tick & LOW_BITS) + spinner.offset
+        checksum += spinner.turns & LOW_BITS
+    for number in range(board.banks):
+        checksum += (world.bank_tick[number] & LOW_BITS) + world.bank_offset[number]
     return checksum
 
 
@@ -82,4 +113,6 @@ def _ball_checksum(ball: BallRecord) -> float:
     """Compute the share of one ball."""
     start = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
     motion = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
-    return start + motion + (ball.contact_age + ball.contact_row)
+    place = (ball.level + ball.holder) + ((ball.due_tick & LOW_BITS) + ball.due_offset)
+    search = (ball.search_age + ball.passed_age) + (ball.passed_row + ball.solid_row)
+    return start + motion + (ball.contact_age + ball.contact_row) + (place + search)

@@ -36,9 +36,14 @@ play:
                   advance_ticks
     contact_age   find_contact,               searches, skip-ahead   ≥ age: there is no contact with a
                   reset_search                                       stationary part before this age
-    contact_row  find_contact,               searches, skip-ahead   what is met at contact_age: a part,
+    contact_row   find_contact,               searches, skip-ahead   what is met at contact_age: a row,
                   reset_search                                       GUTTER or ROLL_START; NOTHING: none is
                                                                      known, search on from contact_age
+    search_age    start_flight, search_from   reset_search           the age from which it is searched: 0, or
+                                                                     when a collider last came or went
+    passed_*      start_flight, crossings     find_contact           the age and row of the last crossing
+    solid_*       find_contact,               find_contact           on boards with sensors: contact_* without
+                  reset_search                                       crossings
 
 `start_flight` stands for `hold_still` and `restart_slip` too, which start flights in the same way. Within a
 tick `age` stays that of the tick's start, so a contact is due at the time  contact_age − age  of the tick. A
@@ -66,13 +71,27 @@ def store(ball: BallRecord, at: BallMotion) -> None:
     ball.x, ball.z, ball.vx, ball.vz = at.x, at.z, at.vx, at.vz
 
 
+@internal
+def clear_ball(ball: BallRecord) -> None:
+    """Set all fields of a ball's slot to zero: the slot is empty."""
+    ball.x, ball.z, ball.vx, ball.vz = 0.0, 0.0, 0.0, 0.0
+    ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
+    ball.id = 0
+    ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = 0.0, 0.0, 0.0, 0.0
+    ball.accel_x, ball.accel_z, ball.motion, ball.roll_age = 0.0, 0.0, 0, 0.0
+    ball.ticks, ball.offset, ball.age, ball.contact_age, ball.contact_row = 0, 0.0, 0.0, 0.0, 0
+    ball.level, ball.holder, ball.due_tick, ball.due_offset = 0, 0, 0, 0.0
+    ball.search_age, ball.passed_age, ball.passed_row = 0.0, 0.0, 0
+    ball.solid_age, ball.solid_row = 0.0, 0
+
+
 @inlined
 def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
     """Start a new flight from the state in the ball's record, `offset` [s] into the tick."""
     _set_start(ball, offset)
-    if board.normal_accel == 0.0:
-        ball.accel_x, ball.accel_z, ball.motion = board.accel_x, board.accel_z, as_int(Motion.SLIDING)
-        ball.roll_age = NEVER
+    if board.normal_accel == 0.0 or ball.level != 0:
+        ball.accel_x, ball.accel_z = board.level_x[ball.level], board.level_z[ball.level]
+        ball.motion, ball.roll_age = as_int(Motion.SLIDING), NEVER
     else:
         choose_motion(ball, board)
 
@@ -83,6 +102,23 @@ def hold_still(ball: BallRecord, offset: float) -> None:
     _set_start(ball, offset)
     ball.accel_x, ball.accel_z, ball.motion = 0.0, 0.0, as_int(Motion.HELD)
     ball.roll_age, ball.contact_age = NEVER, NEVER
+
+
+@internal
+def capture(ball: BallRecord, row: int, x: float, z: float, offset: float) -> None:
+    """Hold a ball at (x, z) for the device in a row, from `offset` [s] into the tick until it lets it go."""
+    ball.x, ball.z, ball.vx, ball.vz = x, z, 0.0, 0.0
+    ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
+    _set_start(ball, offset)
+    ball.accel_x, ball.accel_z, ball.motion, ball.roll_age = 0.0, 0.0, as_int(Motion.CAPTURED), NEVER
+    ball.holder, ball.due_tick, ball.due_offset = row, 0, 0.0
+
+
+@internal
+def set_free(ball: BallRecord, board: BoardRecord, offset: float) -> None:
+    """Let a captured ball fly from the state in its record, from `offset` [s] into the tick on."""
+    ball.holder, ball.due_tick, ball.due_offset = 0, 0, 0.0
+    start_flight(ball, board, offset)
 
 
 @inlined
@@ -105,13 +141,22 @@ def _set_start(ball: BallRecord, offset: float) -> None:
     """Make the state in the ball's record the start of a flight, `offset` [s] into the tick."""
     ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = ball.x, ball.z, ball.vx, ball.vz
     ball.ticks, ball.offset, ball.age = 0, offset, -offset
+    ball.search_age, ball.passed_age, ball.passed_row = 0.0, 0.0, NOTHING
     reset_search(ball)
 
 
 @inlined
 def reset_search(ball: BallRecord) -> None:
-    """Discard the known next contact: the flight is searched again from its start."""
-    ball.contact_age, ball.contact_row = 0.0, NOTHING
+    """Discard the known next contact: the flight is searched again from its `search_age`."""
+    ball.contact_age, ball.contact_row = ball.search_age, NOTHING
+    ball.solid_age, ball.solid_row = ball.search_age, NOTHING
+
+
+@inlined
+def search_from(ball: BallRecord, age: float) -> None:
+    """Search for contacts from an age of the flight on, after a collider has come or gone."""
+    ball.search_age = max(age, 0.0)
+    reset_search(ball)
 
 
 @internal
@@ -222,6 +267,15 @@ def has_valid_motion(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball moves as its board allows, on a flight that began before this tick."""
     if not (0.0 <= ball.offset <= tick * TIME_TOLERANCE and ball.age >= tick - tick * TIME_TOLERANCE):
         return False
+    if not (0.0 <= ball.search_age <= ball.age and 0.0 <= ball.passed_age <= ball.age):
+        return False
+    if ball.level != 0:
+        return bool(
+            ball.motion == Motion.SLIDING
+            and ball.accel_x == board.level_x[ball.level]
+            and ball.accel_z == board.level_z[ball.level]
+            and ball.roll_age == NEVER
+        )
     if ball.motion == Motion.SLIPPING:
         return board.normal_accel != 0.0
     share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0

@@ -28,6 +28,21 @@ MAX_PADDLES = 8
 MAX_PAIRS = MAX_BALLS * (MAX_BALLS - 1) // 2
 """Pairs of balls, in the order (0, 1), (0, 2), (1, 2), (0, 3), …: those of the first n balls come first."""
 
+MAX_LEVELS = 8
+"""Levels of a board; a ball is on one of them, a collider on any."""
+
+MAX_SWITCHES = 62
+"""Colliders of a board that can be away: bits of `off` in a world record."""
+
+MAX_BANKS = 16
+"""Banks of drop targets of a board."""
+
+MAX_SPINNERS = 16
+"""Spinners of a board."""
+
+NO_CLOCK = 2**62
+"""The tick of a clock that never comes."""
+
 LOG_SIZE = 64
 """Events of one step that a world's log holds; later ones are counted as lost."""
 
@@ -74,6 +89,21 @@ class Kind(IntEnum):
     PADDLE = 3
     TRIANGULAR_PRISM = 4
     CYLINDER = 5
+    OTHER = 6
+
+
+class Device(IntEnum):
+    """What a collider does apart from bouncing a ball."""
+
+    NONE = 0
+    DROP_TARGET = 1  # falls when it is hit
+    GATE = 2  # is opened and closed by rules
+    SENSOR = 3  # reports a ball
+    PASSAGE = 4  # changes the level of a ball
+    SPINNER = 5
+    HOLE = 6
+    DRAIN = 7  # a ball that falls into it is lost
+    PLUNGER = 8
 
 
 class KickProfile(IntEnum):
@@ -94,6 +124,11 @@ class EventKind(IntEnum):
     CREATED = 6
     JITTER = 7
     JAM = 8  # a pinched ball was stopped and the paddles at it stalled
+    PASS = 9  # a ball crossed a sensor
+    SPIN = 10  # a spinner made a turn
+    CAPTURED = 11  # a hole or a plunger holds a ball
+    RELEASED = 12  # … and has sent it off
+    RESET = 13  # a drop target has come back
 
 
 class Motion(IntEnum):
@@ -103,6 +138,7 @@ class Motion(IntEnum):
     ROLLING = 1
     SLIPPING = 2  # its lowest point moves over the playfield
     HELD = 3  # jammed; only within a tick
+    CAPTURED = 4  # in a hole or on a plunger
 
 
 class Fault(IntEnum):
@@ -140,6 +176,13 @@ BALL = np.dtype(
         ("age", "f8"),  # at the start of the next tick [s]
         # The next contact with a stationary part; with NOTHING: there is none up to this age [s].
         ("contact_age", "f8"), ("contact_row", "i8"),
+        ("level", "i8"),
+        # A captured ball: the row that holds it, and when that lets it go: the tick and the time in it [s].
+        ("holder", "i8"), ("due_tick", "i8"), ("due_offset", "f8"),
+        # The searches: the age from which the flight is searched for contacts; the last crossing; and, on
+        # boards with sensors, the next contact that is not a crossing.
+        ("search_age", "f8"), ("passed_age", "f8"), ("passed_row", "i8"),
+        ("solid_age", "f8"), ("solid_row", "i8"),
     ],
     align=True,
 )  # fmt: skip
@@ -153,6 +196,15 @@ PADDLE = np.dtype(
     align=True,
 )
 
+SPINNER = np.dtype(
+    [
+        ("angle", "f8"), ("speed", "f8"),  # at the last crossing [rad], [rad/s]
+        ("tick", "i8"), ("offset", "f8"),  # when that was
+        ("turns", "i8"),  # since then
+    ],
+    align=True,
+)  # fmt: skip
+
 WORLD = np.dtype(
     [
         ("tick", "i8"),
@@ -164,8 +216,14 @@ WORLD = np.dtype(
         ("touches", "i8"),
         ("jams", "i8"),
         ("fault", "i8"),  # Fault
+        ("off", "i8"),  # a bit for each switch: the collider is away
+        ("next_clock", "i8"),  # the tick in which a device acts by itself next, or NO_CLOCK
+        ("launch_held", "i8"),  # ticks for which the launch button has been held
+        ("banks_due", "i8"),  # a bit for each bank that is to come back
         ("paddle", PADDLE, (MAX_PADDLES,)),
         ("ball", BALL, (MAX_BALLS,)),  # behind what is read most, so that the first balls lie close to it
+        ("spinner", SPINNER, (MAX_SPINNERS,)),
+        ("bank_tick", "i8", (MAX_BANKS,)), ("bank_offset", "f8", (MAX_BANKS,)),  # when they are due
     ],
     align=True,
 )  # fmt: skip
@@ -182,6 +240,13 @@ BOARD = np.dtype(
         ("normal_accel", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
         ("max_accel", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
+        # Each level: acceleration of a sliding ball [u/s²], and its size.
+        ("level_x", "f8", (MAX_LEVELS,)), ("level_z", "f8", (MAX_LEVELS,)), ("level_size", "f8", (MAX_LEVELS,)),
+        # Devices: rows that balls cross, all switches, rows of plungers and spinners, and of each bank its
+        # switches and the time after which it comes back [s].
+        ("sensors", "i8"), ("switches", "i8"), ("plungers", "i8"), ("plunger_row", "i8"),
+        ("spinners", "i8"), ("spinner_row", "i8", (MAX_SPINNERS,)),
+        ("banks", "i8"), ("bank_switches", "i8", (MAX_BANKS,)), ("bank_time", "f8", (MAX_BANKS,)),
         ("low_z", "f8"), ("high_z", "f8"), ("top_x", "f8"),  # limits of a ball's centre at the borders [u]
         ("paddle_top", "f8"),  # no paddle can touch a ball whose centre is above this x [u]
         ("collider_first", "i8"), ("collider_end", "i8"),  # this board's rows of the colliders
@@ -200,6 +265,8 @@ BOARD = np.dtype(
 COLLIDER = np.dtype(
     [
         ("kind", "i8"),
+        # Shape, Response, the levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
+        ("shape", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
         # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
@@ -211,9 +278,8 @@ COLLIDER = np.dtype(
         ("along_x2", "f8"), ("along_z2", "f8"),
         ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
-        # Shape, Response, the part (its number on the board), the levels (bit n: level n), the switch (a
-        # bit of WORLD.off; 0: always there).
-        ("shape", "i8"), ("response", "i8"), ("part", "i8"), ("levels", "i8"), ("switch", "i8"),
+        ("part", "i8"),  # its number on the board
+        ("device", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the
@@ -232,6 +298,16 @@ COLLIDER = np.dtype(
         ("one_way", "i8"),  # 1: only a ball that comes from the side of `inward` meets it
         # Paddles: angular accelerations [rad/s²], 0 for constant speed; how far it gives way (see bounce.py)
         ("lift_accel", "f8"), ("return_accel", "f8"), ("recoil", "f8"),
+        # Passages: the levels to the right and to the left of corner 0 → corner 1.
+        ("level_right", "i8"), ("level_left", "i8"),
+        # Spinners: damping [1/s], speed that it takes [u/s], half of the blade's height [u]
+        ("damping", "f8"), ("drag", "f8"), ("blade", "f8"),
+        # Holes: speed up to which they capture [u/s], time [s], and where, how and on which level they let go
+        ("capture_speed", "f8"), ("hold_time", "f8"), ("exit_x", "f8"), ("exit_z", "f8"),
+        ("exit_vx", "f8"), ("exit_vz", "f8"), ("exit_spread", "f8"), ("exit_level", "i8"),
+        # Plungers: speeds [u/s], the time for the greatest one [s], the unit direction
+        ("launch_least", "f8"), ("launch_greatest", "f8"), ("charge_time", "f8"),
+        ("launch_x", "f8"), ("launch_z", "f8"),
     ],
     align=True,
 )  # fmt: skip
@@ -281,6 +357,7 @@ BallRecord: TypeAlias = Any  # a BALL record
 PaddleRecord: TypeAlias = Any  # a PADDLE record
 BoardRecord: TypeAlias = Any  # a BOARD record
 ColliderRecord: TypeAlias = Any  # a COLLIDER record
+SpinnerRecord: TypeAlias = Any  # a SPINNER record
 SweepRecord: TypeAlias = Any  # a SWEEP record
 LogRecord: TypeAlias = Any  # a LOG record
 Colliders: TypeAlias = Any  # COLLIDER records [collider] of all boards

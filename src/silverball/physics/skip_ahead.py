@@ -34,13 +34,13 @@ def starts_rolling_next(ball: BallRecord, tick: float) -> bool:
 
 
 @inlined
-def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
+def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, off: int, tick: float) -> bool:
     """Whether a ball meets nothing in the next tick, apart from other balls."""
-    if ball.id == 0:
+    if ball.id == 0 or ball.motion == Motion.CAPTURED:
         return True
     end = ball.age + tick
     if ball.contact_age < end and ball.contact_row == NOTHING:
-        find_contact(geometry, ball, tick)
+        find_contact(geometry, ball, off, tick)
     if ball.contact_age < end and ball.contact_row != ROLL_START:
         return False
     board = geometry.board
@@ -66,10 +66,10 @@ def cannot_meet(board: BoardRecord, a: BallRecord, b: BallRecord, tick: float, m
 
 
 @internal
-def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, tick: float) -> bool:
+def rolls_undisturbed(geometry: BoardGeometry, ball: BallRecord, off: int, tick: float) -> bool:
     """Start the roll that is due in the next tick; return whether the ball then meets nothing in it."""
     start_rolling(ball, geometry.board)
-    find_contact(geometry, ball, tick)
+    find_contact(geometry, ball, off, tick)
     return ball.contact_age >= ball.age + tick
 
 
@@ -80,7 +80,7 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: 
     The ball must be undisturbed in the next tick. The bound is the first time at which its contact is due, a
     paddle can be in reach, or its speed reaches the cap. Other balls are ignored.
     """
-    if ball.id == 0 or limit == 1:
+    if ball.id == 0 or limit == 1 or ball.motion == Motion.CAPTURED:
         return limit
     if ball.motion == Motion.SLIPPING:
         return 1
@@ -103,11 +103,14 @@ def event_free_ticks(geometry: BoardGeometry, world: WorldRecord, tick: float, l
     """Compute how many of the next ticks, at most `limit`, are free of events."""
     board = geometry.board
     slots = board.max_balls
+    if world.next_clock <= world.tick:
+        return 0
+    limit = min(limit, world.next_clock - world.tick)
     changes = False
     for slot in range(slots):
         restart_slip(world.ball[slot], board)
     for slot in range(slots):
-        if not is_undisturbed(geometry, world.ball[slot], tick):
+        if not is_undisturbed(geometry, world.ball[slot], world.off, tick):
             return 0
         changes = changes or starts_rolling_next(world.ball[slot], tick)
     # Twice the distance: if one ball does not roll undisturbed although another one already rolls, the tick
@@ -120,7 +123,7 @@ def event_free_ticks(geometry: BoardGeometry, world: WorldRecord, tick: float, l
     if changes:
         for slot in range(slots):
             ball = world.ball[slot]
-            if starts_rolling_next(ball, tick) and not rolls_undisturbed(geometry, ball, tick):
+            if starts_rolling_next(ball, tick) and not rolls_undisturbed(geometry, ball, world.off, tick):
                 return 0
     count = limit
     for slot in range(slots):

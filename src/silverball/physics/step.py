@@ -18,6 +18,14 @@ from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
 from silverball.physics.broad_phase import is_near
 from silverball.physics.contact import first_contact, resolve
+from silverball.physics.devices import (
+    clock_time,
+    count_launch_tick,
+    is_launching,
+    run_clocks,
+    set_next_clock,
+    work_plungers,
+)
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
 from silverball.physics.kernel import as_int, inlined, internal, kernel
@@ -79,25 +87,42 @@ def step_world(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
     if can_step(world, geometry, lane.log, tick):
         if buttons & JITTER != 0:
             shove_balls(world, board, lane.log)
-        if event_free_ticks(geometry, world, tick, as_int(1)) == 1:
-            advance_paddles(world, board, geometry.colliders, buttons, tick)
-            finish_ticks(world, board, tick, as_int(1))
-        else:
-            play_tick(lane, geometry, buttons, tick)
+        advance(lane, geometry, buttons, tick, as_int(1))
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # sets the fault
         store_checksum(world, board, lane.log)
 
 
+@internal
+def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limit: int) -> int:
+    """Advance a world with the same buttons by one tick, or by as many as are free of events up to `limit`.
+
+    Returns:
+        The number of ticks.
+    """
+    world, board = lane.world, geometry.board
+    free = 0
+    if not is_launching(world, board, buttons):
+        free = event_free_ticks(geometry, world, tick, limit)
+    if free == 0:
+        play_tick(lane, geometry, buttons, tick)
+        return 1
+    for _ in range(free):
+        turn_paddles(world, board, geometry.colliders, buttons, tick)
+    finish_ticks(world, board, tick, free)
+    return free
+
+
 @inlined
-def advance_paddles(
+def turn_paddles(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, buttons: int, tick: float
 ) -> None:
-    """Turn the paddles through a tick in which they meet nothing."""
+    """Turn the paddles, and pull the plungers, through a tick in which they meet nothing."""
     first = board.collider_first + Part.FIRST_PADDLE
     for index in range(board.paddles):
         c, paddle = colliders[first + index], world.paddle[index]
         store_paddle(paddle, start_sweep(c, paddle, buttons & c.button != 0), tick)
+    count_launch_tick(world, board, buttons)
 
 
 @inlined
@@ -116,17 +141,20 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     each other in the order of their slots.
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
+    has_devices = board.sensors != 0 or board.switches != 0
+    work_plungers(lane, geometry, buttons, tick)
     start_tick(lane, geometry, buttons, tick)
     near = near_pairs(world, board, tick)
+    clock = clock_time(world, geometry, tick) if world.next_clock <= world.tick else NEVER
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     time = 0.0
     while True:
-        limit = tick
+        limit = min(tick, clock)
         for index in range(board.paddles):
             limit = min(limit, scratch.sweep[index].stop_time)
         slot, other, contact = -1, -1, Contact(limit, NOTHING, 0.0, 0.0)
         for index in range(board.max_balls):
-            found = first_contact(geometry, scratch, world.ball[index], time, limit, tick)
+            found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
                 slot, contact = index, found
         end = contact.time
@@ -140,12 +168,17 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             resolve_ball_contact(lane, board, world.ball[slot], world.ball[other], contact)
             count_pair_event(scratch, slot, other)
         elif slot >= 0:
-            resolve(lane, geometry, world.ball[slot], contact)
+            resolve(lane, geometry, world.ball[slot], contact, tick)
             scratch.ball_events[slot] += 1
         for index in range(board.paddles):
             sweep = scratch.sweep[index]
             if time >= sweep.stop_time:
                 write_sweep(sweep, end_at_stop(read_sweep(sweep)), NEVER)
+        if time >= clock:
+            run_clocks(lane, geometry, time, tick)
+        if has_devices:
+            clock = clock_time(world, geometry, tick)
+            near = near_pairs(world, board, tick)  # a ball may have been let go, or have left
 
         if slot >= 0 and (
             scratch.ball_events[slot] >= jam_limit or (other >= 0 and scratch.ball_events[other] >= jam_limit)
@@ -155,7 +188,10 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
         release(world.ball[index], board, tick)
     for index in range(board.paddles):
         store_paddle(world.paddle[index], read_sweep(scratch.sweep[index]), tick)
+    count_launch_tick(world, board, buttons)
     finish_ticks(world, board, tick, as_int(1))
+    if has_devices:
+        set_next_clock(world, geometry, tick)
 
 
 @inlined
@@ -209,7 +245,7 @@ def first_ball_contact(
     for other in range(1, board.max_balls):
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
-            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0:
+            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0 and a.level == b.level:
                 accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
                 at_a, at_b = state_at(a, a.age + start), state_at(b, b.age + start)
                 limit = best.time - start
@@ -224,19 +260,25 @@ def first_ball_contact(
     return slot, partner, best, end
 
 
+@inlined
+def is_fixed(ball: BallRecord) -> bool:
+    """Whether a ball does not move whatever meets it."""
+    return bool(ball.motion == Motion.HELD or ball.motion == Motion.CAPTURED)
+
+
 @internal
 def resolve_ball_contact(
     lane: Lane, board: BoardRecord, a: BallRecord, b: BallRecord, contact: Contact
 ) -> None:
-    """Bounce two balls off each other. A ball that is held acts like a wall."""
+    """Bounce two balls off each other. A ball that is held or captured acts like a wall."""
     world, time = lane.world, contact.time
     if contact.row == NULL_EVENT:
         return
     advance_to(a, board, a.age + time)
     advance_to(b, board, b.age + time)
-    if a.motion == Motion.HELD:
+    if is_fixed(a):
         speed = bounce_off_held(b, board, -contact.nx, -contact.nz)
-    elif b.motion == Motion.HELD:
+    elif is_fixed(b):
         speed = bounce_off_held(a, board, contact.nx, contact.nz)
     else:
         speed = bounce_balls(a, b, board, contact)
@@ -247,9 +289,9 @@ def resolve_ball_contact(
     else:
         world.touches += 1
     log_event(lane.log, kind, a, world.tick, contact.row, contact, speed)
-    if a.motion != Motion.HELD:
+    if not is_fixed(a):
         start_flight(a, board, time)
-    if b.motion != Motion.HELD:
+    if not is_fixed(b):
         start_flight(b, board, time)
 
 
@@ -292,7 +334,7 @@ def stop_jammed_ball(
 
     A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
     """
-    if ball.id == 0 or ball.motion == Motion.HELD:
+    if ball.id == 0 or is_fixed(ball):
         return
     world, board, colliders = lane.world, geometry.board, geometry.colliders
     advance_to(ball, board, ball.age + time)
@@ -399,17 +441,24 @@ def run_worlds(
             row = 0 if is_held else tick_index
             if actions[row, index, JITTER_COLUMN] and (not is_held or (tick_index == 0 and not is_continued)):
                 shove_balls(world, board, log)
-            free = event_free_ticks(geometry, world, tick, ticks - tick_index)
+            buttons = held_buttons(actions, row, index)
+            if is_held:
+                tick_index += advance(lane, geometry, buttons, tick, ticks - tick_index)
+                continue
+            free = 0
+            if not is_launching(world, board, buttons):
+                free = event_free_ticks(geometry, world, tick, ticks - tick_index)
             if free == 0:
-                play_tick(lane, geometry, held_buttons(actions, row, index), tick)
+                play_tick(lane, geometry, buttons, tick)
                 tick_index += 1
                 continue
             count = 0
-            while count < free and (
-                count == 0 or is_held or not actions[tick_index + count, index, JITTER_COLUMN]
-            ):
-                row = 0 if is_held else tick_index + count
-                advance_paddles(world, board, colliders, held_buttons(actions, row, index), tick)
+            while count < free:
+                row = tick_index + count
+                buttons = held_buttons(actions, row, index)
+                if count > 0 and (actions[row, index, JITTER_COLUMN] or is_launching(world, board, buttons)):
+                    break
+                turn_paddles(world, board, colliders, buttons, tick)
                 count += 1
             finish_ticks(world, board, tick, count)
             tick_index += count

@@ -11,18 +11,29 @@ from __future__ import annotations
 
 from silverball.physics.balls import separate_balls
 from silverball.physics.broad_phase import cell_of, is_near
+from silverball.physics.contact import is_present
+from silverball.physics.devices import is_possible_capture, validate_devices
 from silverball.physics.event_log import flight_checksum
 from silverball.physics.kernel import as_int, inlined, internal, kernel
-from silverball.physics.motion import has_valid_motion, is_on_flight, reset_search, start_flight
+from silverball.physics.motion import (
+    has_valid_motion,
+    is_on_flight,
+    reset_search,
+    set_free,
+    start_flight,
+)
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.records import (
     MAX_BALLS,
+    MAX_LEVELS,
     BallRecord,
     BoardGeometry,
     BoardRecord,
     Fault,
     LogRecord,
+    Motion,
     Part,
+    Response,
     WorldRecord,
 )
 from silverball.physics.shapes import distance
@@ -43,6 +54,8 @@ def is_unchanged(world: WorldRecord, board: BoardRecord, log: LogRecord, tick: f
 @inlined
 def continues_flight(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball is on a flight that has not ended; true of an empty slot."""
+    if ball.motion == Motion.CAPTURED:
+        return bool(ball.id == 0 or is_on_flight(ball, tick))
     return ball.id == 0 or (
         ball.age <= ball.contact_age
         and is_on_flight(ball, tick)
@@ -56,11 +69,21 @@ def continues_flight(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
 def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> bool:
     """Validate a state from outside and set every ball on a flight; if it is impossible, set the fault."""
     board = geometry.board
-    if not validate_world(world, board) or not validate_positions(world, geometry):
+    if not validate_world(world, board):
+        return False
+    for slot in range(board.max_balls):
+        ball = world.ball[slot]
+        is_captured = ball.id != 0 and ball.motion == Motion.CAPTURED
+        if is_captured and not is_possible_capture(ball, board, geometry.colliders, tick):
+            set_free(ball, board, 0.0)
+    validate_devices(world, geometry, tick)
+    if not validate_positions(world, geometry):
         return False
     for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id == 0:
+            continue
+        if ball.motion == Motion.CAPTURED and is_on_flight(ball, tick):
             continue
         if is_on_flight(ball, tick) and has_valid_motion(ball, board, tick):
             reset_search(ball)
@@ -85,26 +108,34 @@ def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
     for slot in range(MAX_BALLS):
         ball = world.ball[slot]
         if ball.id != 0:
-            is_free = is_free and is_clear_of_parts(world, geometry, ball.x, ball.z)
+            is_free = is_free and is_clear_of_parts(world, geometry, ball)
     if not is_free:
         world.fault = as_int(Fault.INSIDE)
     return bool(is_free)
 
 
 @internal
-def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, x: float, z: float) -> bool:
-    """Whether a ball at (x, z) is inside no part, with the paddles at their present angles."""
+def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, ball: BallRecord) -> bool:
+    """Whether a ball is inside no part, with the paddles at their present angles; a captured one never is."""
+    x, z = ball.x, ball.z
+    if ball.motion == Motion.CAPTURED:
+        return True
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
         return False
     min_gap = board.ball_radius - MAX_DEPTH
     cell = cell_of(board, x, z)
     for entry in range(grid[cell], grid[cell + 1]):
-        gap, _, _ = distance(colliders[board.collider_first + grid[entry]], x, z)
+        c = colliders[board.collider_first + grid[entry]]
+        if c.response != Response.BOUNCE or c.one_way != 0 or not is_present(c, ball.level, world.off):
+            continue
+        gap, _, _ = distance(c, x, z)
         if gap < min_gap:
             return False
     for index in range(board.paddles):
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
+        if c.levels >> ball.level & 1 == 0:
+            continue
         if is_near(x, z, c.x, c.z, c.reach + board.ball_radius):
             gap, _, _ = paddle_distance(c, world.paddle[index].angle, x, z)
             if gap < min_gap:
@@ -122,7 +153,11 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
         sum_of_all = ball.x + ball.z + ball.vx + ball.vz + ball.spin_x + ball.spin_y + ball.spin_z
         if not is_finite(sum_of_all):
             world.fault = as_int(Fault.NOT_FINITE)
-        elif not (abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width):
+        elif not (
+            abs(ball.x) <= board.half_length
+            and abs(ball.z) <= board.half_width
+            and 0 <= ball.level < MAX_LEVELS
+        ):
             world.fault = as_int(Fault.OUTSIDE)
         else:
             world.fault = as_int(Fault.TOO_FAST)
@@ -138,6 +173,7 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
 def is_valid_ball(ball: BallRecord, board: BoardRecord) -> bool:
     """Whether a ball's position, speed and spin are possible."""
     inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
+    inside = inside and 0 <= ball.level < MAX_LEVELS
     max_speed = board.speed_cap * SPEED_MARGIN
     slow = ball.vx * ball.vx + ball.vz * ball.vz <= max_speed * max_speed
     return inside and slow and is_finite(ball.spin_x + ball.spin_y + ball.spin_z)

@@ -35,14 +35,11 @@ from silverball.physics.records import (
     WorldRecord,
     records,
 )
-from silverball.physics.skip_ahead import event_free_ticks
 from silverball.physics.step import (
-    advance_paddles,
+    advance,
     are_balls_on_board,
     button_bits,
     can_step,
-    finish_ticks,
-    play_tick,
 )
 from silverball.players.plan import (
     PLAN,
@@ -356,15 +353,7 @@ def look_ahead(
         limit = horizon - played
         if now < plan.until:
             limit = min(limit, next_change(plan, now) - now)
-        free = event_free_ticks(geometry, world, length, limit)
-        if free == 0:
-            play_tick(lane, geometry, button_bits(left, right), length)
-            played += 1
-        else:
-            for _ in range(free):
-                advance_paddles(world, board, colliders, button_bits(left, right), length)
-            finish_ticks(world, board, length, free)
-            played += free
+        played += advance(lane, geometry, button_bits(left, right), length, limit)
         memory.moves += 1
         if world.score != score:
             score, scored_at, dry = world.score, played, 0.0
