@@ -96,7 +96,7 @@ def flight_checksum(world: WorldRecord, board: BoardRecord) -> float:
 
 @internal
 def _device_checksum(world: WorldRecord, board: BoardRecord) -> float:
-    """Compute the share of the devices. Of integers only some bits count, so that no other digits are lost."""
+    """Compute the share of the devices. Few bits of an integer count, so that no other digits are lost."""
     checksum = 3.0 * (world.off % 1021) + (world.next_clock & LOW_BITS)
     checksum += 5.0 * (world.launch_held & LOW_BITS) + 7.0 * (world.banks_due & LOW_BITS)
     for number in range(board.spinners):

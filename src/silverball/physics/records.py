@@ -83,7 +83,6 @@ ROLL_START = -5  # a slipping ball starts to roll
 class Kind(IntEnum):
     """The kind of a collider."""
 
-    ABSENT = 0  # a paddle that the table does not have
     WALL = 1
     SLANT_WALL = 2
     PADDLE = 3
@@ -241,7 +240,8 @@ BOARD = np.dtype(
         ("max_accel", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
         # Each level: acceleration of a sliding ball [u/s²], and its size.
-        ("level_x", "f8", (MAX_LEVELS,)), ("level_z", "f8", (MAX_LEVELS,)), ("level_size", "f8", (MAX_LEVELS,)),
+        ("level_x", "f8", (MAX_LEVELS,)), ("level_z", "f8", (MAX_LEVELS,)),
+        ("level_size", "f8", (MAX_LEVELS,)),
         # Devices: rows that balls cross, all switches, rows of plungers and spinners, and of each bank its
         # switches and the time after which it comes back [s].
         ("sensors", "i8"), ("switches", "i8"), ("plungers", "i8"), ("plunger_row", "i8"),
@@ -266,7 +266,7 @@ COLLIDER = np.dtype(
     [
         ("kind", "i8"),
         # Shape, Response, the levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
-        ("shape", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
+        ("form", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
         # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
@@ -279,7 +279,7 @@ COLLIDER = np.dtype(
         ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
         ("part", "i8"),  # its number on the board
-        ("device", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
+        ("role", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the

@@ -263,7 +263,7 @@ def first_ball_contact(
 @inlined
 def is_fixed(ball: BallRecord) -> bool:
     """Whether a ball does not move whatever meets it."""
-    return bool(ball.motion == Motion.HELD or ball.motion == Motion.CAPTURED)
+    return ball.motion in (Motion.HELD, Motion.CAPTURED)
 
 
 @internal

@@ -1,15 +1,15 @@
 """Compiling tables: from parts as data to the arrays that the physics reads.
 
-The parts of every board are a run of rows in one shared array of colliders, in the order of `part_names`:
-three borders, two paddles, then slant walls, prisms and cylinders in the order of the file. An event, a tally
-and a collider row name a part by this number.
+The primitives of every board are a run of rows in one shared array of colliders, in the order of
+`table.expand`: three borders, the paddles, then all other parts. A part may have many rows; an event and a
+tally name it by its own number.
 
     compile_tables   everything for a world: rows, grids, places for new balls, hashes
     compile_parts    the rows of one table alone, for drawing
     part_numbers     the number of each part, without compiling
 
 Tables from files and from the generator have passed `check_table`. A table made in Python is not checked, so
-that unusual boards are possible; only parts without an extent are refused.
+that unusual boards are possible; only parts without an extent, and too many of something, are refused.
 """
 
 from __future__ import annotations
@@ -28,11 +28,18 @@ from silverball.physics.records import (
     BOARD,
     COLLIDER,
     LEFT,
+    MAX_BANKS,
+    MAX_LEVELS,
     MAX_PADDLES,
+    MAX_SPINNERS,
+    MAX_SWITCHES,
+    NO_CLOCK,
     RIGHT,
     WORLD,
+    Device,
     Kind,
     Part,
+    Response,
     Shape,
     records,
 )
@@ -45,30 +52,29 @@ from silverball.physics.tolerances import (
     SKIN,
     SKIN_SHARE,
 )
-from silverball.table import (
-    Board,
-    Cylinder,
-    Paddle,
-    SlantWall,
-    Table,
-    TriangularPrism,
-    ball_places,
-    expand,
-    table_digest,
-)
+from silverball.table import Board, Table, ball_places, expand, table_digest
+from silverball.table.expand import Expansion
+from silverball.table.primitive import Primitive
+from silverball.world.rows import highest_x, set_row, swept_circle
 
-SLACK = 1e-9  # [u] added to bounds, so that their rounding cannot matter
 FIRST_GRID_SIZE = 1024  # initial capacity of a board's grid [int32 entries]; most boards need less
 TINY = 1e-300  # smallest divisor, to avoid division by zero
-FAR = 1e9  # [u] place of a paddle that the table does not have, out of every ball's reach
-FIRST_PART_NAMES = ("board.left", "board.right", "board.top", "paddle.left", "paddle.right")
-PADDLES = ((Part.LEFT_PADDLE, "left", LEFT), (Part.RIGHT_PADDLE, "right", RIGHT))
-FIRST_SHAPE = int(Part.FIRST_PADDLE) + len(PADDLES)  # row of the first stationary shape
+FAR = 1e9  # [u] below every board
+ANY_SPEED = 1e300  # [u/s] capture speed of what captures every ball
+BUTTONS = {"left": LEFT, "right": RIGHT}
 SHARED_FIELDS = (
     "ball_radius", "ball_restitution", "friction", "gravity", "gutter", "hit_speed", "jitter", "max_balls",
     "speed_cap",
 )  # fmt: skip
 """Fields that `silverball.table.Board` and BOARD records share."""
+KINDS = {
+    "board": Kind.WALL,
+    "slant_wall": Kind.SLANT_WALL,
+    "paddle": Kind.PADDLE,
+    "triangular_prism": Kind.TRIANGULAR_PRISM,
+    "cylinder": Kind.CYLINDER,
+}
+"""The kinds of the parts of format 1, by their section; all others are OTHER."""
 
 
 class Boards(NamedTuple):
@@ -95,23 +101,24 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
     """Compile concrete tables (random parts already generated) into arrays.
 
     Raises:
-        TableError: A part has no extent, or two paddles are on one side.
+        TableError: A part has no extent, or there is too much of something.
     """
     boards = records(len(tables), BOARD)
     colliders = [compile_parts(table) for table in tables]
     places = []
     collider_count = place_count = 0
-    for row, table, parts in zip(boards, tables, colliders, strict=True):
-        _set_board(row, table.board)
-        _set_bounds(row, table, parts)
-        row["paddles"], row["shape_first"] = len(PADDLES), FIRST_SHAPE
+    for row, table, rows in zip(boards, tables, colliders, strict=True):
+        expansion = expand(table)
+        _set_board(row, table.board, expansion)
+        _set_bounds(row, expansion, rows)
+        _set_devices(row, expansion, rows)
         centers, size = ball_places(table)
-        row["collider_first"], row["collider_end"] = collider_count, collider_count + len(parts)
+        row["collider_first"], row["collider_end"] = collider_count, collider_count + len(rows)
         row["place_first"], row["place_end"] = place_count, place_count + len(centers)
         row["place_size"] = size
         row["place_lowest"] = centers[:, 0].min() - size / 2 if len(centers) else math.inf
         places.append(centers)
-        collider_count += len(parts)
+        collider_count += len(rows)
         place_count += len(centers)
     collider = records(collider_count, COLLIDER)
     np.concatenate(colliders, out=collider)
@@ -126,39 +133,43 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
 
 
 def compile_parts(table: Table) -> NDArray[Any]:
-    """Return the COLLIDER records of a finished table in the order of `part_names`, without its grid.
+    """Return the COLLIDER records of a finished table, one for each row of its expansion, without its grid.
 
     Raises:
-        TableError: A part has no extent, or two paddles are on one side.
+        TableError: A part has no extent, or there is too much of something.
     """
-    _refuse_degenerate(table)
-    rows = records(FIRST_SHAPE + len(table.stationary_parts), COLLIDER)
-    rows["speed_factor"], rows["levels"] = 1.0, 1
-    rows["friction"], rows["hit_speed"] = table.board.friction, table.board.hit_speed
-    rows["part"] = np.arange(len(rows))
-    _set_borders(rows, table.board)
-    paddles: dict[str, Paddle] = {paddle.side: paddle for paddle in table.paddle}
-    for number, side, button in PADDLES:
-        _set_paddle(rows[number], paddles.get(side), table.board.ball_radius)
-        rows[number]["button"] = button
-    for row, part in zip(rows[FIRST_SHAPE:], table.stationary_parts, strict=True):
-        if isinstance(part, SlantWall):
-            _set_slant_wall(row, part, table.board)
-        elif isinstance(part, TriangularPrism):
-            _set_prism(row, part)
-        else:
-            _set_cylinder(row, part)
-        _set_surface(row, part)
+    expansion = expand(table)
+    _refuse_impossible(table, expansion)
+    rows = records(len(expansion.rows), COLLIDER)
+    switches, spinners = 0, 0
+    banks = _banks(expansion)
+    for row, (number, primitive) in zip(rows, expansion.rows, strict=True):
+        set_row(row, primitive, table.board)
+        row["part"], row["kind"] = number, KINDS.get(expansion.parts[number].kind, Kind.OTHER)
+        if primitive.mover is not None:
+            row["button"] = BUTTONS[primitive.mover.button]
+            row["sweep_x"], row["sweep_z"], reach = swept_circle(primitive, primitive.mover)
+            row["sweep_reach"] = reach + table.board.ball_radius
+        if primitive.bank is not None or primitive.is_gate:
+            row["switch"] = 1 << switches
+            switches += 1
+        row["role"] = device = _device(primitive)
+        if primitive.bank is not None:
+            row["number"] = banks.index(primitive.bank)
+        elif device == Device.SPINNER:
+            row["number"] = spinners
+            spinners += 1
+        _set_device_row(row, primitive)
     return rows
 
 
 def part_names(table: Table) -> tuple[str, ...]:
     """Return the names of a table's parts in the order of their numbers: "board.left" … "cylinder[2]"."""
-    return (*FIRST_PART_NAMES, *(name for name in expand(table).names if name not in FIRST_PART_NAMES))
+    return expand(table).names
 
 
 def part_numbers(table: Table) -> dict[str, int]:
-    """Return the number of each part by its name: its row among the colliders and its column of tallies.
+    """Return the number of each part by its name: its column of tallies, and its number in events.
 
     Examples:
         >>> import silverball as sb
@@ -166,11 +177,11 @@ def part_numbers(table: Table) -> dict[str, int]:
         >>> part_numbers(sb.load_table("classic"))["paddle.left"]
         3
     """
-    return {name: number for number, name in enumerate(part_names(table))}
+    return dict(expand(table).numbers)
 
 
 def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
-    """Make worlds in which nothing has happened: no balls, paddles at rest, seed 0.
+    """Make worlds in which nothing has happened: no balls, paddles at rest, gates closed, seed 0.
 
     Args:
         boards: The compiled tables.
@@ -180,6 +191,7 @@ def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
         WORLD records, shape [world].
     """
     worlds = records(len(board_of), WORLD)
+    worlds["next_clock"] = NO_CLOCK
     first = boards.board["collider_first"][board_of]
     for index in range(MAX_PADDLES):
         worlds_with = np.flatnonzero(boards.board["paddles"][board_of] > index)
@@ -189,7 +201,7 @@ def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
     return worlds
 
 
-def _set_board(row: Any, board: Board) -> None:
+def _set_board(row: Any, board: Board, expansion: Expansion) -> None:
     """Set the fields of a board, and the bound on the acceleration of flights on it."""
     for name in SHARED_FIELDS:
         row[name] = getattr(board, name)
@@ -200,15 +212,107 @@ def _set_board(row: Any, board: Board) -> None:
         sine, cosine = sine_cosine(math.radians(board.slope))
         row["normal_accel"] = board.gravity * cosine / sine
     row["max_accel"] = board.gravity + board.friction * row["normal_accel"]
+    for level, (x, z) in enumerate(expansion.gravity):
+        size = abs(x) if z == 0.0 else math.sqrt(x * x + z * z)
+        row["level_x"][level], row["level_z"][level], row["level_size"][level] = x, z, size
+        row["max_accel"] = max(row["max_accel"], size)
 
 
-def _set_bounds(row: Any, table: Table, parts: NDArray[Any]) -> None:
+def _set_bounds(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:
     """Set where the borders stop a ball's centre, and where the paddles can reach it."""
-    radius = table.board.ball_radius
-    row["low_z"] = parts[Part.LEFT_WALL]["z"] + radius
-    row["high_z"] = parts[Part.RIGHT_WALL]["z"] - radius
-    row["top_x"] = parts[Part.TOP_WALL]["x"] - radius
-    row["paddle_top"] = max((_top(paddle) + radius for paddle in table.paddle), default=-FAR)
+    radius = row["ball_radius"]
+    row["low_z"] = rows[Part.LEFT_WALL]["z"] + radius
+    row["high_z"] = rows[Part.RIGHT_WALL]["z"] - radius
+    row["top_x"] = rows[Part.TOP_WALL]["x"] - radius
+    movers = [one for _, one in expansion.rows if one.mover is not None]
+    row["paddles"], row["shape_first"] = len(movers), int(Part.FIRST_PADDLE) + len(movers)
+    row["paddle_top"] = max((highest_x(one, one.mover) + radius for one in movers if one.mover), default=-FAR)
+
+
+def _set_devices(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:
+    """Set what the devices of a board are, and where."""
+    row["sensors"] = np.count_nonzero(rows["response"] != Response.BOUNCE)
+    row["switches"] = int(np.bitwise_or.reduce(rows["switch"]))
+    plungers = np.flatnonzero(rows["role"] == Device.PLUNGER)
+    row["plungers"], row["plunger_row"] = len(plungers), plungers[0] if len(plungers) else 0
+    spinners = np.flatnonzero(rows["role"] == Device.SPINNER)
+    row["spinners"], row["spinner_row"][: len(spinners)] = len(spinners), spinners
+    row["banks"] = len(_banks(expansion))
+    for collider, (_, primitive) in zip(rows, expansion.rows, strict=True):
+        if primitive.bank is not None:
+            number = collider["number"]
+            row["bank_switches"][number] |= collider["switch"]
+            row["bank_time"][number] = max(row["bank_time"][number], primitive.reset_after)
+
+
+def _banks(expansion: Expansion) -> list[str]:
+    """The names of the banks of drop targets, in the order of their first members."""
+    return list(dict.fromkeys(one.bank for _, one in expansion.rows if one.bank is not None))
+
+
+def _device(primitive: Primitive) -> Device:
+    """What a primitive does apart from bouncing a ball."""
+    if primitive.launch is not None:
+        return Device.PLUNGER
+    if primitive.hold is not None:
+        return Device.DRAIN if primitive.hold.is_drain else Device.HOLE
+    if primitive.spin is not None:
+        return Device.SPINNER
+    if primitive.passage is not None:
+        return Device.PASSAGE
+    if primitive.bank is not None:
+        return Device.DROP_TARGET
+    if primitive.is_gate:
+        return Device.GATE
+    return Device.SENSOR if primitive.response == Response.PASS else Device.NONE
+
+
+def _set_device_row(row: Any, primitive: Primitive) -> None:
+    """Write how a device works."""
+    if primitive.passage is not None:
+        row["level_right"], row["level_left"] = primitive.passage
+    if (spin := primitive.spin) is not None:
+        row["damping"], row["drag"], row["blade"] = spin.damping, spin.drag, spin.height
+    if (hold := primitive.hold) is not None:
+        row["capture_speed"], row["hold_time"] = hold.capture_speed, hold.duration
+        row["exit_x"], row["exit_z"] = hold.exit
+        row["exit_vx"], row["exit_vz"] = hold.exit_velocity
+        row["exit_spread"], row["exit_level"] = hold.spread, hold.exit_level
+    if (launch := primitive.launch) is not None:
+        row["capture_speed"] = ANY_SPEED
+        row["launch_least"], row["launch_greatest"] = launch.least, launch.greatest
+        row["charge_time"] = launch.charge
+        row["launch_x"], row["launch_z"] = launch.direction
+
+
+def _refuse_impossible(table: Table, expansion: Expansion) -> None:
+    """Refuse what only a table made in Python can have: parts without an extent, and too many of a kind."""
+    problems = []
+    for number, primitive in expansion.rows:
+        part = expansion.parts[number]
+        if primitive.shape in ENDED and primitive.points[0] == primitive.points[1]:
+            problems.append(Problem(part.path, "must have two different ends"))
+        if primitive.shape == Shape.TRIANGLE and primitive.mover is None:
+            a, b, c = primitive.points
+            if (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
+                problems.append(Problem(part.path, "must not be flat"))
+    count = sum(1 for _, one in expansion.rows if one.mover is not None)
+    switches = sum(1 for _, one in expansion.rows if one.bank is not None or one.is_gate)
+    spinners = sum(1 for _, one in expansion.rows if one.spin is not None)
+    for name, found, limit in (
+        ("paddles", count, MAX_PADDLES),
+        ("drop targets and held gates", switches, MAX_SWITCHES),
+        ("banks of drop targets", len(_banks(expansion)), MAX_BANKS),
+        ("spinners", spinners, MAX_SPINNERS),
+        ("levels", len(expansion.gravity), MAX_LEVELS),
+    ):
+        if found > limit:
+            problems.append(Problem("table", f"must have at most {limit} {name}, got {found}"))
+    if problems:
+        raise TableError(table.name, problems)
+
+
+ENDED = (Shape.CAPSULE, Shape.LINE, Shape.ARC)
 
 
 def _grids(boards: NDArray[Any], collider: NDArray[Any]) -> NDArray[np.int32]:
@@ -239,125 +343,3 @@ def _search_time(board: Any) -> float:
     if board["gravity"] >= LOW_GRAVITY:
         return SEARCH_TIME
     return min(math.sqrt(board["skin"] / max(board["max_accel"], TINY)), MAX_SEARCH_TIME)
-
-
-def _set_slant_wall(row: Any, wall: SlantWall, board: Board) -> None:
-    row["kind"], row["shape"] = Kind.SLANT_WALL, Shape.CAPSULE
-    _set_side(row, 0, wall.start, wall.end)
-    row["x1"], row["z1"] = wall.end
-    row["radius"] = wall.thickness
-    row["inward_x"], row["inward_z"] = wall.inward_normal(board)
-    row["x"], row["z"] = (wall.start[0] + wall.end[0]) / 2, (wall.start[1] + wall.end[1]) / 2
-    row["reach"] = row["length0"] / 2 + wall.thickness
-
-
-def _set_prism(row: Any, prism: TriangularPrism) -> None:
-    row["kind"], row["shape"] = Kind.TRIANGULAR_PRISM, Shape.TRIANGLE
-    corners = prism.corners(sine_cosine)
-    _set_triangle(row, corners)
-    row["x"], row["z"], row["reach"] = _circle_around(corners)
-
-
-def _set_cylinder(row: Any, cylinder: Cylinder) -> None:
-    row["kind"], row["shape"] = Kind.CYLINDER, Shape.CIRCLE
-    row["x"], row["z"], row["radius"] = cylinder.circle()
-    row["reach"] = row["radius"]
-
-
-def _refuse_degenerate(table: Table) -> None:
-    """Refuse parts without an extent and paddles on one side, which only a table made in Python can have."""
-    problems = []
-    sides = [paddle.side for paddle in table.paddle]
-    if len(set(sides)) < len(sides):
-        problems.append(Problem("paddle", f"there can be one paddle per side, got {', '.join(sides)}"))
-    for index, wall in enumerate(table.slant_wall):
-        if wall.start == wall.end:
-            problems.append(Problem(f"slant_wall[{index}]", "must have two different ends"))
-    for index, prism in enumerate(table.triangular_prism):
-        a, b, c = prism.corners()
-        if (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
-            problems.append(Problem(f"triangular_prism[{index}]", "must not be flat"))
-    if problems:
-        raise TableError(table.name, problems)
-
-
-def _set_borders(rows: NDArray[Any], board: Board) -> None:
-    borders = rows[Part.LEFT_WALL : Part.TOP_WALL + 1]
-    borders["kind"] = Kind.WALL
-    borders["restitution"] = board.wall_restitution
-    rows[Part.LEFT_WALL]["z"] = -board.width / 2 + board.wall_thickness
-    rows[Part.RIGHT_WALL]["z"] = board.width / 2 - board.wall_thickness
-    rows[Part.TOP_WALL]["x"] = board.length / 2 - board.wall_thickness
-    rows[Part.LEFT_WALL]["inward_z"], rows[Part.RIGHT_WALL]["inward_z"] = 1.0, -1.0
-    rows[Part.TOP_WALL]["inward_x"] = -1.0
-
-
-def _set_paddle(row: Any, paddle: Paddle | None, ball_radius: float) -> None:
-    """Set a paddle in its own frame (see physics/paddle.py): pivot at the origin, tip along z′."""
-    if paddle is None:
-        row["kind"], row["x"], row["z"], row["side"] = Kind.ABSENT, FAR, FAR, 1.0
-        row["sweep_x"] = FAR
-        return
-    row["kind"], row["shape"] = Kind.PADDLE, Shape.TRIANGLE
-    row["side"] = paddle.direction
-    row["x"], row["z"] = paddle.pivot
-    _set_triangle(row, paddle.local_corners())
-    row["reach"] = paddle.reach
-    row["sweep_x"], row["sweep_z"], reach = _swept_circle(paddle)
-    row["sweep_reach"] = reach + ball_radius
-    row["angle_rest"], row["angle_up"] = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
-    swing = row["angle_up"] - row["angle_rest"]
-    row["lift_speed"], row["return_speed"] = swing / paddle.stroke, swing / paddle.return_stroke
-    for name in ("rest", "up"):
-        row[f"sine_{name}"], row[f"cosine_{name}"] = sine_cosine(row[f"angle_{name}"])
-    _set_surface(row, paddle)
-
-
-def _top(paddle: Paddle) -> float:
-    """An upper bound on the x [u] that any point of the paddle reaches."""
-    tip = paddle.length * math.sin(math.radians(paddle.up_angle))
-    return paddle.pivot[0] + max(tip, 0.5 * paddle.base) + SLACK
-
-
-def _swept_circle(paddle: Paddle) -> tuple[float, float, float]:
-    """A circle (x, z, radius) [u] around a paddle at all its angles.
-
-    The centre lies halfway to the tip at the middle angle; the farthest points are the tip at either stop and
-    the ends of the base.
-    """
-    middle = math.radians(0.5 * (paddle.rest_angle + paddle.up_angle))
-    swing = math.radians(0.5 * (paddle.up_angle - paddle.rest_angle))
-    half = 0.5 * paddle.length
-    x, z = half * math.sin(middle), math.copysign(half * math.cos(middle), paddle.direction)
-    tip = math.sqrt(paddle.length**2 + half**2 - 2 * paddle.length * half * math.cos(swing))
-    return paddle.pivot[0] + x, paddle.pivot[1] + z, max(tip, half + 0.5 * paddle.base) + SLACK
-
-
-def _set_surface(row: Any, part: Any) -> None:
-    row["restitution"], row["restitution_falloff"] = part.restitution, part.restitution_falloff
-    row["points"] = part.points
-    row["speed_factor"] = getattr(part, "speed_factor", 1.0)
-
-
-def _set_side(row: Any, number: int, start: Sequence[float], end: Sequence[float]) -> None:
-    dx, dz = end[0] - start[0], end[1] - start[1]
-    length = math.sqrt(dx * dx + dz * dz)  # not hypot, whose last bit differs between systems
-    row[f"x{number}"], row[f"z{number}"] = start
-    row[f"along_x{number}"], row[f"along_z{number}"], row[f"length{number}"] = (
-        dx / length,
-        dz / length,
-        length,
-    )
-
-
-def _set_triangle(row: Any, corners: Sequence[Sequence[float]]) -> None:
-    for number in range(3):
-        _set_side(row, number, corners[number], corners[(number + 1) % 3])
-
-
-def _circle_around(corners: Sequence[Sequence[float]]) -> tuple[float, float, float]:
-    """A circle (x, z, radius) [u] around a triangle, centred on its centroid."""
-    x = sum(corner[0] for corner in corners) / 3
-    z = sum(corner[1] for corner in corners) / 3
-    farthest = max((corner[0] - x) ** 2 + (corner[1] - z) ** 2 for corner in corners)
-    return x, z, math.sqrt(farthest) * (1 + 1e-12)

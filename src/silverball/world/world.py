@@ -22,10 +22,23 @@ from silverball.physics.balls import (
     put_ball,
     separate_balls,
 )
-from silverball.physics.records import JITTER, LAUNCH, LEFT, RIGHT, WORLD, Fault, Outcome, Part
+from silverball.physics.devices import set_switch
+from silverball.physics.records import (
+    JITTER,
+    LAUNCH,
+    LEFT,
+    RIGHT,
+    WORLD,
+    BoardGeometry,
+    Device,
+    Fault,
+    Motion,
+    Outcome,
+    Part,
+)
 from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
 from silverball.physics.validation import validate_world
-from silverball.table import Table
+from silverball.table import Table, expand
 from silverball.world import saved_world
 from silverball.world.arguments import checked_int
 from silverball.world.batch import WorldBatch
@@ -34,7 +47,7 @@ from silverball.world.single_step import SingleStepper
 
 BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
-COUNTS = tuple(name for name in WORLD.names or () if name not in ("ball", "paddle"))
+COUNTS = tuple(name for name in WORLD.names or () if WORLD[name].shape == ())
 
 
 class World:
@@ -345,6 +358,33 @@ class World:
         """The grid of the board, for kernels that simulate copies of the record."""
         return self._batch.boards.grid
 
+    def open_gate(self, name: str, is_open: bool = True) -> bool:
+        """Open or close a held gate, as rules do.
+
+        Args:
+            name: The name of the part: the one in the table, or the one in events, as "gate[0]".
+            is_open: Whether balls can pass.
+
+        Returns:
+            Whether the gate is as wanted now; it does not close on a ball that is in the way.
+
+        Raises:
+            ValueError: There is no held gate of this name.
+        """
+        expansion = expand(self.table)
+        number = expansion.named.get(name, expansion.numbers.get(name, -1))
+        rows = self._batch.boards.collider
+        switches = int(rows["switch"][(rows["part"] == number) & (rows["role"] == Device.GATE)].sum())
+        if switches == 0:
+            gates = {
+                part.name
+                for part in expansion.parts
+                if any(primitive.is_gate for primitive in part.primitives)
+            }
+            raise ValueError(f"name must be that of a held gate, {sorted(gates)}, got {name!r}")
+        geometry = BoardGeometry(*self._static, self._batch.boards.grid)
+        return bool(set_switch(self._record, geometry, switches, is_open))
+
     def _step_in_chunks(self, buttons: int, ticks: int) -> int:
         """Play all but the last chunk of a step; return the remaining ticks for `run_worlds`."""
         sign = 1
@@ -352,12 +392,12 @@ class World:
             ticks, sign = ticks - CHUNK_TICKS, -1
         return sign * ticks
 
-    def clearance(self, x: float, z: float) -> float:
-        """Return the smallest gap [u] between a ball centred at (x, z) and any part.
+    def clearance(self, x: float, z: float, level: int = 0) -> float:
+        """Return the smallest gap [u] between a ball centred at (x, z) on a level and any part on it.
 
         Paddles are taken at their present angles, other balls are ignored. Negative inside a part.
         """
-        return float(clearance(self._record, *self._static, x, z)[0])
+        return float(clearance(self._record, *self._static, x, z, level)[0])
 
     def _newest(self) -> BallState:
         return max(self.balls, key=lambda ball: ball.id)
@@ -392,13 +432,13 @@ class World:
         board = self.table.board
         if x <= board.gutter + board.ball_radius:
             raise NoRoom(f"a ball at x = {x:g} would be in the gutter (x = {board.gutter:g}); place it above")
-        gap, part = clearance(self._record, *self._static, x, z)
+        gap, part = clearance(self._record, *self._static, x, z, 0)
         if gap < FREE_GAP:
             raise NoRoom(
                 f"a ball at ({x:g}, {z:g}) would overlap {self._names[part]} by {max(-gap, 0.0):.3g} u; "
                 "place it elsewhere"
             )
-        if clearance_of_balls(self._record, self._board, x, z) < FREE_GAP:
+        if clearance_of_balls(self._record, self._board, x, z, 0) < FREE_GAP:
             raise NoRoom(f"a ball at ({x:g}, {z:g}) would overlap the other ball; place it elsewhere")
         put_ball(self._record, self._board, self._log, slot, x, z, vx, vz)
         return self._newest()
@@ -432,9 +472,11 @@ class World:
             raise StateError(
                 "the state holds two overlapping balls; moving them apart would press one into a part"
             )
-        for x, z, id_ in balls[["x", "z", "id"]].tolist():
-            gap, part = clearance(self._record, *self._static, x, z)
-            if id_ and gap < -MIN_ADVANCE_GAP:
+        for x, z, id_, level, motion in balls[["x", "z", "id", "level", "motion"]].tolist():
+            if not id_ or motion == Motion.CAPTURED:
+                continue
+            gap, part = clearance(self._record, *self._static, x, z, level)
+            if gap < -MIN_ADVANCE_GAP:
                 raise StateError(f"the state holds a ball {-gap:.3g} u deep inside {self._names[part]}")
 
 
