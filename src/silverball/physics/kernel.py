@@ -40,7 +40,7 @@ from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
-from silverball.physics.linkage import HelperCompiler, KernelCompiler, can_link
+from silverball.physics.linkage import HelperCompiler, KernelCompiler, WrapperCompiler, can_link
 
 SETTINGS: Any = numba.core.config
 # The packages whose sources the machine code of some kernels depends on.
@@ -81,6 +81,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 def kernel(function: F) -> F:
     """Compile a function on its first call and cache the machine code for the next start."""
     return _compile(function)
+
+
+def wrapper(function: F) -> F:
+    """Compile a kernel that does little but call another one, without optimizing that one again."""
+    return _compile(function, **({"pipeline_class": WrapperCompiler} if can_link else {}))
 
 
 def internal(function: F) -> F:
@@ -218,7 +223,7 @@ def evict_old_code() -> None:
                 shutil.rmtree(other, ignore_errors=True)
 
 
-def _compile(function: F, **more: bool | str) -> F:
+def _compile(function: F, **more: Any) -> F:
     options: dict[str, Any] = {
         "error_model": "numpy",
         "fastmath": False,
@@ -228,7 +233,8 @@ def _compile(function: F, **more: bool | str) -> F:
         **more,
     }
     if can_link:
-        options["pipeline_class"] = HelperCompiler if more.get("no_cpython_wrapper") else KernelCompiler
+        is_helper = more.get("no_cpython_wrapper")
+        options.setdefault("pipeline_class", HelperCompiler if is_helper else KernelCompiler)
     compiled: Any = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled

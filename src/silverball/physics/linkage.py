@@ -49,6 +49,9 @@ class HelperLibrary(Library):  # type: ignore[misc,valid-type]
     _final_module: Any
     _shared_module: Any
 
+    def _optimize_final_module(self) -> None:
+        """Leave it to the kernels that contain it, so that it is optimized once."""
+
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()
         code = self._final_module
@@ -61,6 +64,15 @@ class HelperLibrary(Library):  # type: ignore[misc,valid-type]
         self._final_module = binding.parse_assembly("\n".join(target + environments))
         self._final_module.name = code.name
         super()._finalize_final_module()
+
+
+class WrapperLibrary(KernelLibrary):
+    """The code of a kernel that does little but call another one, which is optimized already."""
+
+    def _optimize_final_module(self) -> None:
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage.name == "linkonce_odr":
+                function.linkage = "internal"
 
 
 class KernelCompiler(Pipeline):  # type: ignore[misc,valid-type]
@@ -79,3 +91,9 @@ class HelperCompiler(KernelCompiler):
     """Compiles functions that only kernels call."""
 
     library = HelperLibrary
+
+
+class WrapperCompiler(KernelCompiler):
+    """Compiles kernels that do little but call another one."""
+
+    library = WrapperLibrary
