@@ -157,9 +157,10 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
                 slot, contact = index, found
+        end = contact.time
         if near != 0:
-            slot, other, contact = first_ball_contact(world, board, near, time, slot, contact)
-        time = min(contact.time, limit)
+            slot, other, contact, end = first_ball_contact(world, board, near, time, slot, contact)
+        time = min(end, limit)
         if slot < 0 and limit == tick:
             break
 
@@ -233,13 +234,14 @@ def count_pair_event(log: LogRecord, one: int, other: int) -> None:
 @internal
 def first_ball_contact(
     world: WorldRecord, board: BoardRecord, near: int, start: float, slot: int, best: Contact
-) -> tuple[int, int, Contact]:
+) -> tuple[int, int, Contact, float]:
     """Find the first contact of two balls from a time of the tick [s] on, if it is earlier than `best`.
 
     Returns:
-        The slots of the two balls and their contact; or `slot`, −1 and `best`.
+        The slots of the two balls and their contact; or `slot`, −1 and `best`. And the end of the search,
+        start + (end − start), rounded; it is part of the bits of a replay.
     """
-    pair, partner = 0, -1
+    pair, partner, end = 0, -1, best.time
     for other in range(1, board.max_balls):
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
@@ -251,8 +253,11 @@ def first_ball_contact(
                 if found.row != NOTHING:
                     slot, partner = one, other
                     best = Contact(min(start + found.time, best.time), found.row, found.nx, found.nz)
+                    end = best.time
+                else:
+                    end = min(start + limit, end)
             pair += 1
-    return slot, partner, best
+    return slot, partner, best, end
 
 
 @inlined
