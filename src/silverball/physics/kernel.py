@@ -35,6 +35,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+import numpy as np
 from numba import extending, types
 from numba.core.registry import CPUDispatcher
 
@@ -138,6 +139,38 @@ as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
 To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
 them would be compiled once for each.
 """
+
+
+@extending.intrinsic
+def _compiled_mixed_bits(typing_context: Any, value: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        word = context.get_value_type(types.int64)
+        bits = builder.bitcast(arguments[0], word)
+        return builder.add(bits, builder.lshr(bits, word(32)))
+
+    return types.int64(value), generate
+
+
+def _interpreted_mixed_bits(value: float) -> int:
+    bits = int(np.asarray(value).view(np.uint64))
+    return bits + (bits >> 32)
+
+
+mixed_bits: Any = _interpreted_mixed_bits if SETTINGS.DISABLE_JIT else _compiled_mixed_bits
+"""The bits of a 64-bit number as an integer for sums: as the upper half is added, two signs do not cancel."""
+
+
+@extending.intrinsic
+def _compiled_wrapped(typing_context: Any, value: Any) -> Any:
+    return types.int64(types.int64), lambda context, builder, signature, arguments: arguments[0]
+
+
+def _interpreted_wrapped(value: int) -> int:
+    return (value + 2**63) % 2**64 - 2**63
+
+
+wrapped: Any = _interpreted_wrapped if SETTINGS.DISABLE_JIT else _compiled_wrapped
+"""A sum as it is when integers of 64 bits overflow; Python's do not."""
 
 
 def code_folder(packages: tuple[str, ...] = PLAY) -> Path:

@@ -20,14 +20,17 @@ from silverball.physics.broad_phase import is_near
 from silverball.physics.contact import first_contact, resolve
 from silverball.physics.devices import (
     clock_time,
-    count_launch_tick,
+    count_launch_ticks,
+    has_devices,
     is_launching,
     run_clocks,
     set_next_clock,
+    ticks_to_clock,
     work_plungers,
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
+from silverball.physics.for_devices import are_on_one_level, ball_slots
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
@@ -108,7 +111,9 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
         play_tick(lane, geometry, buttons, tick)
         return 1
     for _ in range(free):
-        turn_paddles(world, board, geometry.colliders, buttons, tick)
+        if turn_paddles(world, board, geometry.colliders, buttons, tick):
+            break
+    count_launch_ticks(world, board, buttons, free)
     finish_ticks(world, board, tick, free)
     return free
 
@@ -116,19 +121,24 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
 @inlined
 def turn_paddles(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, buttons: int, tick: float
-) -> None:
-    """Turn the paddles, and pull the plungers, through a tick in which they meet nothing."""
-    first = board.collider_first + Part.FIRST_PADDLE
+) -> bool:
+    """Turn the paddles through a tick in which they meet nothing; return whether all stood still.
+
+    Then they stand still as long as the buttons are the same.
+    """
+    first, stand = board.collider_first + Part.FIRST_PADDLE, True
     for index in range(board.paddles):
         c, paddle = colliders[first + index], world.paddle[index]
-        store_paddle(paddle, start_sweep(c, paddle, buttons & c.button != 0), tick)
-    count_launch_tick(world, board, buttons)
+        sweep = start_sweep(c, paddle, buttons & c.button != 0)
+        store_paddle(paddle, sweep, tick)
+        stand = stand and not is_turning(sweep)
+    return stand
 
 
 @inlined
 def finish_ticks(world: WorldRecord, board: BoardRecord, tick: float, count: int) -> None:
     """Advance the balls to the end of a tick, or of several event-free ones, and count the ticks."""
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         advance_ticks(world.ball[slot], board, tick, count)
     world.tick += count
 
@@ -141,11 +151,10 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     each other in the order of their slots.
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
-    has_devices = board.sensors != 0 or board.switches != 0
     work_plungers(lane, geometry, buttons, tick)
     start_tick(lane, geometry, buttons, tick)
     near = near_pairs(world, board, tick)
-    clock = clock_time(world, geometry, tick) if world.next_clock <= world.tick else NEVER
+    clock = clock_time(world, geometry, tick) if ticks_to_clock(world) <= 0 else NEVER
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     time = 0.0
     while True:
@@ -153,7 +162,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
         for index in range(board.paddles):
             limit = min(limit, scratch.sweep[index].stop_time)
         slot, other, contact = -1, -1, Contact(limit, NOTHING, 0.0, 0.0)
-        for index in range(board.max_balls):
+        for index in range(ball_slots(world, board)):
             found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
                 slot, contact = index, found
@@ -176,7 +185,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
                 write_sweep(sweep, end_at_stop(read_sweep(sweep)), NEVER)
         if time >= clock:
             run_clocks(lane, geometry, time, tick)
-        if has_devices:
+        if has_devices(world, board):
             clock = clock_time(world, geometry, tick)
             near = near_pairs(world, board, tick)  # a ball may have been let go, or have left
 
@@ -184,27 +193,27 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             scratch.ball_events[slot] >= jam_limit or (other >= 0 and scratch.ball_events[other] >= jam_limit)
         ):
             stop_jammed_balls(lane, geometry, time, jam_limit)
-    for index in range(board.max_balls):
+    for index in range(ball_slots(world, board)):
         release(world.ball[index], board, tick)
     for index in range(board.paddles):
         store_paddle(world.paddle[index], read_sweep(scratch.sweep[index]), tick)
-    count_launch_tick(world, board, buttons)
+    count_launch_ticks(world, board, buttons, as_int(1))
     finish_ticks(world, board, tick, as_int(1))
-    if has_devices:
+    if has_devices(world, board):
         set_next_clock(world, geometry, tick)
 
 
 @inlined
 def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
     """Set the paddles' motion in a tick, and empty the counters that detect jams."""
-    board, scratch = geometry.board, lane.scratch
+    world, board, scratch = lane.world, geometry.board, lane.scratch
     first = board.collider_first + Part.FIRST_PADDLE
     for index in range(board.paddles):
         c = geometry.colliders[first + index]
-        sweep = start_sweep(c, lane.world.paddle[index], buttons & c.button != 0)
+        sweep = start_sweep(c, world.paddle[index], buttons & c.button != 0)
         write_sweep(scratch.sweep[index], sweep, time_to_stop(sweep, tick))
     pair = 0
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         scratch.ball_events[slot], scratch.ball_jams[slot] = 0, 0
         for _ in range(slot):
             scratch.pair_events[pair] = 0
@@ -215,7 +224,7 @@ def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
 def near_pairs(world: WorldRecord, board: BoardRecord, tick: float) -> int:
     """Compute which pairs of balls may meet in a tick: bit n stands for the n-th pair (see `MAX_PAIRS`)."""
     near, bit = 0, 1
-    for other in range(1, board.max_balls):
+    for other in range(1, ball_slots(world, board)):
         for one in range(other):
             if not cannot_meet(board, world.ball[one], world.ball[other], tick, 1.0):
                 near |= bit
@@ -242,10 +251,10 @@ def first_ball_contact(
         start + (end − start), rounded; it is part of the bits of a replay.
     """
     pair, partner, end = 0, -1, best.time
-    for other in range(1, board.max_balls):
+    for other in range(1, ball_slots(world, board)):
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
-            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0 and a.level == b.level:
+            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0 and are_on_one_level(a, b):
                 accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
                 at_a, at_b = state_at(a, a.age + start), state_at(b, b.age + start)
                 limit = best.time - start
@@ -303,10 +312,10 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
     jammed, partners, pair = 0, 0, 0
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         if scratch.ball_events[slot] >= limit:
             jammed |= 1 << slot
-    for other in range(1, board.max_balls):
+    for other in range(1, ball_slots(world, board)):
         for one in range(other):
             both = 1 << one | 1 << other
             if jammed & both != 0 and JAM_SHARE * scratch.pair_events[pair] >= limit:
@@ -314,7 +323,7 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
             pair += 1
     jammed |= partners
     pair = 0
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         is_jammed = jammed >> slot & 1 != 0
         if is_jammed:
             stop_jammed_ball(lane, geometry, world.ball[slot], time, scratch.ball_jams[slot] > 0)
@@ -391,7 +400,7 @@ def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: 
 def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether the balls are within the borders: the only condition that a step itself can violate."""
     x, z = board.half_length, board.half_width
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         ball = world.ball[slot]
         if ball.id != 0 and not (abs(ball.x) <= x and abs(ball.z) <= z):
             return False
@@ -452,13 +461,15 @@ def run_worlds(
                 play_tick(lane, geometry, buttons, tick)
                 tick_index += 1
                 continue
-            count = 0
+            count, standing = 0, -1  # the buttons with which the paddles stand
             while count < free:
                 row = tick_index + count
                 buttons = held_buttons(actions, row, index)
                 if count > 0 and (actions[row, index, JITTER_COLUMN] or is_launching(world, board, buttons)):
                     break
-                turn_paddles(world, board, colliders, buttons, tick)
+                if buttons != standing:
+                    standing = buttons if turn_paddles(world, board, colliders, buttons, tick) else -1
+                count_launch_ticks(world, board, buttons, as_int(1))
                 count += 1
             finish_ticks(world, board, tick, count)
             tick_index += count

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Any, cast
 
 import numpy as np
-from numba import extending, types
+from numba import extending, from_dtype as untyped_from_dtype, types
 from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ from silverball.physics.records import (
     LAUNCH,
     LEFT,
     LOG,
+    PLAIN_WORLD,
     RIGHT,
     WORLD,
     BatchGeometry,
@@ -37,6 +38,7 @@ from silverball.world.compile import Boards
 
 cgutils, arrayobj = cast(Any, untyped_cgutils), cast(Any, untyped_arrayobj)
 intrinsic: Any = extending.intrinsic
+from_dtype: Any = untyped_from_dtype
 BUTTONS = 4  # columns of an action: left, right, jitter, launch
 INT, SHORT_INT, BOOL = np.dtype(np.int64), np.dtype(np.int32), np.dtype(np.bool_)
 
@@ -48,6 +50,15 @@ ADDRESSES = np.dtype(
         ("tick", "f8"),  # length of a tick [s]
     ]
 )  # fmt: skip
+"""Addresses of the arrays of worlds; see `addresses_of`."""
+
+FULL_MARK, PLAIN_MARK = "full", "plain"  # the last field of a record of addresses
+
+
+def addresses_of(layout: np.dtype[Any], addresses: np.dtype[Any] = ADDRESSES) -> np.dtype[Any]:
+    """The record of the addresses of worlds in a layout: kernels see by its type which one it is."""
+    fields = [(name, addresses[name]) for name in addresses.names or ()]
+    return np.dtype([*fields, (PLAIN_MARK if layout == PLAIN_WORLD else FULL_MARK, "i8")])
 
 
 class SingleStepper:
@@ -71,7 +82,7 @@ class SingleStepper:
         }
         self._arrays = list(named.values())
         self._tick = tick
-        self._addresses = np.zeros(1, ADDRESSES)
+        self._addresses = np.zeros(1, addresses_of(state.dtype))
         row = self._addresses[0]
         for name, array in named.items():
             row[name] = array.ctypes.data
@@ -144,11 +155,30 @@ def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[
 array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_array_at
 
 
+@intrinsic  # type: ignore[untyped-decorator]
+def _compiled_layout_of(typing_context: Any, addresses: Any) -> Any:
+    """The record of the worlds at some addresses, as `array_at` takes it."""
+    record = from_dtype(PLAIN_WORLD if PLAIN_MARK in addresses.fields else WORLD)
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.get_dummy_value()
+
+    return types.DType(record)(addresses), generate
+
+
+def _interpreted_layout_of(addresses: Any) -> np.dtype[Any]:
+    """Return the same without the compiler."""
+    return PLAIN_WORLD if PLAIN_MARK in addresses.dtype.names else WORLD
+
+
+layout_of: Any = _interpreted_layout_of if SETTINGS.DISABLE_JIT else _compiled_layout_of
+
+
 @wrapper
 def step_single_world(addresses: Any, buttons: int, ticks: int) -> int:
     """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
     at = addresses[0]
-    worlds = array_at(at.world, (1,), WORLD)
+    worlds = array_at(at.world, (1,), layout_of(at))
     action = array_at(at.action, (1, 1, BUTTONS), BOOL)
     action[0, 0, 0] = buttons & LEFT != 0
     action[0, 0, 1] = buttons & RIGHT != 0

@@ -24,11 +24,11 @@ from silverball.physics.balls import (
 )
 from silverball.physics.devices import set_switch
 from silverball.physics.records import (
+    HEADER,
     JITTER,
     LAUNCH,
     LEFT,
     RIGHT,
-    WORLD,
     BoardGeometry,
     Device,
     Fault,
@@ -46,8 +46,9 @@ from silverball.world.events import BallState, Event, PaddleState, read_balls, r
 from silverball.world.single_step import SingleStepper
 
 BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
+PLACE_FIELDS = ("x", "z", "id", "motion")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
-COUNTS = tuple(name for name in WORLD.names or () if WORLD[name].shape == ())
+COUNTS = tuple(name for name, _ in HEADER)
 
 
 class World:
@@ -334,7 +335,9 @@ class World:
         Raises:
             StateError: The state is damaged, impossible, or of another table or tick rate.
         """
-        record = saved_world.unpack(state, self._batch.boards.digests[0], self.tick_rate)
+        record = saved_world.unpack(
+            state, self._batch.boards.digests[0], self.tick_rate, self._batch.boards.layout
+        )
         before = self._record.copy()
         self._batch.state[0] = record
         try:
@@ -350,7 +353,7 @@ class World:
 
     @property
     def records(self) -> tuple[Any, Any, Any]:
-        """The records that kernels read: WORLD, BOARD, and the COLLIDER rows of its parts."""
+        """The records that kernels read: WORLD or PLAIN_WORLD, BOARD, and the COLLIDER rows of its parts."""
         return self._record, *self._static
 
     @property
@@ -472,7 +475,8 @@ class World:
             raise StateError(
                 "the state holds two overlapping balls; moving them apart would press one into a part"
             )
-        for x, z, id_, level, motion in balls[["x", "z", "id", "level", "motion"]].tolist():
+        levels = balls["level"].tolist() if "level" in balls.dtype.names else [0] * len(balls)
+        for (x, z, id_, motion), level in zip(balls[list(PLACE_FIELDS)].tolist(), levels, strict=True):
             if not id_ or motion == Motion.CAPTURED:
                 continue
             gap, part = clearance(self._record, *self._static, x, z, level)
