@@ -70,9 +70,7 @@ most 256 KB, and all its parts together at most 4,096 shapes, of which an edge o
 Where it fits, the defaults of format 2 are what tables for Visual Pinball use: 1 u is 100 of its units and 1 u/s one of
 its units of speed.
 """
-COMMON = """\
-## Keys of all parts
-
+SEVERITIES = """\
 ## Errors and warnings
 
 `silverball check FILE` and `sb.check_table(table)` tell two severities apart. An **error** keeps a table from being
@@ -82,6 +80,9 @@ gate or a plunger without room, a level that does not exist, too many of somethi
 and a maker may want: parts that overlap, cross or extend beyond the board, gaps that a ball barely fits, level faces and
 pockets in which a ball would lie until the table is shoved. Each is reported once for a pair of parts. With
 `--strict`, warnings are errors; the boards of a recipe add none to those of the recipe itself.
+"""
+COMMON = """\
+## Keys of all parts
 
 Every part may have these keys beside its own, solid ones all of them, others the name and the level. (Format 2, but for
 the name.)
@@ -97,7 +98,7 @@ NOTES = {"paddle": "Any number; in format 1 at most one per side"}
 
 def page() -> str:
     """Return the whole page."""
-    parts = [HEAD, FORMATS, _table("Top level", Table, "", skip=(*PART_KINDS, "board", "arcade"))]
+    parts = [HEAD, FORMATS, SEVERITIES, _table("Top level", Table, "", skip=(*PART_KINDS, "board", "arcade"))]
     parts.append(_table("`[board]`", Board, "Once"))
     rows = [_row(Bouncing, name, is_marked=False) for name in in_order(Bouncing) if name in SHARED]
     parts.append(COMMON + "\n".join(rows) + "\n")
