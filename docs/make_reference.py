@@ -73,6 +73,16 @@ its units of speed.
 COMMON = """\
 ## Keys of all parts
 
+## Errors and warnings
+
+`silverball check FILE` and `sb.check_table(table)` tell two severities apart. An **error** keeps a table from being
+loaded: a paddle that hits something while it turns or whose tip is faster than `speed_cap`, a kick, exit or launch faster
+than it, a board that a ball cannot leave, a hole whose exit is inside something or leads nowhere, a passage into a wall, a
+gate or a plunger without room, a level that does not exist, too many of something. A **warning** is what real tables have
+and a maker may want: parts that overlap, cross or extend beyond the board, gaps that a ball barely fits, level faces and
+pockets in which a ball would lie until the table is shoved. Each is reported once for a pair of parts. With
+`--strict`, warnings are errors; the boards of a recipe add none to those of the recipe itself.
+
 Every part may have these keys beside its own, solid ones all of them, others the name and the level. (Format 2, but for
 the name.)
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import Any
 
 import numba
 
 from silverball.physics.flight import time_to_shape
-from silverball.physics.records import BALL, COLLIDER, records
+from silverball.physics.paddle import contact_with_paddle
+from silverball.physics.records import BALL, COLLIDER, NOTHING, Contact, records
 from silverball.table import Board
 from silverball.table.primitive import Primitive
 from silverball.world.rows import set_row
@@ -39,3 +41,15 @@ def first_touch(c, ball, radius, limit):  # pragma: no cover  (compiled)
     while time < limit and not is_hit:
         time, is_hit = time_to_shape(c, ball, radius, time, limit)
     return time, is_hit
+
+
+@numba.njit(error_model="numpy")
+def first_meeting(c, sweep, ball, radius, limit):  # pragma: no cover  (compiled)
+    """The first contact of a ball with a paddle, as row 3, in a tick."""
+    speed = sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
+    best, start = Contact(limit, NOTHING, 0.0, 0.0), 0.0
+    while True:
+        contact = contact_with_paddle(c, 3, sweep, ball, radius, speed, start, best)
+        if contact[1] == 3 or contact[0] >= limit:
+            return contact
+        start = contact[0]

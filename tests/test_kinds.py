@@ -14,7 +14,9 @@ import silverball as sb
 from silverball.errors import TableError
 from silverball.physics.forms import Response, Shape
 from silverball.table import Table, dump_table, expand, parse_table, table_digest
+from silverball.table.geometry import pieces_of
 from silverball.table.kinds import Level, Part
+from silverball.table.layout import Layout
 from silverball.table.model import is_since_2
 from silverball.table.primitive import Finish, Primitive
 from silverball.table.table import PART_KINDS
@@ -138,6 +140,17 @@ def compiled(table: Table, kind: str) -> None:
         assert part.name in numbers
 
 
+def checked(table: Table, kind: str) -> None:
+    """Every solid primitive has pieces to check, and every problem of the part names a place in it."""
+    layout = Layout.of(table)
+    for part in (*layout.parts, *layout.paddles):
+        assert all(pieces_of(primitive) for primitive in part.primitives), part.path
+        assert part.place.startswith(part.path)
+    for problem in sb.check_table(table):
+        section = problem.path.partition("[")[0].partition(".")[0]
+        assert section in (*PART_KINDS, "board", ""), problem
+
+
 def documented(table: Table, kind: str) -> None:
     """The reference page has a section for the kind, with every key."""
     spec = importlib.util.spec_from_file_location("make_reference", DOCS / "make_reference.py")
@@ -177,9 +190,9 @@ def scored(table: Table, kind: str) -> None:
 def heard(table: Table, kind: str) -> None:
     """Every part has the sound of a hit, and of every event that it can cause."""
     from silverball.app.sound.bank import RECIPES
-    from silverball.app.sound.finishes import MECHANISMS, event_sound, part_sounds
+    from silverball.app.sound.part_sounds import MECHANISMS, event_sound, sounds_of_parts
 
-    sounds = part_sounds(table)
+    sounds = sounds_of_parts(table)
     assert sounds.keys() == set(expand(table).names)
     causes = {Response.PASS: ("pass", "spin"), Response.HOLD: ("captured", "released"), Response.BOUNCE: ()}
     for row in expand(table).rows:
@@ -192,6 +205,51 @@ def heard(table: Table, kind: str) -> None:
             assert event == "spin" or part.finish in MECHANISMS[event]
 
 
+def drawn(table: Table, kind: str) -> None:
+    """Each part is seen in the baked picture, in the sketch and in the pictures for agents."""
+    import numpy as np
+
+    from silverball.drawing import Moment, Renderer
+    from silverball.drawing.layout import Layout
+    from silverball.drawing.sketch import SketchPainter
+    from silverball.envs.board_pool import make_pool
+    from silverball.envs.sprites import make_pictures
+
+    layout, bare = Layout.of(table), Table(name=kind)
+    if not layout.rows:
+        assert kind == "level"
+        return
+    size = (150, 240)
+    renderers = [Renderer(one, size) for one in (table, bare)]
+    pictures = [renderer.array(Moment.before(renderer.table)).astype(int) for renderer in renderers]
+    sketches = []
+    for renderer in renderers:
+        painter = SketchPainter(renderer.table, renderer.camera, renderer.theme)
+        surface = painter.compose(Moment.before(renderer.table), renderer.effects)
+        sketches.append(np.frombuffer(surface.get_buffer().raw, np.uint8).reshape(240, 150, 3).astype(int))
+    camera = renderers[0].camera
+    for _, primitive in layout.rows:
+        x, z = np.mean(primitive.points, axis=0)
+        if primitive.mover is not None:
+            x, z = primitive.mover.pivot
+        left, top, right, bottom = camera.box(x - 0.6, x + 0.6, z - 0.6, z + 0.6, 0.0, 1.0)
+        for one, other in (pictures, sketches):
+            assert np.abs(one - other)[top:bottom, left:right].max() > 20, primitive
+    small = [make_pictures(make_pool(one, 1, 0), (84, 84), True) for one in (table, bare)]
+    seen = small[0].backgrounds[0] != small[1].backgrounds[0]
+    assert seen.any() or len(small[0].paddles) > 1 or len(small[0].pieces)
+
+
+def coloured(table: Table, kind: str) -> None:
+    """Each finish has a look in the picture and a colour in the pictures for agents."""
+    from silverball.drawing.finishes import LOOKS
+    from silverball.envs.sprites import COLORS
+
+    for row in expand(table).rows:
+        assert row.primitive.finish in LOOKS
+        assert row.primitive.finish in COLORS
+
+
 READERS: dict[str, Callable[[Table, str], None]] = {
     "parse, write and hash": parsed,
     "the format that is required": format_required,
@@ -200,8 +258,11 @@ READERS: dict[str, Callable[[Table, str], None]] = {
     "compile": compiled,
     "points, buttons and help of a game": scored,
     "sounds": heard,
+    "check": checked,
     "reference page": documented,
     "public names": public,
+    "pictures": drawn,
+    "finishes": coloured,
 }
 """What reads a table; a new reader needs a line here."""
 

@@ -17,6 +17,7 @@ COUNT, STEPS = 48, 500
         {"boards": 3},
         {"boards": 3, "rgb": True, "size": (40, 60)},
         {"table": "classic", "size": (120, 84), "balls": 3, "create": "button", "jitter": True},
+        {"table": "parts", "rgb": True},
     ],
     ids=str,
 )

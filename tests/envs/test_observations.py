@@ -29,7 +29,8 @@ def test_the_table_names_every_slot_once_and_says_what_each_means():
         assert len(group.means) == len(group.slots)
         assert [slot.value for slot in group.slots] == list(range(len(group.slots)))
     layout = fields({"balls": 2, "paddles": 2, "game": 1, "triangular_prisms": 4, "cylinders": 3})
-    assert [field.first for field in layout] == [0, 10, 16, 18, 42]  # as trained policies know them
+    shown = [field.first for field in layout if field.items]
+    assert shown == [0, 10, 16, 18, 42]  # as trained policies know them
     assert [field.first for field in layout[1:]] == [field.end for field in layout[:-1]]
 
 

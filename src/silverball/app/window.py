@@ -29,8 +29,8 @@ from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
-from silverball.app.sound.finishes import PartSound, part_sounds
 from silverball.app.sound.mixdown import rolling_balls
+from silverball.app.sound.part_sounds import PartSound, sounds_of_parts
 from silverball.app.startup import Startup, compiling_message
 from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
@@ -351,7 +351,7 @@ class Window:
         self.debug.reset()
         self._clock = TickClock(session.game.tick_rate if session is not None else TICK_RATE)
         if session is not None:
-            self._parts = part_sounds(session.game.world.table)
+            self._parts = sounds_of_parts(session.game.world.table)
             self.sounds.begin_game(session.game.world.table)
 
     def _apply_settings(self, before: Settings, settings: Settings) -> None:

@@ -138,37 +138,60 @@ def _floor_share(
 def floor_cells(layout: Layout, level: int) -> NDArray[np.bool_]:
     """Return the cells of the board, from its lower left corner, that an upper level's walls enclose.
 
-    The area is filled from both sides of the mouths of the level's passages and stops at walls and mouths.
-    What reaches the edge of the board is not enclosed.
+    The centres of balls are followed from the mouths of the level's passages up to its walls and mouths.
+    Where they can reach the edge of the board, nothing is enclosed.
     """
     shape = (
         math.ceil(layout.board.length / FLOOR_CELL) + 1,
         math.ceil(layout.board.width / FLOOR_CELL) + 1,
     )
-    blocked = np.zeros(shape, np.bool_)
+    walls, mouths = np.zeros(shape, np.bool_), np.zeros(shape, np.bool_)
     starts: list[tuple[int, int]] = []
     for row in layout.rows:
         primitive = row.primitive
-        is_mouth = primitive.passage is not None and level in primitive.passage
-        is_wall = level in primitive.levels and primitive.shape in (Shape.CAPSULE, Shape.ARC)
-        if not (is_mouth or is_wall):
-            continue
-        points = path(primitive)
-        for start, end in pairwise(points):
-            _block(blocked, layout, start, end)
-        if is_mouth and primitive.passage is not None:
-            # On this level is what lies to the left of a passage that leads up, or to the right of another.
-            (x0, z0), (x1, z1) = primitive.points
-            length = max(math.hypot(x1 - x0, z1 - z0), 1e-9)
-            side = 2.5 * FLOOR_CELL * (1.0 if primitive.passage[1] == level else -1.0) / length
-            x, z = 0.5 * (x0 + x1) + side * (z1 - z0), 0.5 * (z0 + z1) - side * (x1 - x0)
-            starts.append(_cell(layout, x, z))
+        if primitive.passage is not None and level in primitive.passage:
+            _block(mouths, layout, *_lengthened(primitive.points, FLOOR_CELL))
+            starts.append(_behind(layout, primitive, level))
+        elif level in primitive.levels and primitive.shape in (Shape.CAPSULE, Shape.ARC):
+            for start, end in pairwise(path(primitive)):
+                _block(walls, layout, start, end)
+    ball = round(layout.board.ball_radius / FLOOR_CELL)
+    blocked = _grown(walls, ball) | mouths
     floor = np.zeros(shape, np.bool_)
     for start in starts:
         filled = _filled(blocked, start)
         if filled is not None:
             floor |= filled
-    return floor
+    return _grown(floor, ball)
+
+
+def _behind(layout: Layout, passage: Primitive, level: int) -> tuple[int, int]:
+    """Return a cell on a level beside the mouth of a passage: to its left if that leads there, else right."""
+    (x0, z0), (x1, z1) = passage.points
+    assert passage.passage is not None
+    side = 2.5 * FLOOR_CELL / max(math.hypot(x1 - x0, z1 - z0), 1e-9)
+    if passage.passage[1] != level:
+        side = -side
+    return _cell(layout, 0.5 * (x0 + x1) + side * (z1 - z0), 0.5 * (z0 + z1) - side * (x1 - x0))
+
+
+def _lengthened(points: tuple[Point, ...], length: float) -> tuple[Point, Point]:
+    """Return a segment that is longer at both ends, so that no gap of a cell is left beside it."""
+    (x0, z0), (x1, z1) = points
+    share = length / max(math.hypot(x1 - x0, z1 - z0), 1e-9)
+    dx, dz = share * (x1 - x0), share * (z1 - z0)
+    return (x0 - dx, z0 - dz), (x1 + dx, z1 + dz)
+
+
+def _grown(mask: NDArray[np.bool_], cells: int) -> NDArray[np.bool_]:
+    """Return the cells within a distance of a mask."""
+    grown, wide = mask.copy(), np.pad(mask, cells)
+    for i in range(-cells, cells + 1):
+        for j in range(-cells, cells + 1):
+            if i * i + j * j <= cells * cells:
+                down, right = cells + i, cells + j
+                grown |= wide[down : down + mask.shape[0], right : right + mask.shape[1]]
+    return grown
 
 
 def _cell(layout: Layout, x: float, z: float) -> tuple[int, int]:

@@ -36,7 +36,7 @@ from silverball.table import Table
 
 MAX_SPOTS = 64  # spots of one trail, or sparks of one hit
 TRAIL_LIGHT, SPARK_LIGHT = 0.5, 1.0
-SUNK = 0.55  # how deep a ball lies in a hole, in radii
+SUNK = 0.4  # how deep a ball lies in a hole, in radii
 UNTINTED_BALLS = 2  # tables with at most so many balls show all of them alike
 
 
@@ -108,6 +108,7 @@ class Composer:
         self._baked = baked
         self._sprite = sprite
         layout = Layout.of(table)
+        self._layout = layout
         self._parts = moving_parts(layout)
         self._is_tinted = table.board.max_balls > UNTINTED_BALLS
         scene = TableScene(layout._replace(rows=()), camera, theme).scene
@@ -181,7 +182,7 @@ class Composer:
     def _lay_part(
         self, layer: _Layer, index: int, part: MovingPart, moment: Moment, effects: Effects
     ) -> None:
-        pose = pose_of(part, moment, effects)
+        pose = pose_of(part, moment, effects, self._camera.dimensions.ball)
         if pose is None:
             return
         sprite = self._sprite(index, pose)
@@ -197,11 +198,11 @@ class Composer:
     def _center(self, layer: _Layer, ball: BallAt) -> float:
         """Height of a ball's centre [u]."""
         r = self._camera.dimensions.ball
-        return layer.base + (r - (1.0 + SUNK) * r if ball.is_held else r)
+        return layer.base + (-SUNK * r if self._layout.is_hole(ball.holder) else r)
 
     def _shade(self, layer: _Layer, ball: BallAt) -> None:
         r = self._camera.dimensions.ball
-        if ball.is_held:
+        if self._layout.is_hole(ball.holder):
             return
         shift = layer.base * SHADOW_SHIFT
         box = self._camera.box(

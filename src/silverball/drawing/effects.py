@@ -26,7 +26,7 @@ SPARK_SECONDS = 0.38
 MAX_SPARKS = 12  # sparks of one hit
 SPARK_GRAVITY = 14.0  # [u/s²] back to the playfield
 MAX_HITS = 24  # whose sparks are remembered
-LIT_BY = frozenset({"hit"})  # kinds of events at which a part lights up, a rubber bulges and a gate swings
+LIT_BY = frozenset({"hit", "pass", "spin", "captured"})  # kinds of events at which a part lights up
 GOLDEN = 0.6180339887498949  # the fractional parts of its multiples are spread evenly over 0 to 1
 
 
@@ -121,11 +121,6 @@ class Effects:
         if hit is None or time - hit.age <= -MAX_AHEAD:
             return None
         return hit._replace(age=max(time - hit.age, 0.0))
-
-    def age(self, part: str, time: float) -> float | None:
-        """Return how long ago [s] a part was hit or passed; None if it was not."""
-        hit = self.kick(part, time)
-        return None if hit is None else hit.age
 
     def sinking_balls(self, time: float) -> Iterator[BallAt]:
         """Yield balls that roll under the apron at a time [s]; the world has removed them already."""

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from silverball.table import Board, Table
+from silverball.table.kinds import BORDERS
 from silverball.table.primitive import Finish, Primitive
 
 RECIPE_FINISHES = (Finish.PRISM, Finish.BUMPER)
@@ -25,7 +26,8 @@ class Layout(NamedTuple):
     Attributes:
         name: The title of the table.
         board: Its board.
-        rows: Its primitives, those of a part one after the other, without the borders.
+        rows: Its primitives, those of a part one after the other, without the borders, which are the
+            first rows of a compiled board.
     """
 
     name: str
@@ -51,6 +53,11 @@ class Layout(NamedTuple):
     def without_obstacles(self) -> Layout:
         """Return what all boards of a recipe share."""
         return self.without(lambda primitive: primitive.finish in RECIPE_FINISHES)
+
+    def is_hole(self, row: int) -> bool:
+        """Return whether a row of the compiled board is a hole."""
+        row -= len(BORDERS)
+        return 0 <= row < len(self.rows) and self.rows[row].primitive.hold is not None
 
     @property
     def levels(self) -> tuple[int, ...]:

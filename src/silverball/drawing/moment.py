@@ -15,6 +15,9 @@ from silverball.table import Table
 if TYPE_CHECKING:
     from silverball.world import World
 
+CAPTURED = 4  # `physics.records.Motion.CAPTURED`, repeated here because that module needs the compiler
+NOTHING = -1
+
 
 class BallAt(NamedTuple):
     """A ball in a picture.
@@ -24,14 +27,22 @@ class BallAt(NamedTuple):
         x: Its centre [u].
         z: Its centre [u].
         level: The level on which it rolls.
-        is_held: Whether a hole holds it.
+        holder: The row of the hole or plunger that holds it; −1: none.
     """
 
     id: int
     x: float
     z: float
     level: int = 0
-    is_held: bool = False
+    holder: int = -1
+
+
+class BladeAt(NamedTuple):
+    """A spinner: its angle [rad] and angular velocity [rad/s] at the last crossing, and when that was [s]."""
+
+    angle: float
+    speed: float
+    time: float
 
 
 class Moment(NamedTuple):
@@ -44,8 +55,8 @@ class Moment(NamedTuple):
         score: Points so far.
         off: A bit for each switch, in the order of the parts: set while the part is away (a drop target that
             has fallen, a gate that is open).
-        blades: The angles of the spinners [rad].
-        charge: How far the plungers are charged, 0 to 1.
+        blades: The spinners in their order.
+        launch_held: How long the launch button has been held [s].
     """
 
     time: float
@@ -53,8 +64,8 @@ class Moment(NamedTuple):
     angles: tuple[float, ...]
     score: int
     off: int = 0
-    blades: tuple[float, ...] = ()
-    charge: float = 0.0
+    blades: tuple[BladeAt, ...] = ()
+    launch_held: float = 0.0
 
     @classmethod
     def of(cls, world: World) -> Self:
@@ -64,9 +75,20 @@ class Moment(NamedTuple):
     @classmethod
     def of_record(cls, record: Any, tick_rate: int) -> Self:
         """The moment of a WORLD record; `tick_rate` is in ticks per second."""
-        angles = tuple(math.degrees(angle) for angle in record["paddle"]["angle"].tolist())
-        time = int(record["tick"]) / tick_rate
-        return cls(time, _balls(record), angles, int(record["score"]), **_devices(record, time))
+        tick = 1.0 / tick_rate
+        blades = tuple(
+            BladeAt(angle, speed, when * tick + offset)
+            for angle, speed, when, offset, *_ in record["spinner"].tolist()
+        )
+        return cls(
+            int(record["tick"]) * tick,
+            _balls(record),
+            tuple(math.degrees(angle) for angle in record["paddle"]["angle"].tolist()),
+            int(record["score"]),
+            int(record["off"]),
+            blades,
+            int(record["launch_held"]) * tick,
+        )
 
     @classmethod
     def between(cls, first: Moment, second: Moment, share: float) -> Self:
@@ -76,15 +98,14 @@ class Moment(NamedTuple):
             ball._replace(
                 x=_lerp(previous[ball.id].x, ball.x, share), z=_lerp(previous[ball.id].z, ball.z, share)
             )
-            if ball.id in previous and previous[ball.id].is_held == ball.is_held
+            if ball.id in previous and previous[ball.id].holder == ball.holder
             else ball
             for ball in second.balls
         )
         angles = tuple(_lerp(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
-        blades = tuple(_lerp(a, b, share) for a, b in zip(first.blades, second.blades, strict=True))
-        charge = _lerp(first.charge, second.charge, share)
+        held = max(second.launch_held - (1.0 - share) * (second.time - first.time), 0.0)
         time = _lerp(first.time, second.time, share)
-        return cls(time, balls, angles, second.score, second.off, blades, charge)
+        return cls(time, balls, angles, second.score, second.off, second.blades, held)
 
     @classmethod
     def before(cls, table: Table) -> Self:
@@ -97,13 +118,12 @@ def _balls(record: Any) -> tuple[BallAt, ...]:
     """The balls of a WORLD record."""
     balls = record["ball"]
     return tuple(
-        BallAt(int(ball["id"]), float(ball["x"]), float(ball["z"])) for ball in balls[balls["id"] != 0]
-    )
-
-
-def _devices(record: Any, time: float) -> dict[str, Any]:
-    """The fields of a moment about drop targets, gates, spinners and plungers of a WORLD record."""
-    return {}
+        BallAt(
+            int(ball["id"]), float(ball["x"]), float(ball["z"]), int(ball["level"]),
+            int(ball["holder"]) if ball["motion"] == CAPTURED else NOTHING,
+        )
+        for ball in balls[balls["id"] != 0]
+    )  # fmt: skip
 
 
 def _lerp(first: float, second: float, share: float) -> float:

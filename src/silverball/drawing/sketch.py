@@ -117,13 +117,13 @@ def sketch_pose(pen: Pen, part: MovingPart, pose: int, theme: Theme) -> None:
         pen.block(bar(start, end, primitive.radius), top, color, base)
 
 
-def sketch_ball(pen: Pen, ball: BallAt) -> None:
-    """Draw a ball with its shadow."""
+def sketch_ball(pen: Pen, ball: BallAt, is_sunk: bool = False) -> None:
+    """Draw a ball with its shadow; one in a hole has none."""
     radius = pen.camera.dimensions.ball
     x, z, base = ball.x, ball.z, ball.level * LEVEL_RISE * pen.camera.dimensions.unit
-    if not ball.is_held:
+    if not is_sunk:
         pen.face(circle(x - 0.5 * radius - base, z, radius, 0.0), (8, 8, 14))
-    across, down = pen.camera.to_pixel(x, z, base if ball.is_held else base + radius)
+    across, down = pen.camera.to_pixel(x, z, base if is_sunk else base + radius)
     size = max(radius * pen.camera.scale * pen.enlarged, 1.0)
     place = (across * pen.enlarged, down * pen.enlarged)
     for share, color in ((1.0, (120, 128, 150)), (0.86, (196, 202, 220)), (0.5, (250, 250, 255))):
@@ -350,7 +350,8 @@ class SketchPainter:
     def __init__(
         self, table: Table, camera: Camera, theme: Theme, pixels: NDArray[np.uint8] | None = None
     ) -> None:
-        self._parts = moving_parts(Layout.of(table))
+        self._layout = Layout.of(table)
+        self._parts = moving_parts(self._layout)
         self._theme = theme
         if pixels is None:
             pixels = sketch(table, camera, theme)
@@ -364,9 +365,9 @@ class SketchPainter:
         for _ in effects.trails(moment):
             pass  # advances the trails, so that they are complete when the baked picture takes over
         for ball in (*moment.balls, *effects.sinking_balls(moment.time)):
-            sketch_ball(self._pen, ball)
+            sketch_ball(self._pen, ball, self._layout.is_hole(ball.holder))
         for part in self._parts:
-            pose = pose_of(part, moment, effects)
+            pose = pose_of(part, moment, effects, self._pen.camera.dimensions.ball)
             if pose is not None:
                 sketch_pose(self._pen, part, pose, self._theme)
         return self._surface

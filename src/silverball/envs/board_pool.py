@@ -29,7 +29,7 @@ from silverball.envs.observations import (
 from silverball.envs.options import TableSource
 from silverball.physics.records import Device
 from silverball.plain import plain
-from silverball.table import Table, generate_table, load_table, parse_table
+from silverball.table import Table, expand, generate_table, load_table, parse_table
 from silverball.world import WorldBatch
 from silverball.world.compile import Boards, blank_worlds, compile_tables
 
@@ -144,11 +144,11 @@ def _list_pool(tables: tuple[Table, ...]) -> Pool:
 def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     boards = compile_tables(tables)
     items = {"balls": max(LEAST_BALLS, int(boards.board["max_balls"].max())), "game": 1}
-    items["paddles"] = max(LEAST_PADDLES, int(boards.board["paddles"].max()))
+    items["paddles"] = max(LEAST_PADDLES, _paddle_slots(tables[0]))
     items["switches"] = int(boards.board["switches"].max())
     items["spinners"] = int(boards.board["spinners"].max())
     items["plunger"] = int(boards.board["plungers"].max() > 0)
-    if np.isin(boards.collider["device"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
+    if np.isin(boards.collider["role"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
         items["ball_places"] = items["balls"]
     for group, kind in SHOWN_KINDS.items():
         items[group] = max(len(getattr(table, kind)) for table in tables)
@@ -174,6 +174,12 @@ def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:
         rest[0::3], rest[1::3] = cylinder_parts["x"] / half_length, cylinder_parts["z"] / half_width
         rest[2::3] = cylinder_parts["radius"] / half_width
     return shown
+
+
+def _paddle_slots(table: Table) -> int:
+    """Slots of the paddles: one of each button, and one of each further paddle."""
+    sides = [primitive.mover.button for row in expand(table).rows if (primitive := row.primitive).mover]
+    return len(sides) + (2 - len(set(sides)))
 
 
 def _rows_of(boards: Boards, board: Any, names: tuple[str, ...], kind: str) -> Any:

@@ -33,7 +33,7 @@ from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, R
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
-from silverball.physics.records import WORLD, Part, records
+from silverball.physics.records import LEFT, MAX_PADDLES, RIGHT, WORLD, Part, records
 from silverball.world.threads import thread_pool
 
 STATE_FORMAT = 3
@@ -376,6 +376,7 @@ def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ..
         if swing > 0.0:
             row["angle_scale"][number] = 1.0 / swing
             row["turn_scale"][number] = 1.0 / max(collider["lift_speed"], collider["return_speed"])
+    row["paddle_of"] = _shown_paddles(pool)
     balls, paddles, game = (field_named(pool.fields, name) for name in ("balls", "paddles", "game"))
     row["balls_shown"], row["paddles_shown"] = balls.items, paddles.items
     row["paddles_at"], row["game_at"] = paddles.first, game.first
@@ -396,3 +397,13 @@ def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ..
     row["writes_state"] = options.observation != "pixels"
     row["draws_pictures"] = options.observation == "pixels"
     return rules
+
+
+def _shown_paddles(pool: Pool) -> list[int]:
+    """The paddle in each slot: the first of the left button, the first of the right one, then the others."""
+    board = pool.boards.board[0]
+    first = board["collider_first"] + Part.FIRST_PADDLE
+    buttons = pool.boards.collider["button"][first : first + board["paddles"]].tolist()
+    main = [buttons.index(button) if button in buttons else -1 for button in (LEFT, RIGHT)]
+    shown = [*main, *(number for number in range(len(buttons)) if number not in main)]
+    return [*shown, *[-1] * MAX_PADDLES][:MAX_PADDLES]

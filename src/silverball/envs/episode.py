@@ -287,8 +287,13 @@ def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> 
         row[start + BallSlot.Z] = is_alive * ball.z * rules.z_scale
         row[start + BallSlot.VX] = is_alive * ball.vx * rules.speed_scale
         row[start + BallSlot.VZ] = is_alive * ball.vz * rules.speed_scale
-    for number in range(rules.paddles_shown):
-        paddle, start = world.paddle[number], rules.paddles_at + PADDLE_WIDTH * number
+    for slot in range(rules.paddles_shown):
+        number, start = rules.paddle_of[slot], rules.paddles_at + PADDLE_WIDTH * slot
+        if number < 0:
+            row[start + PaddleSlot.ANGLE], row[start + PaddleSlot.TURN] = 0.0, 0.0
+            row[start + PaddleSlot.HELD] = 0.0
+            continue
+        paddle = world.paddle[number]
         row[start + PaddleSlot.ANGLE] = (paddle.angle - rules.rest_angle[number]) * rules.angle_scale[number]
         row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[number]
         held = paddle.angle_commanded == rules.raised_angle[number] and rules.angle_scale[number] != 0.0

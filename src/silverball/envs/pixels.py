@@ -158,13 +158,13 @@ def record_state(ptr: Pointers, index: int, number: int) -> None:
 @inlined
 def switches_off(world: WorldRecord) -> int:
     """The switches whose parts are away."""
-    return 0
+    return int(world.off)
 
 
 @inlined
 def lights_up(kind: int) -> bool:
     """Whether an event of a kind lights up its part."""
-    return bool(kind == EventKind.HIT)
+    return bool(kind == EventKind.HIT or EventKind.PASS <= kind <= EventKind.CAPTURED)  # and SPIN between
 
 
 @internal

@@ -109,6 +109,7 @@ RULES = np.dtype(
         ("rest_angle", "f8", (MAX_PADDLES,)), ("raised_angle", "f8", (MAX_PADDLES,)),  # of the paddles [rad]
         # The layout of a state observation: items of these groups, and the first columns of the others.
         ("balls_shown", "i8"), ("paddles_shown", "i8"),
+        ("paddle_of", "i8", (MAX_PADDLES,)),  # the paddle that each slot shows; −1: there is none
         ("paddles_at", "i8"), ("game_at", "i8"), ("layout_at", "i8"),
         # The groups of devices, which most tables do not have: 1 if there is any; their items and columns.
         ("shows_devices", "i8"), ("places_shown", "i8"), ("places_at", "i8"),

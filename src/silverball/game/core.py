@@ -17,7 +17,7 @@ from silverball.errors import FaultError, NoRoom, SilverballError, StateError
 from silverball.game import stuck
 from silverball.game.builtin_rules import BUILTIN
 from silverball.game.game_world import GameWorld
-from silverball.game.mechanisms import SCORING, plungers, points_by_part
+from silverball.game.mechanisms import SCORING, held_gates, plungers, points_by_part
 from silverball.game.replay import recording
 from silverball.game.replay.digest import full_digest, short_digests
 from silverball.game.replay.recording import MAX_TICK_RATE, MIN_TICK_RATE
@@ -101,6 +101,8 @@ class GameCore:
         self._points = points_by_part(self.world.table)
         self._has_points = any(self._points.values())
         self._plungers = plungers(self.world.table)
+        self._gates = held_gates(self.world.table)
+        self._has_stuck_gate = False  # whether a gate waits to close until no ball is in its way
         self._points_seen = 0  # points of all hits passed to the rules, before multipliers
 
         self._check_ticks = max(self.world.tick_rate // stuck.CHECK_RATE, 1)
@@ -341,6 +343,7 @@ class GameCore:
         self.world.restore(world)
         self._state, self._stuck = saved.rules, saved.stuck
         self._has_waiting = bool(self._state.waiting)
+        self._has_stuck_gate = bool(self._wanted_gates())
         self._left, self._right, self._launch = saved.left, saved.right, saved.launch
         self._shove, self._auto_shove = saved.shove, saved.auto_shove
         self._was_stopped = how_ended == "stopped"
@@ -386,8 +389,8 @@ class GameCore:
 
     def _ticks_at_once(self, count: int) -> int:
         """How many of these ticks can be played at once, at least 1."""
-        if self._has_waiting:
-            return 1  # a waiting ball may return after every tick
+        if self._has_waiting or self._has_stuck_gate:
+            return 1  # a waiting ball may return after every tick, and a gate may close
         return self._board.skippable_ticks(count)
 
     def _press(self, left: bool, right: bool, tick: int) -> None:
@@ -420,7 +423,7 @@ class GameCore:
         if self._board.has_new_events():
             events = self.world.events
             if before is not None and (
-                self.world.events_lost or any(event.kind == "gutter" for event in events)
+                self._gates or self.world.events_lost or any(event.kind == "gutter" for event in events)
             ):
                 self._play_singly(before, count)
                 return
@@ -428,6 +431,8 @@ class GameCore:
         self._shove = self._auto_shove = False
         if self._has_waiting:
             self._return_balls()
+        if self._has_stuck_gate:
+            self._work_gates()
         if self.fault is not None:
             self._apply(ended(self._state, self.tick))
 
@@ -516,9 +521,32 @@ class GameCore:
 
     def _apply(self, outcome: Outcome) -> None:
         """Adopt the next state and queue the events of the rules."""
+        open_gates = self._state.open_gates
         self._state, events = outcome
         self._has_waiting = bool(self._state.waiting)
+        if self._state.open_gates != open_gates:
+            self._work_gates()
         self._emit(events)
+
+    def _work_gates(self) -> None:
+        """Open and close the gates as the rules say.
+
+        Raises:
+            SilverballError: The rules name a gate that the table does not have.
+        """
+        unknown = sorted(set(self._state.open_gates) - self._gates.keys())
+        if unknown:
+            raise SilverballError(
+                f"the rules open {unknown[0]!r}, expected held gates of the table: {sorted(self._gates)}"
+            )
+        for part, is_open in self._wanted_gates():
+            self.world.open_gate(part, is_open)
+        self._has_stuck_gate = bool(self._wanted_gates())
+
+    def _wanted_gates(self) -> list[tuple[str, bool]]:
+        """The gates that are not as the rules say, and whether they are to be open."""
+        wanted = [(part, name in self._state.open_gates) for name, part in self._gates.items()]
+        return [(part, is_open) for part, is_open in wanted if self._board.is_gate_open(part) != is_open]
 
     def _emit(self, events: tuple[GameEvent, ...]) -> None:
         self._game_queue.extend(events)

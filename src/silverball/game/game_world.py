@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import LOG, WORLD, Motion
+from silverball.physics.records import LOG, WORLD, Device, Motion
 from silverball.world import World
 
 SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
@@ -39,12 +39,22 @@ class GameWorld:
         self.tick: Callable[[], int] = partial(self._words.item, _TICK)
         log: NDArray[np.int64] = np.frombuffer(world._batch.logs, np.int64)
         self._log_word: Callable[[int], int] = log.item
+        self._gate_masks: dict[str, int] = {}  # the switches of each gate, by its name in events
         self._ball_x = self._record["ball"]["x"]
         self._ball_id = self._record["ball"]["id"]
         board = world.table.board
         self._skip_floor = board.gutter + GUTTER_MARGIN
         self._ticks_per_unit = world.tick_rate / board.speed_cap
         self.paddle_reach = float(world.records[1]["paddle_top"])
+
+    def is_gate_open(self, part: str) -> bool:
+        """Whether the gate with this name in events is open."""
+        mask = self._gate_masks.get(part)
+        if mask is None:
+            rows = self.world.records[2]
+            is_gate = (rows["part"] == list(self.world.hits).index(part)) & (rows["role"] == Device.GATE)
+            mask = self._gate_masks[part] = int(np.bitwise_or.reduce(rows["switch"][is_gate]))
+        return int(self._record["off"]) & mask == mask
 
     @property
     def ball_count(self) -> int:

@@ -37,6 +37,16 @@ def paddle_buttons(table: Table) -> frozenset[str]:
     return frozenset(mover.button for mover in movers if mover is not None)
 
 
+def held_gates(table: Table) -> dict[str, str]:
+    """The gates that rules open: the name in events by the name that the table gives them."""
+    primitives = primitives_by_part(table)
+    return {
+        one.part.name: one.name
+        for one in table.parts()
+        if any(primitive.is_gate for primitive in primitives[one.name])
+    }
+
+
 def plungers(table: Table) -> frozenset[str]:
     """The names of the parts that launch balls; empty: balls start on the board by themselves."""
     return frozenset(

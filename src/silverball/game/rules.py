@@ -132,6 +132,8 @@ class RuleState(NamedTuple):
             if this was too long ago.
         over: Whether the game has ended.
         memory: State of custom rules, a JSON value; never change it in place.
+        open_gates: The names of the held gates that are open; custom rules change it. A gate closes as soon
+            as no ball is in its way.
 
     Examples:
         >>> import silverball as sb
@@ -151,6 +153,7 @@ class RuleState(NamedTuple):
     quiet_since: int = 0
     over: bool = False
     memory: Any = None
+    open_gates: tuple[str, ...] = ()
 
     @property
     def waiting(self) -> tuple[InPlay, ...]:

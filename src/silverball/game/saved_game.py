@@ -46,8 +46,9 @@ class GameState(NamedTuple):
     def to_json(self) -> str:
         """The state as JSON in ASCII; equal states have equal texts."""
         data = self.rules._asdict() | {"balls": [ball._asdict() for ball in self.rules.balls]}
-        if self.rules.memory is None:
-            del data["memory"]
+        for name, default in (("memory", None), ("open_gates", ())):
+            if getattr(self.rules, name) == default:
+                del data[name]  # so that digests of games without it stay as they are
         data["watch"] = self.stuck._asdict() | {"rests": [rest._asdict() for rest in self.stuck.rests]}
         data |= {"left": self.left, "right": self.right, "shove": self.shove, "machine": self.auto_shove}
         if self.launch:  # left out otherwise, so that digests of tables without a plunger stay as they are
@@ -69,6 +70,7 @@ class GameState(NamedTuple):
         watch = data.pop("watch")
         stuck = StuckTracker(tuple(Rest(**rest) for rest in watch.pop("rests")), **watch)
         balls = tuple(InPlay(**ball) for ball in data.pop("balls"))
+        data["open_gates"] = tuple(map(str, data.get("open_gates", ())))
         return cls(RuleState(**data, balls=balls), stuck, left, right, shove, auto, own_rules, launch)
 
 

@@ -83,7 +83,7 @@ def tapered_gap(c: ColliderRecord, x: float, z: float) -> float:
 @inlined
 def is_paddle(c: ColliderRecord) -> bool:
     """Whether a row is a paddle; there may be rows of paddles that the table does not have."""
-    return c.side != 0.0 and c.outline in (Shape.TRIANGLE, Shape.TAPERED)
+    return c.side != 0.0 and c.form in (Shape.TRIANGLE, Shape.TAPERED)
 
 
 @kernel
@@ -92,20 +92,20 @@ def part_gap(c: ColliderRecord, angle: float, x: float, z: float) -> float:
 
     It is infinite for a border, and for lines and discs.
     """
-    if c.outline == Shape.CIRCLE:
+    if c.form == Shape.CIRCLE:
         return hypot(x - c.x, z - c.z) - c.radius
-    if c.outline == Shape.CAPSULE:
+    if c.form == Shape.CAPSULE:
         return side_gap(x, z, c.x0, c.z0, c.x1, c.z1) - c.radius
-    if c.outline == Shape.ARC:
+    if c.form == Shape.ARC:
         return arc_gap(c, x, z)
     if is_paddle(c):
         # Rotate the ball backwards instead of the paddle; the right paddle is mirrored.
         sine, cosine = sin(-angle), cos(-angle)
         dx, dz = x - c.x, (z - c.z) * c.side
         x, z = cosine * dx + sine * dz, cosine * dz - sine * dx
-    if c.outline == Shape.TAPERED:
+    if c.form == Shape.TAPERED:
         return tapered_gap(c, x, z)
-    if c.outline == Shape.TRIANGLE:
+    if c.form == Shape.TRIANGLE:
         return corners_gap(x, z, c.x0, c.z0, c.x1, c.z1, c.x2, c.z2)
     return inf
 
@@ -136,11 +136,11 @@ def gap_to(c: ColliderRecord, part: int, angle: float, x: float, z: float) -> fl
 @kernel
 def box(c: ColliderRecord) -> tuple[float, float, float, float]:
     """Compute the bounding box of a stationary part: least and greatest x, least and greatest z [u]."""
-    if c.outline in (Shape.LINE, Shape.DISC):
+    if c.form in (Shape.LINE, Shape.DISC):
         return inf, -inf, inf, -inf
-    if c.outline == Shape.CIRCLE:
+    if c.form == Shape.CIRCLE:
         return c.x - c.radius, c.x + c.radius, c.z - c.radius, c.z + c.radius
-    if c.outline == Shape.ARC:  # the whole circle, or, if it is less than half of it, the one over the chord
+    if c.form == Shape.ARC:  # the whole circle, or, if it is less than half of it, the one over the chord
         x, z, reach = c.x2, c.z2, hypot(c.x0 - c.x2, c.z0 - c.z2) + c.radius
         if (c.x0 - c.x2) * c.inward_x + (c.z0 - c.z2) * c.inward_z > 0.0:
             x, z = 0.5 * (c.x0 + c.x1), 0.5 * (c.z0 + c.z1)
@@ -148,7 +148,7 @@ def box(c: ColliderRecord) -> tuple[float, float, float, float]:
         return x - reach, x + reach, z - reach, z + reach
     low_x, high_x = min(c.x0, c.x1), max(c.x0, c.x1)
     low_z, high_z = min(c.z0, c.z1), max(c.z0, c.z1)
-    if c.outline == Shape.CAPSULE:
+    if c.form == Shape.CAPSULE:
         return low_x - c.radius, high_x + c.radius, low_z - c.radius, high_z + c.radius
     return min(low_x, c.x2), max(high_x, c.x2), min(low_z, c.z2), max(high_z, c.z2)
 
@@ -165,7 +165,7 @@ def is_out_of_reach(c: ColliderRecord, x: float, z: float, radius: float) -> boo
     """Whether (x, z) is further than `radius` from all that a paddle can sweep, or there is no paddle."""
     if not is_paddle(c):
         return True
-    if c.outline == Shape.TAPERED:
+    if c.form == Shape.TAPERED:
         reach = max(c.radius, c.z1 + c.tip_radius) + radius
     else:
         far = max(c.x0 * c.x0 + c.z0 * c.z0, c.x1 * c.x1 + c.z1 * c.z1, c.x2 * c.x2 + c.z2 * c.z2)
@@ -217,7 +217,7 @@ def chain_end(colliders: Colliders, first: int, end: int) -> int:
     row = first
     while row < end:
         c = colliders[row]
-        if c.outline not in (Shape.CAPSULE, Shape.ARC):
+        if c.form not in (Shape.CAPSULE, Shape.ARC):
             break
         if row > first:
             last = colliders[row - 1]
@@ -240,7 +240,7 @@ def is_inside_chain(colliders: Colliders, first: int, end: int, x: float, z: flo
         if (c.x0 > x) != (c.x1 > x) and z < c.z0 + (x - c.x0) / (c.x1 - c.x0) * (c.z1 - c.z0):
             is_inside = not is_inside
         if (
-            c.outline == Shape.ARC
+            c.form == Shape.ARC
             and (x - c.x0) * c.inward_x + (z - c.z0) * c.inward_z > 0.0
             and hypot(x - c.x2, z - c.z2) < hypot(c.x0 - c.x2, c.z0 - c.z2)
         ):

@@ -129,7 +129,7 @@ def bounce(
     rebound = approach * restitution_at(c.restitution, c.restitution_falloff, approach)
     factor = c.speed_factor
     if approach <= c.hit_speed:
-        if c.outline == Shape.ARC:
+        if c.form == Shape.ARC:
             acceleration += curve_acceleration(c, ball, nx, nz)
         rebound = max(rebound, hop_speed(acceleration, c.hit_speed))
         factor = 1.0

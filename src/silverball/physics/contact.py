@@ -90,7 +90,7 @@ def next_crossing(geometry: BoardGeometry, ball: BallRecord, off: int, start: fl
         if is_culled(c, state, speed, travel, sagitta):
             continue
         is_past_start = grid[entry] <= ball.passed_row and start == ball.passed_age
-        if c.outline == Shape.LINE:
+        if c.form == Shape.LINE:
             at, direction = line_crossing(c, ball, start, is_past_start, time)
             is_crossed = direction != 0
         else:
@@ -250,7 +250,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
         world.touches += 1
     log_event(lane.log, kind, ball, world.tick, c.part, contact, speed)
     start_flight(ball, board, time)
-    if c.device == Device.DROP_TARGET and kind == EventKind.HIT:
+    if c.role == Device.DROP_TARGET and kind == EventKind.HIT:
         drop_target(lane, geometry, c, time, tick)
 
 

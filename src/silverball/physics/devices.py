@@ -69,10 +69,10 @@ def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int
     speed = at.vx * c.inward_x + at.vz * c.inward_z
     is_to_left = speed > 0.0
     side = 1.0 if is_to_left else -1.0
-    if c.device in (Device.HOLE, Device.DRAIN, Device.PLUNGER):
+    if c.role in (Device.HOLE, Device.DRAIN, Device.PLUNGER):
         _enter_hole(lane, geometry, ball, row, time, tick)
         return
-    if c.device == Device.PASSAGE:
+    if c.role == Device.PASSAGE:
         before = c.level_right if is_to_left else c.level_left
         after = c.level_left if is_to_left else c.level_right
         if ball.level != before:
@@ -91,7 +91,7 @@ def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int
     contact = Contact(time, row, side * c.inward_x, side * c.inward_z)
     _count(lane, c)
     log_event(lane.log, as_int(EventKind.PASS), ball, world.tick, c.part, contact, abs(speed))
-    if c.device == Device.SPINNER:
+    if c.role == Device.SPINNER:
         _drive_spinner(world, board, ball, c, speed, time, tick)
 
 
@@ -153,7 +153,7 @@ def _enter_hole(
         return
     speed = sqrt(at.vx * at.vx + at.vz * at.vz)
     contact = Contact(time, row, 0.0, 0.0)
-    if c.device == Device.DRAIN:
+    if c.role == Device.DRAIN:
         advance_to(ball, board, ball.age + time)
         world.drained += 1
         lane.tally[c.part] += 1
@@ -167,13 +167,13 @@ def _enter_hole(
     capture(ball, row, c.x, c.z, time)
     _count(lane, c)
     log_event(lane.log, as_int(EventKind.CAPTURED), ball, world.tick, c.part, contact, speed)
-    if c.device == Device.HOLE:
+    if c.role == Device.HOLE:
         ball.due_tick, ball.due_offset = later(world.tick, time + c.hold_time, tick)
 
 
 @inlined
 def later(now: int, time: float, tick: float) -> tuple[int, float]:
-    """Compute the tick, and the time in it [s], of what comes `time` [s] after the start of tick `now`."""
+    """Compute the tick, and the time in it [s], of what is due `time` [s] after the tick `now` began."""
     ticks = floor(time / tick)
     return now + int(ticks), min(max(time - ticks * tick, 0.0), tick)
 
@@ -232,7 +232,7 @@ def is_held_for_a_time(ball: BallRecord, board: BoardRecord, colliders: Collider
     """Whether a hole holds a ball, and will let it go."""
     if ball.id == 0 or ball.motion != Motion.CAPTURED:
         return False
-    return bool(colliders[board.collider_first + ball.holder].device == Device.HOLE)
+    return bool(colliders[board.collider_first + ball.holder].role == Device.HOLE)
 
 
 @internal
@@ -323,7 +323,7 @@ def work_plungers(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float
         ball = world.ball[slot]
         if ball.id != 0 and ball.motion == Motion.CAPTURED:
             c = geometry.colliders[board.collider_first + ball.holder]
-            if c.device == Device.PLUNGER:
+            if c.role == Device.PLUNGER:
                 speed = launch_speed(
                     c.launch_least, c.launch_greatest, c.charge_time, world.launch_held, tick
                 )
@@ -459,7 +459,7 @@ def is_possible_capture(ball: BallRecord, board: BoardRecord, colliders: Collide
         return False
     c = colliders[board.collider_first + ball.holder]
     return bool(
-        c.device in (Device.HOLE, Device.PLUNGER)
+        c.role in (Device.HOLE, Device.PLUNGER)
         and ball.x == c.x
         and ball.z == c.z
         and ball.start_x == c.x
@@ -480,7 +480,7 @@ def free_plunger(world: WorldRecord, board: BoardRecord, colliders: Colliders) -
     """Find the row of a plunger on which a new ball can lie; −1 if there is none."""
     for row in range(board.plunger_row, board.collider_end - board.collider_first):
         c = colliders[board.collider_first + row]
-        if c.device == Device.PLUNGER:
+        if c.role == Device.PLUNGER:
             is_free = True
             reach = 2.0 * board.ball_radius + FREE_GAP
             for slot in range(board.max_balls):

@@ -119,7 +119,7 @@ def time_to_shape(
         The age and True; or False and an age up to which there is no contact: the limit, or less if the
         search has not ended (a long graze).
     """
-    if c.outline == Shape.ARC:
+    if c.form == Shape.ARC:
         return _time_to_arc(c, ball, radius, start, limit)
     time = start
     for _ in range(FLIGHT_STEPS):

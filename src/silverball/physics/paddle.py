@@ -171,7 +171,7 @@ def _outline_distance(c: ColliderRecord, x: float, z: float) -> tuple[float, flo
     A triangle is symmetric about the line from pivot to tip, so a point below it is mirrored to the upper
     side. What is left is the flank from the tip (corner 1) to the base's end (corner 2), and the base.
     """
-    if c.outline == Shape.TAPERED:
+    if c.form == Shape.TAPERED:
         return tapered_distance(c, x, z)
     side = 1.0 if x >= 0.0 else -1.0
     x = abs(x)

@@ -265,9 +265,8 @@ BOARD = np.dtype(
 COLLIDER = np.dtype(
     [
         ("kind", "i8"),
-        # Shape (a NumPy record has a `shape` of its own), Response, the levels (bit n: level n), the
-        # switch (a bit of WORLD.off; 0: always there).
-        ("outline", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
+        # Shape, Response, the levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
+        ("form", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
         # Bounding circle around (x, z). A wall has its coordinate in x or z.
         ("x", "f8"), ("z", "f8"), ("reach", "f8"),
         # Shape: a circle or a rounded segment of this radius, or a triangle with corners 0, 1, 2
@@ -280,7 +279,7 @@ COLLIDER = np.dtype(
         ("length0", "f8"), ("length1", "f8"), ("length2", "f8"),
         ("inward_x", "f8"), ("inward_z", "f8"),  # walls: the unit normal into the board
         ("part", "i8"),  # its number on the board
-        ("device", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
+        ("role", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
         # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the

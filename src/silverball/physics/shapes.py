@@ -186,15 +186,15 @@ def arc_contact(c: ColliderRecord, x: float, z: float, vx: float, vz: float) -> 
 @kernel
 def distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float]:
     """Compute the distance from a stationary shape of any kind, but for the planes of the borders."""
-    if c.outline == Shape.CIRCLE:
+    if c.form == Shape.CIRCLE:
         return circle_distance(c, x, z)
-    if c.outline == Shape.CAPSULE:
+    if c.form == Shape.CAPSULE:
         return segment_distance(c, x, z)
-    if c.outline == Shape.TRIANGLE:
+    if c.form == Shape.TRIANGLE:
         return triangle_distance(c, x, z)
-    if c.outline == Shape.ARC:
+    if c.form == Shape.ARC:
         return arc_distance(c, x, z)
-    if c.outline == Shape.DISC:
+    if c.form == Shape.DISC:
         return circle_distance(c, x, z)
     return segment_distance(c, x, z)  # a line
 
@@ -202,7 +202,7 @@ def distance(c: ColliderRecord, x: float, z: float) -> tuple[float, float, float
 @inlined
 def contact_normal(c: ColliderRecord, ball: BallRecord) -> tuple[float, float]:
     """Compute the unit normal from a stationary shape to a ball that touches it."""
-    if c.outline == Shape.ARC:
+    if c.form == Shape.ARC:
         _, nx, nz = arc_contact(c, ball.x, ball.z, ball.vx, ball.vz)
     else:
         _, nx, nz = distance(c, ball.x, ball.z)

@@ -12,7 +12,7 @@ tries whether a recipe makes boards.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from silverball.table.devices import device_problems, limit_problems
 from silverball.table.geometry import (
     BORDER_NAMES,
     Bools,
+    ClosePairs,
     Floats,
     Indices,
     Pieces,
@@ -67,9 +68,17 @@ def check_layout(layout: Layout) -> list[Problem]:
     pieces = layout.solids()
     problems += device_problems(layout, ball_space)
     problems += _sweep_problems(layout, pieces)
-    problems += _pair_problems(layout, pieces, ball_space)
+    widest = (2.0 + PASSAGE_MARGIN) * layout.board.ball_radius
+    close = near_pairs(pieces, widest, MAX_CLOSE_PAIRS)
+    problems += _pair_problems(layout, pieces, ball_space, close, widest)
     problems += _exit_problems(layout, ball_space)
-    if layout.board.gravity > 0.0:  # otherwise a ball may rest anywhere
+    if not close.is_complete:
+        message = (
+            f"has more than {MAX_CLOSE_PAIRS:,} pairs of edges between which a ball barely fits or does not: "
+            "not all of them were compared, and traps were not searched for; remove parts"
+        )
+        problems.append(_warning("board", message))
+    elif layout.board.gravity > 0.0:  # otherwise a ball may rest anywhere
         problems += _trap_problems(layout, pieces, ball_space)
     if layout.random is not None:
         problems += recipe_problems(layout)
@@ -209,18 +218,12 @@ def _beyond_problem(part: PlacedPart, board: Board) -> Problem | None:
     return _warning(part.place, f"extends {beyond:.3g} u beyond the edge of the board: move it inwards")
 
 
-class _Found(NamedTuple):
-    """The worst of each sort between two parts: whether they cross or overlap, and the narrowest lane."""
-
-    fault: str = ""
-    gap: float = math.inf
-
-
-def _pair_problems(layout: Layout, pieces: Pieces, ball_space: Space) -> list[Problem]:
+def _pair_problems(
+    layout: Layout, pieces: Pieces, ball_space: Space, close: ClosePairs, widest: float
+) -> list[Problem]:
     """Overlaps; and gaps that a ball barely fits, where a ball gets to: once for each pair of parts."""
     board, parts = layout.board, layout.parts
-    widest = (2.0 + PASSAGE_MARGIN) * board.ball_radius
-    first, second, gaps, is_complete = near_pairs(pieces, widest, MAX_CLOSE_PAIRS)
+    first, second, gaps, _ = close
     other = pieces.part[first] != pieces.part[second]
     first, second, gaps = first[other], second[other], gaps[other]
     ends = pieces.core[:, 1, None] - pieces.core
@@ -254,12 +257,6 @@ def _pair_problems(layout: Layout, pieces: Pieces, ball_space: Space) -> list[Pr
     for (one, two), (gap, _) in sorted(lanes.items()):
         problems.append(_gap_problem(parts[two].place, gap, parts[one].path, board))
     problems += _border_lanes(layout, pieces, ball_space, widest)
-    if not is_complete:
-        message = (
-            f"has more than {MAX_CLOSE_PAIRS:,} pairs of edges between which no ball fits, and not all "
-            "of them were compared: remove parts"
-        )
-        problems.append(_warning("board", message))
     return problems
 
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from silverball.errors import Problem
 from silverball.physics.forms import Shape
-from silverball.table.geometry import Bools, Floats, Pieces, Polygon, border_gaps, clear_of
+from silverball.table.geometry import Bools, Floats, Pieces, Polygon, arc_edges, border_gaps, clear_of
 from silverball.table.layout import Layout, PlacedPart
 from silverball.table.primitive import Primitive
 from silverball.table.reach import Space, resting_pieces
@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from silverball.table.kinds import Board
 
 MAX_PADDLES = 8  # as many as a world has room for
+MAX_EDGES = 16_384  # of all parts, arcs divided into edges; real tables have 1,000
 MAX_SWITCHES = 62  # drop targets and held gates: the bits of one integer
+MAX_CROSSINGS = 128  # drop targets, gates and passages, to bound the time of the search for ways out
 SPACING = 0.01  # [u] between the points of a line that are examined
 FREE = 1e-9  # [u] by which a ball may overlap a part where it comes out: rounding
 
@@ -32,10 +34,14 @@ def limit_problems(layout: Layout) -> list[Problem]:
     """Find what there is too much of, levels that do not exist, and speeds above the cap."""
     problems = []
     everything = [p for part in (*layout.parts, *layout.paddles) for p in part.primitives]
+    edges = sum(arc_edges(p) if p.shape is Shape.ARC else 1 for p in everything)
     switches = sum(p.bank is not None or p.is_gate for p in everything)
+    crossings = switches + sum(p.one_way is not None or p.passage is not None for p in everything)
     for path, what, count, most in (
+        ("wall", "edges of arcs, drawn within a thousandth of a unit", edges, MAX_EDGES),
         ("paddle", "paddles", len(layout.moving()), MAX_PADDLES),
         ("", "drop targets and held gates", switches, MAX_SWITCHES),
+        ("", "drop targets, gates and passages", crossings, MAX_CROSSINGS),
     ):
         if count > most:
             problems.append(Problem(path, f"has too many {what}: at most {most:,}, got {count:,}"))

@@ -76,11 +76,16 @@ def pieces_of(primitive: Primitive) -> list[Piece]:
     raise ValueError(f"a shape without pieces: {primitive.shape!r}")
 
 
-def arc_points(primitive: Primitive) -> list[Point]:
-    """Return points on an arc, from its start to its end, whose chain lies within the tolerance."""
+def arc_edges(primitive: Primitive) -> int:
+    """Return the number of edges of the chain that stands for an arc."""
     arc = primitive.arc
     step = min(MAX_ARC_STEP, 4.0 * math.asin(min(1.0, math.sqrt(ARC_TOLERANCE / (2.0 * arc.radius)))))
-    count = max(1, math.ceil(2.0 * arc.half_angle / step))
+    return max(1, math.ceil(2.0 * arc.half_angle / step))
+
+
+def arc_points(primitive: Primitive) -> list[Point]:
+    """Return points on an arc, from its start to its end, whose chain lies within the tolerance."""
+    arc, count = primitive.arc, arc_edges(primitive)
     turn = math.copysign(arc.half_angle, primitive.bulge)
     inner = np.linspace(-turn, turn, count + 1)[1:-1]
     sine, cosine = np.sin(inner), np.cos(inner)
@@ -327,17 +332,29 @@ def core_distances(first: Floats, second: Floats) -> Floats:
     return np.where(_edges_cross(first, second), 0.0, ends)
 
 
-def near_pairs(pieces: Pieces, widest: float, limit: int) -> tuple[Indices, Indices, Floats, bool]:
+class ClosePairs(NamedTuple):
+    """Pairs of pieces that are close to each other.
+
+    Attributes:
+        first: The first piece of each pair, shape [pair], in order.
+        second: The second piece of each pair.
+        gap: The gap between them [u].
+        is_complete: Whether these are all pairs.
+    """
+
+    first: Indices
+    second: Indices
+    gap: Floats
+    is_complete: bool
+
+
+def near_pairs(pieces: Pieces, widest: float, limit: int) -> ClosePairs:
     """Find the pairs of pieces of one level with less than a given gap [u] between them.
 
     Args:
         pieces: The pieces; those of one part make pairs too.
         widest: The gap [u].
         limit: The search ends after about this many pairs, to bound time and memory.
-
-    Returns:
-        The first and the second piece of each pair [pair], in order; the gap [u] [pair]; and whether these
-        are all pairs.
     """
     low, high = pieces.boxes()
     order = np.argsort(low[:, 0], kind="stable")
@@ -361,8 +378,8 @@ def near_pairs(pieces: Pieces, widest: float, limit: int) -> tuple[Indices, Indi
             found.append((a[near], b[near], gap[near]))
             count += int(near.sum())
             if count > limit:
-                return (*_in_order(found), False)
-    return (*_in_order(found), True)
+                return ClosePairs(*_in_order(found), is_complete=False)
+    return ClosePairs(*_in_order(found), is_complete=True)
 
 
 def _in_order(found: list[tuple[Indices, Indices, Floats]]) -> tuple[Indices, Indices, Floats]:
@@ -378,12 +395,19 @@ def clear_of(balls: Floats, ball_radius: float, pieces: Pieces, slack: float) ->
     """Return whether balls overlap no piece by more than a slack [u], bool [ball]."""
     low, high = pieces.boxes()
     low, high = low - ball_radius, high + ball_radius
+    # A ball far from the line through a capsule is clear of it, which its box alone does not tell.
+    is_flat = (pieces.core[:, 1] == pieces.core[:, 2]).all(axis=1)
+    normal = np.where(is_flat[:, None], outward_normals(pieces.core)[:, 0], 0.0)
+    level = (normal * pieces.core[:, 0]).sum(axis=1)
+    reach = pieces.radius + ball_radius
     is_clear = np.ones(len(balls), dtype=bool)
     at_once = max(1, COMPARED_AT_ONCE // max(1, len(low)))
     for begin in range(0, len(balls), at_once):
         some = balls[begin : begin + at_once]
         x, z = some[:, 0, None], some[:, 1, None]
-        ball, piece = np.nonzero((x > low[:, 0]) & (x < high[:, 0]) & (z > low[:, 1]) & (z < high[:, 1]))
+        near = (x > low[:, 0]) & (x < high[:, 0]) & (z > low[:, 1]) & (z < high[:, 1])
+        near &= np.abs(x * normal[:, 0] + z * normal[:, 1] - level) < reach
+        ball, piece = np.nonzero(near)
         for few in np.array_split(np.arange(len(ball)), len(ball) // CHUNK + 1):
             gap = distances(some[ball[few]], pieces.core[piece[few]]) - pieces.radius[piece[few]]
             is_clear[begin + ball[few][gap - ball_radius <= -slack]] = False

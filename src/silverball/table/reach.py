@@ -379,16 +379,20 @@ def _reached(layout: Layout, grid: Grid, levels: tuple[int, ...], free: Bools) -
             for level in {level for link in crossing.links for level, _ in link} & index.keys():
                 open_[index[level], rows, columns] &= ~(np.abs(across) <= crossing.half_width)
     runs, neighbours = _runs(open_)
-    sources: dict[int, set[int]] = defaultdict(set)  # of each run, the runs from which it is entered
+    # Of each run, the runs and links from which it is entered; of each link, which is negative, the same.
+    sources: dict[int, set[int]] = defaultdict(set)
+    link = 0
     for crossing in crossings:
         rows, columns, across = _beside(grid, crossing, BESIDE * grid.step)
         far = np.abs(across) <= crossing.half_width + BESIDE * grid.step
         for (level, side), (to_level, to_side) in crossing.links:
             if level in index and to_level in index:
-                one = set(runs[index[level], rows, columns][far & (across * side > 0.0)].tolist()) - {0}
-                other = runs[index[to_level], rows, columns][far & (across * to_side > 0.0)]
-                for run in set(other.tolist()) - {0}:
-                    sources[run] |= one
+                link -= 1
+                before = runs[index[level], rows, columns][far & (across * side > 0.0)]
+                behind = runs[index[to_level], rows, columns][far & (across * to_side > 0.0)]
+                sources[link] = set(before.tolist()) - {0}
+                for run in set(behind.tolist()) - {0}:
+                    sources[run].add(link)
     out = set(np.unique(runs[:, 0]).tolist())
     for part in layout.parts:
         for p in part.primitives:
@@ -404,7 +408,7 @@ def _reached(layout: Layout, grid: Grid, levels: tuple[int, ...], free: Bools) -
                     sources[run] |= inside
     found = _closure(out - {0}, neighbours, sources)
     is_found = np.zeros(int(runs.max()) + 1, dtype=bool)
-    is_found[list(found)] = True
+    is_found[[run for run in found if run > 0]] = True
     return is_found[runs]
 
 
@@ -413,7 +417,7 @@ def _closure(start: set[int], neighbours: dict[int, list[int]], sources: dict[in
     found = set(start)
     front = list(found)
     while front:
-        before = {run for known in front for run in (*neighbours[known], *sources.get(known, ()))}
+        before = {run for known in front for run in (*neighbours.get(known, ()), *sources.get(known, ()))}
         front = list(before - found)
         found.update(front)
     return found

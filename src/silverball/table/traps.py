@@ -107,11 +107,11 @@ def level_faces(terrain: Terrain) -> list[LevelFace]:
         count = max(2, int(math.hypot(*(end - start)) / terrain.space.grid.step) + 1)
         along = np.linspace(0.0, 1.0, count)[:, None]
         balls = start + along * (end - start) + normal * (pieces.radius[piece] + board.ball_radius)
-        for ball in balls[terrain.is_clear(balls)]:
-            if terrain.is_reached(ball):
-                slope = math.degrees(math.atan2(abs(normal[1]), normal[0]))
-                found[part] = LevelFace(part, slope, (float(ball[0]), float(ball[1])))
-                break
+        balls = balls[[terrain.is_reached(ball) for ball in balls]]
+        balls = balls[terrain.is_clear(balls)]
+        if len(balls):
+            slope = math.degrees(math.atan2(abs(normal[1]), normal[0]))
+            found[part] = LevelFace(part, slope, (float(balls[0, 0]), float(balls[0, 1])))
     return list(found.values())
 
 

@@ -54,7 +54,7 @@ from silverball.physics.tolerances import (
 )
 from silverball.table import Board, Table, ball_places, expand, table_digest
 from silverball.table.expand import Expansion
-from silverball.table.primitive import Primitive
+from silverball.table.primitive import Point, Primitive
 from silverball.world.rows import highest_x, set_row, swept_circle
 
 FIRST_GRID_SIZE = 1024  # initial capacity of a board's grid [int32 entries]; most boards need less
@@ -153,7 +153,7 @@ def compile_parts(table: Table) -> NDArray[Any]:
         if primitive.bank is not None or primitive.is_gate:
             row["switch"] = 1 << switches
             switches += 1
-        row["device"] = device = _device(primitive)
+        row["role"] = device = _device(primitive)
         if primitive.bank is not None:
             row["number"] = banks.index(primitive.bank)
         elif device == Device.SPINNER:
@@ -233,9 +233,9 @@ def _set_devices(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:
     """Set what the devices of a board are, and where."""
     row["sensors"] = np.count_nonzero(rows["response"] != Response.BOUNCE)
     row["switches"] = int(np.bitwise_or.reduce(rows["switch"]))
-    plungers = np.flatnonzero(rows["device"] == Device.PLUNGER)
+    plungers = np.flatnonzero(rows["role"] == Device.PLUNGER)
     row["plungers"], row["plunger_row"] = len(plungers), plungers[0] if len(plungers) else 0
-    spinners = np.flatnonzero(rows["device"] == Device.SPINNER)
+    spinners = np.flatnonzero(rows["role"] == Device.SPINNER)
     row["spinners"], row["spinner_row"][: len(spinners)] = len(spinners), spinners
     row["banks"] = len(_banks(expansion))
     for collider, (_, primitive) in zip(rows, expansion.rows, strict=True):
@@ -285,16 +285,23 @@ def _set_device_row(row: Any, primitive: Primitive) -> None:
         row["launch_x"], row["launch_z"] = launch.direction
 
 
+def _square(start: Point, end: Point) -> float:
+    """The square of the distance between two points [u²]; 0 below 1e-162 u."""
+    return (end[0] - start[0]) ** 2 + (end[1] - start[1]) ** 2
+
+
 def _refuse_impossible(table: Table, expansion: Expansion) -> None:
     """Refuse what only a table made in Python can have: parts without an extent, and too many of a kind."""
     problems = []
     for number, primitive in expansion.rows:
         part = expansion.parts[number]
-        if primitive.shape in ENDED and primitive.points[0] == primitive.points[1]:
+        if primitive.shape in ENDED and _square(*primitive.points) == 0.0:
             problems.append(Problem(part.path, "must have two different ends"))
         if primitive.shape == Shape.TRIANGLE and primitive.mover is None:
             a, b, c = primitive.points
-            if (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
+            # A side of 1e-200 u has no length either: its square is 0.
+            has_sides = all(_square(*pair) > 0.0 for pair in ((a, b), (b, c), (c, a)))
+            if not has_sides or (b[1] - a[1]) * (c[0] - a[0]) == (b[0] - a[0]) * (c[1] - a[1]):
                 problems.append(Problem(part.path, "must not be flat"))
     count = sum(1 for _, one in expansion.rows if one.mover is not None)
     switches = sum(1 for _, one in expansion.rows if one.bank is not None or one.is_gate)

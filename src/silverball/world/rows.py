@@ -25,7 +25,7 @@ KICK_PROFILES = {"flat": KickProfile.FLAT, "parabola": KickProfile.PARABOLA}
 
 def set_row(row: Any, primitive: Primitive, board: Board) -> None:
     """Write a primitive into a zeroed COLLIDER record; the board gives what its surface leaves open."""
-    row["outline"], row["response"] = primitive.shape, primitive.response
+    row["form"], row["response"] = primitive.shape, primitive.response
     row["levels"] = sum(1 << level for level in set(primitive.levels))
     SET_SHAPE[primitive.shape](row, primitive)
     set_surface(row, primitive.surface, board)
@@ -151,7 +151,7 @@ def set_surface(row: Any, surface: Surface, board: Board) -> None:
     row["friction"] = board.friction if surface.friction is None else surface.friction
     row["hit_speed"] = board.hit_speed if surface.hit_speed is None else surface.hit_speed
     row["kick"] = surface.kick
-    if row["outline"] in (Shape.CAPSULE, Shape.ARC):  # the other shapes have no ends
+    if row["form"] in (Shape.CAPSULE, Shape.ARC):  # the other shapes have no ends
         row["kick_profile"] = KICK_PROFILES[surface.kick_profile]
 
 

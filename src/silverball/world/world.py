@@ -374,7 +374,7 @@ class World:
         expansion = expand(self.table)
         number = expansion.named.get(name, expansion.numbers.get(name, -1))
         rows = self._batch.boards.collider
-        switches = int(rows["switch"][(rows["part"] == number) & (rows["device"] == Device.GATE)].sum())
+        switches = int(rows["switch"][(rows["part"] == number) & (rows["role"] == Device.GATE)].sum())
         if switches == 0:
             gates = {
                 part.name

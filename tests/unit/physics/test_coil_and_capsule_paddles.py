@@ -12,15 +12,14 @@ from hypothesis import given, settings, strategies as st
 from mpmath import mpf
 
 from contact_times import BOUND, exact, first_root, length
-from rows_of import RADIUS, ball_at, row_of
+from rows_of import RADIUS, ball_at, first_meeting, row_of
 from silverball.physics.paddle import (
-    contact_with_paddle,
     omega_at,
     paddle_distance,
     start_sweep,
     time_to_stop,
 )
-from silverball.physics.records import NOTHING, PADDLE, Contact, PaddleSweep, Shape, records
+from silverball.physics.records import PADDLE, PaddleSweep, Shape, records
 from silverball.table.primitive import Mover, Primitive
 
 PIVOT, LENGTH, BASE, TIP = (-7.2, -2.5), 1.15, 0.2, 0.12
@@ -83,17 +82,6 @@ def _stop_time(sweep, tick):  # pragma: no cover  (compiled)
 def _end_of(c, paddle, raised, tick):  # pragma: no cover  (compiled)
     sweep = start_sweep(c, paddle, raised)
     return min(time_to_stop(sweep, tick), tick), omega_at(sweep, min(time_to_stop(sweep, tick), tick))
-
-
-@numba.njit(error_model="numpy")
-def _meet(c, sweep, ball, radius, limit):  # pragma: no cover  (compiled)
-    speed = math.sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
-    best, start = Contact(limit, NOTHING, 0.0, 0.0), 0.0
-    while True:
-        contact = contact_with_paddle(c, 3, sweep, ball, radius, speed, start, best)
-        if contact[1] == 3 or contact[0] >= limit:
-            return contact
-        start = contact[0]
 
 
 def state_of(angle: float, omega: float = 0.0):
@@ -199,7 +187,7 @@ def test_hit_times_on_tapered_paddles(motion: str, direction: float) -> None:
             if found is None:
                 continue
             root, rate = found
-            time, part, nx, nz = _meet(row, sweep, ball_at(*ball, accel=(-10.0, 0.0)), RADIUS, limit)
+            time, part, nx, nz = first_meeting(row, sweep, ball_at(*ball, accel=(-10.0, 0.0)), RADIUS, limit)
             assert part == 3, ball
             error = float(abs(time - root) * abs(rate) / BOUND)
         assert error <= 1.0, (ball, time, root)
@@ -218,7 +206,9 @@ def test_a_ball_is_never_deep_in_a_paddle_before_their_contact(ball, motion: str
     gap = paddle_gap(ball, sweep)
     if gap(np.array([0.0]))[0] < 1e-9:
         return
-    time, part, _, _ = _meet(paddle_row(is_coil=True), sweep, ball_at(*ball, accel=(-10, 0)), RADIUS, limit)
+    time, part, _, _ = first_meeting(
+        paddle_row(is_coil=True), sweep, ball_at(*ball, accel=(-10, 0)), RADIUS, limit
+    )
     assert gap(np.linspace(0, time, 400)).min() > -1e-9
     if part == 3:
         assert abs(gap(np.array([time]))[0]) < 1e-9

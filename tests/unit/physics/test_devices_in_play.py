@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+
+from silverball.table import Board, Table
 from silverball.table.kinds.gate import Gate
 from silverball.table.kinds.hole import Hole
 from silverball.table.kinds.level import Level, Passage
@@ -19,8 +21,6 @@ from silverball.table.kinds.rollover import Rollover
 from silverball.table.kinds.slant_wall import SlantWall
 from silverball.table.kinds.spinner import Spinner
 from silverball.table.kinds.target import DropTarget
-
-from silverball.table import Board, Table
 from silverball.world import World
 
 GRAVITY = 10.0

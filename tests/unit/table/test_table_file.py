@@ -52,7 +52,7 @@ center = [5.0, 0.0]
 radius = 0.6
 
 [[cylinder]]
-center = [5.5, 0.2]                            # 8: overlaps
+center = [20.0, 0.2]                           # 8: beyond the board
 radius = 0.6
 """
 
@@ -182,7 +182,7 @@ def test_eight_different_mistakes_are_all_reported_with_their_paths(tmp_path):
     assert "cylinder" in problems["bumper"]
     assert "gravity" in problems["board.gravty"]
     assert "0.05 to 10 u, got 600" in problems["cylinder[0].radius"]
-    assert "overlaps cylinder[1]" in problems["cylinder[2].center"]
+    assert "beyond the edge" in problems["cylinder[2].center"]
     assert "8 problems" in str(caught.value)
 
 

@@ -87,7 +87,7 @@ def test_names_are_unique_in_format_2_only():
 
 
 def test_a_level_is_given_in_one_way():
-    start = "format = 2\n[[post]]\ncenter = [0, 0]\n"
+    start = "format = 2\n[[level]]\nnumber = 1\n[[level]]\nnumber = 2\n[[post]]\ncenter = [0, 0]\n"
     assert "one of the two" in problems_of(start + "level = 1\nlevels = [1, 2]\n")["post[0].levels"]
     assert parse_table(start + "levels = [2, 0, 2]\n").post[0].all_levels == (0, 2)
 

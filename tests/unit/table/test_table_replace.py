@@ -82,9 +82,9 @@ REFUSALS = {
             "board.max_balls: must be 1 to 8 balls, got 9",
         ],
     ),
-    "parts that overlap": (
-        {"cylinder": [*CLASSIC.cylinder, CLASSIC.cylinder[0]]},
-        [f"cylinder[{len(CLASSIC.cylinder)}].center: overlaps cylinder[0]: move one of the two"],
+    "a part beyond the board": (
+        {"cylinder": [{"center": [20.0, 0.0], "radius": 0.5}]},
+        ["cylinder[0].center: lies beyond the edge of the board: move it onto the board"],
     ),
     "a mesh that is missing": (
         {"cylinder": [{"mesh": "no.stl"}]},

@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from silverball.app.sound import finishes
+from silverball.app.sound import part_sounds
 from silverball.app.sound.bank import RECIPES, Key
 from silverball.app.sound.levels import pan, strength_of
 from silverball.app.sound.synth import BELL_STEPS, SCALE
@@ -91,7 +91,7 @@ class Voices:
 
     def begin_game(self, table: Table | None) -> None:
         """Begin another game on a table; None: one with two default paddles and nothing else."""
-        self._parts = {} if table is None else finishes.part_sounds(table)
+        self._parts = {} if table is None else part_sounds.sounds_of_parts(table)
         self._paddles = default_paddles() if table is None else paddles_of(table)
         self._down: set[str] = set()  # the buttons that are down and do something
         self._has_plunger = any(part.finish is Finish.PLUNGER for part in self._parts.values())
@@ -136,11 +136,11 @@ class Voices:
 
     def _sound_of(self, event: Event, time: float) -> tuple[str, int, float] | None:
         """Return name, layer and strength of an event's sound; None if it has none."""
-        if event.kind in finishes.BLOWS:
+        if event.kind in part_sounds.BLOWS:
             return self._blow(event, time)
         part = self._parts.get(event.part)
-        sound = finishes.event_sound(event.kind, None if part is None else part.finish)
-        is_once = event.kind in finishes.ONCE
+        sound = part_sounds.event_sound(event.kind, None if part is None else part.finish)
+        is_once = event.kind in part_sounds.ONCE
         if sound is None or (is_once and self._is_repeat(0, event.kind, time, sound.strength)):
             return None
         return sound.name, 0, sound.strength
@@ -149,7 +149,7 @@ class Voices:
         """Return name, layer and strength of the sound of a hit or touch; None if it is not heard."""
         part = self._parts.get(event.part)
         if event.part == "ball":
-            sound = finishes.BALL
+            sound = part_sounds.BALL
         elif part is not None:
             sound = part.blow
         else:

@@ -11,15 +11,20 @@ import hashlib
 import json
 from base64 import urlsafe_b64encode
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import PADDLE, WORLD
+from silverball.physics.records import LEFT, PADDLE, WORLD, Part
+
+if TYPE_CHECKING:
+    from silverball.world import World
 
 OLDEST_PHYSICS = 3
 """The oldest version of the physics that moves balls on tables of format 1 as this one does."""
+
+FIRST_SHAPE_3 = 5  # row of the first stationary shape in version 3: after three borders and two paddles
 
 _WORLD_3 = np.dtype(
     [
@@ -73,17 +78,25 @@ def full_digest(record: bytes, rules: str) -> str:
     return hashlib.sha256(record + rules.encode("ascii")).hexdigest()
 
 
-def record_bytes(record: Any, physics: int) -> bytes:
-    """The bytes of a WORLD record, in the layout of a version of the physics."""
+def record_bytes(world: World, physics: int) -> bytes:
+    """The bytes of the record of a world, in the layout of a version of the physics.
+
+    Version 3 had a row for the left and for the right paddle on every board, also where there is none.
+    """
+    record, board, colliders = world.records
     if physics == PHYSICS_VERSION:
         return bytes(record.tobytes())
     then = np.zeros((), _WORLD_3)
     for name in _WORLD_3["ball"].base.names or ():
         then["ball"][name] = record["ball"][name][:2]
-    then["paddle"] = record["paddle"][:2]
+    rows = then["ball"]["contact_row"]
+    rows[rows >= board["shape_first"]] += FIRST_SHAPE_3 - board["shape_first"]
+    first = board["collider_first"] + Part.FIRST_PADDLE
+    for number in range(int(board["paddles"])):
+        then["paddle"][0 if colliders["button"][first + number] == LEFT else 1] = record["paddle"][number]
     for name in (_WORLD_3.names or ())[2:]:
         then[name] = record[name]
-    return then.tobytes()
+    return bytes(then.tobytes())
 
 
 def _spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:

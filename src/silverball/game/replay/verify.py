@@ -96,7 +96,7 @@ def verify(
             return _differs(game.score, game.tick, game.tick, "inputs", "the recorded ones", str(error))
         if game.tick != (number + 1) * rate:
             return _ended_early(playback)
-        record = record_bytes(game.world.records[0], replay.physics)
+        record = record_bytes(game.world, replay.physics)
         expected = line[: CHARACTERS * len(GROUPS)]
         got = short_digests(record, game.rules_text, replay.physics)
         if expected != got:
@@ -112,7 +112,7 @@ def verify(
     if game.tick != replay.ticks:
         return _ended_early(playback)
     equal_until = len(replay.lines) * rate
-    record = record_bytes(game.world.records[0], replay.physics)
+    record = record_bytes(game.world, replay.physics)
     ends = (
         ("ended", replay.ended, game.ended),
         ("score", str(replay.score), str(game.score)),

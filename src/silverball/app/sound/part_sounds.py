@@ -131,7 +131,7 @@ def blow_sound(primitive: Primitive) -> HitSound:
     return hit
 
 
-def part_sounds(table: Table) -> dict[str, PartSound]:
+def sounds_of_parts(table: Table) -> dict[str, PartSound]:
     """Return how every part of a table sounds, by its name in events."""
     sounds: dict[str, PartSound] = {}
     for name, primitives in primitives_by_part(table).items():
