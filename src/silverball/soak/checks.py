@@ -47,7 +47,7 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.step import button_bits, step_world
-from silverball.soak.crossings import depth_in_one_way, gap_to_sensor, is_crossing_wrong
+from silverball.soak.crossings import depth_in_one_way, gap_to_sensor, has_passed, is_crossing_wrong
 from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action, move_gates
 from silverball.soak.regions import (
     BLOCKED,
@@ -377,6 +377,8 @@ def is_free(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, slot: int, ti
     if truth.board.sensors != 0:  # a spinner may slow a ball, a passage may throw it back
         change = hypot(ball.vx - watch.vx_before[slot], ball.vz - watch.vz_before[slot])
         if change > max_change(truth.board, tick) + PASSAGE_DEPTH:
+            return False
+        if has_passed(lane.log, truth.board, truth.colliders, ball.id):
             return False
     return is_untouched(lane.log, ball.id)
 

@@ -30,7 +30,7 @@ CLEAR = 1e-6  # [u] by which a ball must be clear of a one-way part for the part
 @inlined
 def is_sensor(c: ColliderRecord) -> bool:
     """Whether every crossing of a row is an event."""
-    return c.device in (Device.SENSOR, Device.PASSAGE, Device.SPINNER)
+    return c.role in (Device.SENSOR, Device.PASSAGE, Device.SPINNER)
 
 
 @kernel
@@ -53,7 +53,7 @@ def line_crossings(c: ColliderRecord, ball: BallRecord, x: float, z: float, marg
         return 0
     if along < slack or along > length - slack:
         return UNKNOWN
-    if c.device == Device.PASSAGE and ball.level != (c.level_right if after > 0.0 else c.level_left):
+    if c.role == Device.PASSAGE and ball.level != (c.level_right if after > 0.0 else c.level_left):
         return 0
     return 1
 
@@ -92,7 +92,7 @@ def is_crossing_wrong(
         c = colliders[index]
         if not is_sensor(c) or c.levels >> ball.level & 1 == 0:
             continue
-        if c.outline == Shape.LINE:
+        if c.form == Shape.LINE:
             expected = line_crossings(c, ball, x, z, margin)
         else:
             expected = disc_entries(c, ball, x, z, margin)
@@ -109,14 +109,27 @@ def is_crossing_wrong(
 
 
 @kernel
+def has_passed(log: LogRecord, board: BoardRecord, colliders: Colliders, ball: int) -> bool:
+    """Whether the ball with this id has crossed a passage in the last tick, perhaps there and back."""
+    for number in range(log.count):
+        event = log.event[number]
+        if event.kind != EventKind.PASS or event.ball != ball:
+            continue
+        for index in range(board.collider_first + board.shape_first, board.collider_end):
+            if colliders[index].part == event.part and colliders[index].role == Device.PASSAGE:
+                return True
+    return False
+
+
+@kernel
 def gap_to_sensor(board: BoardRecord, colliders: Colliders, part: int, x: float, z: float) -> float:
     """Compute how far (x, z) is from the nearest line or circle of a part [u]."""
     gap = inf
     for index in range(board.collider_first + board.shape_first, board.collider_end):
         c = colliders[index]
-        if c.part == part and c.outline == Shape.LINE:
+        if c.part == part and c.form == Shape.LINE:
             gap = min(gap, side_gap(x, z, c.x0, c.z0, c.x1, c.z1))
-        elif c.part == part and c.outline == Shape.DISC:
+        elif c.part == part and c.form == Shape.DISC:
             gap = min(gap, abs(hypot(x - c.x, z - c.z) - c.radius))
     return gap
 
