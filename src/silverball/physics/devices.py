@@ -123,7 +123,7 @@ def _has_room(
 @internal
 def _is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: int, time: float) -> bool:
     """Whether a ball at (x, z) on a level would overlap no collider at a time of the tick [s]."""
-    world, board, log = lane.world, geometry.board, lane.log
+    world, board, scratch = lane.world, geometry.board, lane.scratch
     if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
         return False
     for index in range(board.collider_first + Part.FIRST_PADDLE, board.collider_end):
@@ -137,7 +137,7 @@ def _is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: in
             continue
         row = index - board.collider_first
         if row < board.shape_first:
-            angle = angle_at(read_sweep(log.sweep[row - Part.FIRST_PADDLE]), time)
+            angle = angle_at(read_sweep(scratch.sweep[row - Part.FIRST_PADDLE]), time)
             gap, _, _ = paddle_distance(c, angle, x, z)
         else:
             gap, _, _ = distance(c, x, z)

@@ -11,6 +11,8 @@ Options, and why:
 * ``no_cfunc_wrapper=True``: kernels are never passed as function pointers; it saves 8 % of the compilation.
 * ``no_cpython_wrapper=True``, for what only kernels call: it cannot be called from Python, and needs no code
   that unpacks arguments; it saves some 10 % of the compilation.
+* the linkage (see `linkage.py`): callees can be optimized freely, and helpers have no machine
+  code of their own.
 * the cache: Numba's own ``cache=True`` checks the file of the cached function alone and would return stale
   code after a change of a callee in *another* file, and it trusts its files (see `code_cache.py`). Compiled
   code is therefore kept in a folder of the user's cache directory whose name is a hash of the sources of all
@@ -38,6 +40,7 @@ from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
+from silverball.physics.linkage import HelperCompiler, KernelCompiler, WrapperCompiler, can_link
 
 SETTINGS: Any = numba.core.config
 # The packages whose sources the machine code of some kernels depends on.
@@ -78,6 +81,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 def kernel(function: F) -> F:
     """Compile a function on its first call and cache the machine code for the next start."""
     return _compile(function)
+
+
+def wrapper(function: F) -> F:
+    """Compile a kernel that does little but call another one, without optimizing that one again."""
+    return _compile(function, **({"pipeline_class": WrapperCompiler} if can_link else {}))
 
 
 def internal(function: F) -> F:
@@ -200,7 +208,7 @@ def _machine() -> tuple[Any, ...]:
     import llvmlite.binding
 
     processor = SETTINGS.CPU_NAME or llvmlite.binding.get_host_cpu_name()
-    return sys.implementation.cache_tag, numba.__version__, processor, bool(SETTINGS.BOUNDSCHECK)
+    return sys.implementation.cache_tag, numba.__version__, can_link, processor, bool(SETTINGS.BOUNDSCHECK)
 
 
 def evict_old_code() -> None:
@@ -215,7 +223,7 @@ def evict_old_code() -> None:
                 shutil.rmtree(other, ignore_errors=True)
 
 
-def _compile(function: F, **more: bool | str) -> F:
+def _compile(function: F, **more: Any) -> F:
     options: dict[str, Any] = {
         "error_model": "numpy",
         "fastmath": False,
@@ -224,6 +232,9 @@ def _compile(function: F, **more: bool | str) -> F:
         "no_cfunc_wrapper": True,
         **more,
     }
+    if can_link:
+        is_helper = more.get("no_cpython_wrapper")
+        options.setdefault("pipeline_class", HelperCompiler if is_helper else KernelCompiler)
     compiled: Any = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled

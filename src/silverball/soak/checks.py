@@ -522,7 +522,8 @@ def soak_worlds(
         world, log, tally = lanes.worlds[index], lanes.logs[index], lanes.tallies[index]
         watch, action, number = watches.states[index], drivers.actions[index], lanes.board_of[index]
         board, driver, wild = geometries.boards[number], drivers.states[index], drivers.wild[index]
-        lane, geometry = Lane(world, log, tally), BoardGeometry(board, geometries.colliders, geometries.grid)
+        lane = Lane(world, log, tally, log)
+        geometry = BoardGeometry(board, geometries.colliders, geometries.grid)
         truth = ReferenceBoard(
             watches.boards[number], watches.colliders, watches.headers[number], watches.labels,
             watches.hostile[number],

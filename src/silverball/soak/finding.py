@@ -205,7 +205,7 @@ def reproduce(finding: Finding) -> Found:
     batch.state[0] = record
     if not _is_possible(soaked):
         raise StateError("the state of this finding is impossible; it was changed")
-    lane = Lane(batch.state[0], batch.logs[0], batch.tallies[0])
+    lane = Lane(batch.state[0], batch.logs[0], batch.tallies[0], batch.logs[0])
     geometry = BoardGeometry(batch.boards.board[0], batch.boards.collider, batch.boards.grid)
     watch, action, truth = soaked.watches.states[0], drivers.actions[0], soaked.truth(0)
     for values in finding.actions:

@@ -39,8 +39,8 @@ from silverball.table.kinds import (
     TriangularPrism,
     Wall,
 )
-from silverball.table.layout import Layout
 from silverball.table.model import SINCE_2, Model, Name, is_since_2, list_sections, places_of_format_2
+from silverball.table.placed_parts import Layout
 from silverball.table.placement import try_recipe
 from silverball.table.quantity import refuse, shown
 from silverball.table.recipe import RandomRecipe

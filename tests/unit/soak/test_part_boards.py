@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from boards import FIRST_SHAPE, table_of
+from boards import table_of
 from holed import hide_from_the_solver, options_of
 from silverball.physics.records import NOTHING
 from silverball.soak.checks import Found, check_places
@@ -33,6 +33,11 @@ def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> SoakBatc
         ball["passed_row"] = NOTHING
     soaked.batch.state["created"] = len(balls)
     return soaked
+
+
+def first_shape(soaked: SoakBatch) -> int:
+    """The row of the first stationary shape of the only board."""
+    return int(soaked.batch.boards.board["shape_first"][0])
 
 
 def found(soaked: SoakBatch) -> Found:
@@ -84,7 +89,7 @@ def test_half_of_the_boards_of_a_round_are_of_all_parts_where_that_is_asked_for(
 @pytest.mark.parametrize("part", [LINE, DISC])
 def test_a_sensor_that_a_broken_solver_does_not_see_is_reported(part) -> None:
     sound, broken = (still(table_of(part), FALLING) for _ in range(2))
-    hide_from_the_solver(broken.batch, FIRST_SHAPE)
+    hide_from_the_solver(broken.batch, first_shape(broken))
     sound.run(40)
     broken.run(40)
     assert sound.batch.tallies[0, -1] == 1
@@ -93,15 +98,15 @@ def test_a_sensor_that_a_broken_solver_does_not_see_is_reported(part) -> None:
 
 def test_a_crossing_at_another_place_is_reported() -> None:
     soaked = still(table_of(LINE), FALLING)
-    soaked.batch.boards.collider[FIRST_SHAPE]["x0"] += 0.01
-    soaked.batch.boards.collider[FIRST_SHAPE]["x1"] += 0.01
+    soaked.batch.boards.collider[first_shape(soaked)]["x0"] += 0.01
+    soaked.batch.boards.collider[first_shape(soaked)]["x1"] += 0.01
     soaked.run(40)
     assert found(soaked) == Found.PHANTOM
 
 
 def test_a_one_way_gate_that_a_broken_solver_lets_through_is_reported() -> None:
     sound, broken, passing = (still(table_of(GATE, gravity=1.0), FALLING) for _ in range(3))
-    hide_from_the_solver(broken.batch, FIRST_SHAPE)
+    hide_from_the_solver(broken.batch, first_shape(broken))
     passing.batch.state["ball"]["x"][0, 0], passing.batch.state["ball"]["vx"][0, 0] = 1.0, 15.0
     for soaked in (sound, broken, passing):
         soaked.run(20)
