@@ -70,7 +70,7 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
-from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
+from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, MAX_CREEP, NEVER
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
 
 JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
@@ -348,7 +348,8 @@ def stop_jammed_ball(
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_repeat):
-            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, time), NEVER)
+            until = stall_time(sweep, c, ball, board.ball_radius, time)
+            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, NOTHING, 0.0, 0.0)
@@ -372,6 +373,19 @@ def must_stall(
         return False
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
     return bool(gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
+
+
+@internal
+def stall_time(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float) -> float:
+    """Compute up to which time of the tick a stalling paddle has turned [s].
+
+    A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and presses it
+    a little deeper before the jam is noticed. Such a paddle stays where it was, or it would creep on.
+    """
+    if paddle.alpha == 0.0 or paddle.omega != 0.0:
+        return time
+    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    return 0.0 if gap < radius - MAX_CREEP else time
 
 
 @inlined
