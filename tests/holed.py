@@ -5,7 +5,6 @@ Compile-time data of the solver alone are spoilt; the watch has its own.
 
 from __future__ import annotations
 
-from boards import FIRST_SHAPE
 from silverball.soak.rounds import Options
 from silverball.table import load_table
 from silverball.world import WorldBatch
@@ -19,7 +18,7 @@ def options_of(hostile: bool = False, worlds: int = 4, seed: int = 3, tick_rate:
 def hide_from_the_solver(batch: WorldBatch, part: int) -> None:
     """Move a collider to where no ball ever comes."""
     row = batch.boards.collider[part]
-    shape = part >= FIRST_SHAPE  # a paddle's corners are counted from its pivot
+    shape = row["button"] == 0  # a paddle's corners are counted from its pivot
     for name in ("x", "x0", "x1", "x2") if shape else ("x",):
         row[name] += 1000.0
 

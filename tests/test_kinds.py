@@ -16,8 +16,8 @@ from silverball.physics.forms import Response, Shape
 from silverball.table import Table, dump_table, expand, parse_table, table_digest
 from silverball.table.geometry import pieces_of
 from silverball.table.kinds import Level, Part
-from silverball.table.layout import Layout
 from silverball.table.model import is_since_2
+from silverball.table.placed_parts import Layout
 from silverball.table.primitive import Finish, Primitive
 from silverball.table.table import PART_KINDS
 
@@ -242,7 +242,7 @@ def drawn(table: Table, kind: str) -> None:
 
 def coloured(table: Table, kind: str) -> None:
     """Each finish has a look in the picture and a colour in the pictures for agents."""
-    from silverball.drawing.finishes import LOOKS
+    from silverball.drawing.looks import LOOKS
     from silverball.envs.sprites import COLORS
 
     for row in expand(table).rows:

@@ -2,8 +2,8 @@
 
     renderer.py                           `Renderer`, and what `World.render` calls
     camera.py, dimensions.py, themes.py   projection, heights of the parts, colours
-    layout.py, finishes.py                the primitives of a table, and the look of each finish
-    scene.py, solids.py                   a table as arrays for the kernels
+    layout.py, looks.py                   the primitives of a table, and the look of each finish
+    scene.py, build_solids.py             a table as arrays for the kernels
     moving.py, poses.py                   what moves, and its pose at a moment of play
     kernels/                              rays, surfaces and light, compiled
     bake_table.py                         the playfield without moving parts

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
-from silverball.drawing.finishes import LOOKS
 from silverball.drawing.kernels import bake
 from silverball.drawing.kernels.bake import Canvas, new_canvas
 from silverball.drawing.kernels.stage import HALO, Material, Scene
 from silverball.drawing.layout import Layout
+from silverball.drawing.looks import LOOKS
 from silverball.drawing.pictures import BakedTable, HitFlash
 from silverball.drawing.scene import TableScene
 from silverball.drawing.themes import Theme

@@ -17,10 +17,11 @@ import pygame
 from numpy.typing import NDArray
 
 from silverball.drawing.bake_sprites import pose_box
+from silverball.drawing.build_solids import linear
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import LEVEL_RISE
 from silverball.drawing.effects import Effects, Spot
-from silverball.drawing.kernels.chrome import cast_shadow, draw_ball
+from silverball.drawing.kernels.chrome import Sphere, cast_shadow, draw_ball
 from silverball.drawing.kernels.patches import add_light, add_spots, lay_over, lay_sprite
 from silverball.drawing.kernels.stage import Box
 from silverball.drawing.layout import Layout
@@ -30,7 +31,6 @@ from silverball.drawing.pictures import BakedTable, Sprite
 from silverball.drawing.poses import pose_of
 from silverball.drawing.scene import TableScene
 from silverball.drawing.sketch import Pen, sketch_pose
-from silverball.drawing.solids import linear
 from silverball.drawing.themes import Color, Theme, ball_tint
 from silverball.table import Table
 
@@ -195,10 +195,12 @@ class Composer:
         self._changed.append(box)
         layer.raised.append(box)
 
-    def _center(self, layer: _Layer, ball: BallAt) -> float:
-        """Height of a ball's centre [u]."""
+    def _sphere(self, layer: _Layer, ball: BallAt) -> Sphere:
+        """Return a ball as the kernels take it."""
         r = self._camera.dimensions.ball
-        return layer.base + (-SUNK * r if self._layout.is_hole(ball.holder) else r)
+        y = layer.base + (-SUNK * r if self._layout.is_hole(ball.holder) else r)
+        tint = linear(ball_tint(ball.id)) if self._is_tinted and ball.id else (1.0, 1.0, 1.0)
+        return Sphere(ball.x, y, ball.z, r, layer.base, tint)
 
     def _shade(self, layer: _Layer, ball: BallAt) -> None:
         r = self._camera.dimensions.ball
@@ -209,22 +211,18 @@ class Composer:
             ball.x - shift - 2.8 * r, ball.x + 2.2 * r, ball.z - 2.2 * r, ball.z + 2.2 * r, 0.0,
             layer.base + 2.0 * r,
         )  # fmt: skip
-        place = (ball.x, self._center(layer, ball), ball.z, r)
-        cast_shadow(layer.frame, layer.height, self._stage, place, box)
+        cast_shadow(layer.frame, layer.height, self._stage, self._sphere(layer, ball), box)
         self._changed.append(box)
 
     def _draw_ball(self, layer: _Layer, ball: BallAt) -> None:
         r = self._camera.dimensions.ball
-        y = self._center(layer, ball)
-        box = self._camera.box(ball.x - r, ball.x + r, ball.z - r, ball.z + r, max(y - r, 0.0), y + r)
+        sphere = self._sphere(layer, ball)
+        low = max(sphere.y - r, layer.base)
+        box = self._camera.box(ball.x - r, ball.x + r, ball.z - r, ball.z + r, low, sphere.y + r)
         rows, columns = box[3] - box[1], box[2] - box[0]
         if rows > self._before.shape[0] or columns > self._before.shape[1]:
             self._before = np.zeros((rows + 4, columns + 4, 3), np.uint8)
-        tint = linear(ball_tint(ball.id)) if self._is_tinted and ball.id else (1.0, 1.0, 1.0)
-        place = (ball.x, y, ball.z, r)
-        draw_ball(
-            layer.frame, layer.height, self._before, self._stage, self._inks, place, layer.base, tint, box
-        )
+        draw_ball(layer.frame, layer.height, self._before, self._stage, self._inks, sphere, box)
         self._changed.append(box)
 
     def _add_spots(self, layer: _Layer, spots: Sequence[Spot], color: Color, light: float) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from silverball.drawing.finishes import LOOKS
+from silverball.drawing.looks import LOOKS
 from silverball.table import Board
 from silverball.table.primitive import Finish, Point
 

@@ -41,9 +41,9 @@ class Spot(NamedTuple):
 
 
 class Kick(NamedTuple):
-    """A hit of a part: its time, or its age at a time [s], and where the ball was [u]."""
+    """A hit of a part: when it was [s], and where the ball was [u]."""
 
-    age: float
+    time: float
     x: float
     z: float
 
@@ -116,11 +116,9 @@ class Effects:
                 yield part, strength if self.is_full else 0.4 * strength
 
     def kick(self, part: str, time: float) -> Kick | None:
-        """Return the last hit of a part, with its age at a time; None if there was none."""
-        hit = self._kicks.get(part)
-        if hit is None or time - hit.age <= -MAX_AHEAD:
-            return None
-        return hit._replace(age=max(time - hit.age, 0.0))
+        """Return the last hit of a part before a time [s]; None if there was none."""
+        kick = self._kicks.get(part)
+        return None if kick is None or time - kick.time <= -MAX_AHEAD else kick
 
     def sinking_balls(self, time: float) -> Iterator[BallAt]:
         """Yield balls that roll under the apron at a time [s]; the world has removed them already."""

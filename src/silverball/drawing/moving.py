@@ -95,15 +95,10 @@ def moving_parts(layout: Layout) -> tuple[MovingPart, ...]:
         if motion is not None:
             number = sum(other.motion is motion for other in found)
             switch = None
-            if has_switch(primitive):
+            if primitive.has_switch:
                 switch, switches = switches, switches + 1
             found.append(MovingPart(part, primitive, motion, number, _pose_count(primitive, motion), switch))
     return tuple(found)
-
-
-def has_switch(primitive: Primitive) -> bool:
-    """Return whether a primitive can be away: a drop target or a gate that rules open."""
-    return primitive.bank is not None or primitive.is_gate
 
 
 def is_moving(primitive: Primitive) -> bool:

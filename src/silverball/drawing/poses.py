@@ -33,7 +33,7 @@ def pose_of(part: MovingPart, moment: Moment, effects: Effects, radius: float) -
     if part.motion is Motion.HANGING:
         return part.poses - 1 if is_off(part, moment) else nearest_pose(part, _opening(part, moment, radius))
     kick = effects.kick(part.part, moment.time)
-    if kick is None or kick.age > BULGE_SECONDS:
+    if kick is None or moment.time - kick.time > BULGE_SECONDS:
         return None
     return 0 if _is_on_right(part, kick.x, kick.z) else 1
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.drawing.build_solids import Solids, linear
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import LEVEL_RISE
 from silverball.drawing.kernels.solids import list_cells
@@ -28,7 +29,6 @@ from silverball.drawing.kernels.stage import (
 )
 from silverball.drawing.layout import Layout
 from silverball.drawing.moving import MovingPart
-from silverball.drawing.solids import Solids, linear
 from silverball.drawing.text import lettering
 from silverball.drawing.themes import Theme
 from silverball.physics.records import records

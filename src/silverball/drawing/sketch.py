@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import LEVEL_RISE, corner_behind
 from silverball.drawing.effects import Effects
-from silverball.drawing.finishes import LOOKS
 from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art, Material
 from silverball.drawing.layout import Layout
+from silverball.drawing.looks import LOOKS
 from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.moving import PULL, Motion, MovingPart, is_moving, moving_parts, pose_angle, turned
 from silverball.drawing.poses import pose_of

@@ -39,6 +39,7 @@ class Theme:
         lacquer: Reflectance of the playfield.
         halo: Strength of the light that parts throw around them.
         infill: What closed walls enclose.
+        metal: Guides, gates and plungers.
         timber: Parts of wood.
         plastics: Parts of plastic.
         rubber: Posts, and the rubbers of slingshots.
@@ -84,6 +85,7 @@ class Theme:
     ball: Color = (255, 255, 255)
     exposure: float = 1.0
     infill: Color = (60, 64, 92)
+    metal: Color = (214, 220, 240)
     timber: Color = (150, 104, 62)
     plastics: tuple[Color, ...] = ((70, 96, 190), (150, 60, 140), (40, 130, 130))
     rubber: Color = (232, 232, 236)
@@ -161,6 +163,7 @@ PARLOUR = Theme(
     lacquer=0.35,
     halo=0.45,
     infill=(120, 74, 40),
+    metal=(236, 206, 140),
     timber=(196, 140, 84),
     plastics=((200, 60, 44), (30, 110, 90), (226, 176, 70)),
     rubber=(246, 240, 226),
@@ -204,6 +207,7 @@ CLEAR = Theme(
     lacquer=0.2,
     halo=0.5,
     infill=(66, 72, 86),
+    metal=(204, 210, 222),
     timber=(120, 112, 100),
     plastics=((76, 86, 112),),
     rubber=(150, 156, 168),

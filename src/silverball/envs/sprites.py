@@ -187,7 +187,7 @@ class _Drawer:
         picture[:, np.abs(z) > board.width / 2 - edge] = _channels(RAIL, self.rgb)
         picture[np.abs(x - board.gutter) * self.rows <= 0.5] = _channels(GUTTER, self.rgb)
         for _, color, primitives in sorted(self.parts(), key=lambda part: min(part[2][0].levels)):
-            still = [p for p in primitives if p.mover is None and not has_switch(p)]
+            still = [p for p in primitives if p.mover is None and not p.has_switch]
             opacity = UPPER_LEVEL if min(primitives[0].levels) > 0 else 1.0
             outline = closed_outline(still)
             if outline is not None:
@@ -245,11 +245,6 @@ class _Drawer:
     def _blend(self, picture: NDArray[Any], area: _Area, share: NDArray[Any], color: Color) -> None:
         part = picture[area.top : area.bottom, area.left : area.right]
         part += share[:, :, None] * (_channels(color, self.rgb) - part)
-
-
-def has_switch(primitive: Primitive) -> bool:
-    """Whether a primitive can be away: a drop target or a gate that rules open."""
-    return primitive.bank is not None or primitive.is_gate
 
 
 def is_within(primitive: Primitive, x: NDArray[Any], z: NDArray[Any]) -> Mask:
@@ -401,7 +396,7 @@ def _pieces(
         for part, color, primitives in drawer.parts():
             row = drawer.expansion.parts[part].first
             for index, primitive in enumerate(primitives):
-                if has_switch(primitive):
+                if primitive.has_switch:
                     switch = int(pool.boards.collider["switch"][first + row + index])
                     found.append((*_pixels_of(drawer, primitive), color, switch))
         boards["piece_end"][number] = len(found)

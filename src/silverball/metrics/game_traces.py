@@ -236,7 +236,7 @@ def play_balls(
         index = chosen[number]
         world, log, game = lanes.worlds[index], lanes.logs[index], traces.game[index]
         board = geometries.boards[lanes.board_of[index]]
-        lane = Lane(world, log, lanes.tallies[index])
+        lane = Lane(world, log, lanes.tallies[index], log)
         geometry = BoardGeometry(board, colliders, geometries.grid)
         ball = world.ball[0]
         for _ in range(ticks):

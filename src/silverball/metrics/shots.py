@@ -174,7 +174,7 @@ def shoot(
     geometry = BoardGeometry(board, geometries.colliders, geometries.grid)
     for index in range(first, end):
         world, log, shot = lanes.worlds[index], lanes.logs[index], shots[index]
-        lane = Lane(world, log, lanes.tallies[index])
+        lane = Lane(world, log, lanes.tallies[index], log)
         clear_log(log)
         put_ball(world, board, log, 0, approach.x, approach.z, 0.0, 0.0)
         ball = world.ball[0]

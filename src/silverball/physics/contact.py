@@ -201,7 +201,7 @@ def first_contact(
         if c.levels >> ball.level & 1 == 0:
             continue
         if is_near(state.x, state.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
-            sweep = read_sweep(lane.log.sweep[row - Part.FIRST_PADDLE])
+            sweep = read_sweep(lane.scratch.sweep[row - Part.FIRST_PADDLE])
             best = contact_with_paddle(c, row, sweep, ball, board.ball_radius, speed, start, best)
     return best
 
@@ -233,7 +233,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     elif contact.row >= board.shape_first:
         nx, nz = contact_normal(c, ball)
     else:
-        paddle = read_sweep(lane.log.sweep[contact.row - Part.FIRST_PADDLE])
+        paddle = read_sweep(lane.scratch.sweep[contact.row - Part.FIRST_PADDLE])
         if is_turning(paddle):
             at_x, at_z = ball.x - board.ball_radius * nx, ball.z - board.ball_radius * nz
             ux, uz = surface_velocity(c, omega_at(paddle, time), at_x, at_z)

@@ -11,6 +11,8 @@ Options, and why:
 * ``no_cfunc_wrapper=True``: kernels are never passed as function pointers; it saves 8 % of the compilation.
 * ``no_cpython_wrapper=True``, for what only kernels call: it cannot be called from Python, and needs no code
   that unpacks arguments; it saves some 10 % of the compilation.
+* the linkage (see `linkage.py`): callees can be optimized freely, and helpers have no machine
+  code of their own.
 * the cache: Numba's own ``cache=True`` checks the file of the cached function alone and would return stale
   code after a change of a callee in *another* file, and it trusts its files (see `code_cache.py`). Compiled
   code is therefore kept in a folder of the user's cache directory whose name is a hash of the sources of all
@@ -33,13 +35,18 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+from llvmlite import ir
 from numba import extending, types
+from numba.core import cgutils as untyped_cgutils
+from numba.core.cpu import CPUContext
 from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
+from silverball.physics.linkage import HelperCompiler, KernelCompiler, WrapperCompiler, can_link
 
 SETTINGS: Any = numba.core.config
+cgutils: Any = untyped_cgutils
 # The packages whose sources the machine code of some kernels depends on.
 PLAY = ("physics", "world", "players")
 STUDY = (*PLAY, "metrics", "soak")
@@ -78,6 +85,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 def kernel(function: F) -> F:
     """Compile a function on its first call and cache the machine code for the next start."""
     return _compile(function)
+
+
+def wrapper(function: F) -> F:
+    """Compile a kernel that does little but call another one, without optimizing that one again."""
+    return _compile(function, **({"pipeline_class": WrapperCompiler} if can_link else {}))
 
 
 def internal(function: F) -> F:
@@ -130,6 +142,29 @@ as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
 To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
 them would be compiled once for each.
 """
+
+
+@extending.intrinsic
+def _compiled_prefetch(typing_context: Any, record: Any, offset: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        if not isinstance(context, cast(Any, CPUContext)):  # of a graphics card
+            return context.get_dummy_value()
+        byte, number = ir.IntType(8), ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [byte.as_pointer(), number, number, number])
+        function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch.p0")
+        at = builder.gep(builder.bitcast(arguments[0], byte.as_pointer()), [arguments[1]])
+        builder.call(function, [at, number(1), number(3), number(1)])
+        return context.get_dummy_value()
+
+    return types.void(record, types.int64), generate
+
+
+def _interpreted_prefetch(record: Any, offset: int) -> None:
+    pass
+
+
+prefetch: Any = _interpreted_prefetch if SETTINGS.DISABLE_JIT else _compiled_prefetch
+"""Ask for the line of the cache at an offset [bytes] of a record, which will soon be written."""
 
 
 def code_folder(packages: tuple[str, ...] = PLAY) -> Path:
@@ -200,7 +235,7 @@ def _machine() -> tuple[Any, ...]:
     import llvmlite.binding
 
     processor = SETTINGS.CPU_NAME or llvmlite.binding.get_host_cpu_name()
-    return sys.implementation.cache_tag, numba.__version__, processor, bool(SETTINGS.BOUNDSCHECK)
+    return sys.implementation.cache_tag, numba.__version__, can_link, processor, bool(SETTINGS.BOUNDSCHECK)
 
 
 def evict_old_code() -> None:
@@ -215,7 +250,7 @@ def evict_old_code() -> None:
                 shutil.rmtree(other, ignore_errors=True)
 
 
-def _compile(function: F, **more: bool | str) -> F:
+def _compile(function: F, **more: Any) -> F:
     options: dict[str, Any] = {
         "error_model": "numpy",
         "fastmath": False,
@@ -224,6 +259,9 @@ def _compile(function: F, **more: bool | str) -> F:
         "no_cfunc_wrapper": True,
         **more,
     }
+    if can_link:
+        is_helper = more.get("no_cpython_wrapper")
+        options.setdefault("pipeline_class", HelperCompiler if is_helper else KernelCompiler)
     compiled: Any = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled

@@ -340,12 +340,12 @@ LOG = np.dtype(
         ("carried", "i8"),  # the first events: balls created before the last step
         ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "f8"),  # of the flights and angles that the last call left
+        ("event", EVENT, (LOG_LENGTH,)),
         # Scratch of a tick: the paddles' motion; for each ball its events since its last jam and its jams;
         # for each pair of balls the contacts between them since a jam of either.
         ("sweep", SWEEP, (MAX_PADDLES,)),
         ("ball_events", "i8", (MAX_BALLS,)), ("ball_jams", "i8", (MAX_BALLS,)),
         ("pair_events", "i8", (MAX_PAIRS,)),
-        ("event", EVENT, (LOG_LENGTH,)),
     ],
     align=True,
 )  # fmt: skip
@@ -415,11 +415,16 @@ class BoardGeometry(NamedTuple):
 
 
 class Lane(NamedTuple):
-    """One world of a batch with its log and tally: all that a step writes."""
+    """One world of a batch with its log and tally: all that a step writes.
+
+    `scratch` is a log whose scratch fields are used. Worlds that are stepped one after the other share it, so
+    that it stays in the cache.
+    """
 
     world: WorldRecord
     log: LogRecord
     tally: Tally
+    scratch: LogRecord
 
 
 class BatchGeometry(NamedTuple):

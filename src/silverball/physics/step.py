@@ -12,7 +12,7 @@ A search also ends at the moment a paddle reaches its stop, so a paddle's motion
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
@@ -28,7 +28,7 @@ from silverball.physics.devices import (
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
-from silverball.physics.kernel import as_int, inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel, prefetch
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
     angle_at,
@@ -43,12 +43,14 @@ from silverball.physics.paddle import (
     write_sweep,
 )
 from silverball.physics.records import (
+    BALL,
     JITTER,
     LAUNCH,
     LEFT,
     NOTHING,
     NULL_EVENT,
     RIGHT,
+    WORLD,
     BallRecord,
     BatchGeometry,
     BoardGeometry,
@@ -68,10 +70,13 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
-from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
+from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, MAX_CREEP, NEVER
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
 
 JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
+LINE = 64  # bytes of a line of the cache
+HOT_BYTES = cast(Any, WORLD.fields)["ball"][1] + 2 * BALL.itemsize  # of a world, up to its second ball
+HOT_LINES = -(-HOT_BYTES // LINE)
 
 
 @inlined
@@ -140,7 +145,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     At equal times the contact of a ball with a part comes before one with another ball, and balls follow
     each other in the order of their slots.
     """
-    world, board, log = lane.world, geometry.board, lane.log
+    world, board, scratch = lane.world, geometry.board, lane.scratch
     has_devices = board.sensors != 0 or board.switches != 0
     work_plungers(lane, geometry, buttons, tick)
     start_tick(lane, geometry, buttons, tick)
@@ -151,26 +156,27 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     while True:
         limit = min(tick, clock)
         for index in range(board.paddles):
-            limit = min(limit, log.sweep[index].stop_time)
+            limit = min(limit, scratch.sweep[index].stop_time)
         slot, other, contact = -1, -1, Contact(limit, NOTHING, 0.0, 0.0)
         for index in range(board.max_balls):
             found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
                 slot, contact = index, found
+        end = contact.time
         if near != 0:
-            slot, other, contact = first_ball_contact(world, board, near, time, slot, contact)
-        time = min(contact.time, limit)
+            slot, other, contact, end = first_ball_contact(world, board, near, time, slot, contact)
+        time = min(end, limit)
         if slot < 0 and limit == tick:
             break
 
         if other >= 0:
             resolve_ball_contact(lane, board, world.ball[slot], world.ball[other], contact)
-            count_pair_event(log, slot, other)
+            count_pair_event(scratch, slot, other)
         elif slot >= 0:
             resolve(lane, geometry, world.ball[slot], contact, tick)
-            log.ball_events[slot] += 1
+            scratch.ball_events[slot] += 1
         for index in range(board.paddles):
-            sweep = log.sweep[index]
+            sweep = scratch.sweep[index]
             if time >= sweep.stop_time:
                 write_sweep(sweep, end_at_stop(read_sweep(sweep)), NEVER)
         if time >= clock:
@@ -180,13 +186,13 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             near = near_pairs(world, board, tick)  # a ball may have been let go, or have left
 
         if slot >= 0 and (
-            log.ball_events[slot] >= jam_limit or (other >= 0 and log.ball_events[other] >= jam_limit)
+            scratch.ball_events[slot] >= jam_limit or (other >= 0 and scratch.ball_events[other] >= jam_limit)
         ):
             stop_jammed_balls(lane, geometry, time, jam_limit)
     for index in range(board.max_balls):
         release(world.ball[index], board, tick)
     for index in range(board.paddles):
-        store_paddle(world.paddle[index], read_sweep(log.sweep[index]), tick)
+        store_paddle(world.paddle[index], read_sweep(scratch.sweep[index]), tick)
     count_launch_tick(world, board, buttons)
     finish_ticks(world, board, tick, as_int(1))
     if has_devices:
@@ -196,17 +202,17 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
 @inlined
 def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
     """Set the paddles' motion in a tick, and empty the counters that detect jams."""
-    board, log = geometry.board, lane.log
+    board, scratch = geometry.board, lane.scratch
     first = board.collider_first + Part.FIRST_PADDLE
     for index in range(board.paddles):
         c = geometry.colliders[first + index]
         sweep = start_sweep(c, lane.world.paddle[index], buttons & c.button != 0)
-        write_sweep(log.sweep[index], sweep, time_to_stop(sweep, tick))
+        write_sweep(scratch.sweep[index], sweep, time_to_stop(sweep, tick))
     pair = 0
     for slot in range(board.max_balls):
-        log.ball_events[slot], log.ball_jams[slot] = 0, 0
+        scratch.ball_events[slot], scratch.ball_jams[slot] = 0, 0
         for _ in range(slot):
-            log.pair_events[pair] = 0
+            scratch.pair_events[pair] = 0
             pair += 1
 
 
@@ -223,23 +229,24 @@ def near_pairs(world: WorldRecord, board: BoardRecord, tick: float) -> int:
 
 
 @inlined
-def count_pair_event(log: LogRecord, one: int, other: int) -> None:
+def count_pair_event(scratch: LogRecord, one: int, other: int) -> None:
     """Count a contact of two balls, `one` in the slot before `other`."""
-    log.ball_events[one] += 1
-    log.ball_events[other] += 1
-    log.pair_events[other * (other - 1) // 2 + one] += 1
+    scratch.ball_events[one] += 1
+    scratch.ball_events[other] += 1
+    scratch.pair_events[other * (other - 1) // 2 + one] += 1
 
 
 @internal
 def first_ball_contact(
     world: WorldRecord, board: BoardRecord, near: int, start: float, slot: int, best: Contact
-) -> tuple[int, int, Contact]:
+) -> tuple[int, int, Contact, float]:
     """Find the first contact of two balls from a time of the tick [s] on, if it is earlier than `best`.
 
     Returns:
-        The slots of the two balls and their contact; or `slot`, −1 and `best`.
+        The slots of the two balls and their contact; or `slot`, −1 and `best`. And the end of the search,
+        start + (end − start), rounded; it is part of the bits of a replay.
     """
-    pair, partner = 0, -1
+    pair, partner, end = 0, -1, best.time
     for other in range(1, board.max_balls):
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
@@ -251,8 +258,11 @@ def first_ball_contact(
                 if found.row != NOTHING:
                     slot, partner = one, other
                     best = Contact(min(start + found.time, best.time), found.row, found.nx, found.nz)
+                    end = best.time
+                else:
+                    end = min(start + limit, end)
             pair += 1
-    return slot, partner, best
+    return slot, partner, best, end
 
 
 @inlined
@@ -296,15 +306,15 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
 
     A ball is stopped with another one if contacts between the two make up at least 1/JAM_SHARE of `limit`.
     """
-    world, board, log = lane.world, geometry.board, lane.log
+    world, board, scratch = lane.world, geometry.board, lane.scratch
     jammed, partners, pair = 0, 0, 0
     for slot in range(board.max_balls):
-        if log.ball_events[slot] >= limit:
+        if scratch.ball_events[slot] >= limit:
             jammed |= 1 << slot
     for other in range(1, board.max_balls):
         for one in range(other):
             both = 1 << one | 1 << other
-            if jammed & both != 0 and JAM_SHARE * log.pair_events[pair] >= limit:
+            if jammed & both != 0 and JAM_SHARE * scratch.pair_events[pair] >= limit:
                 partners |= both
             pair += 1
     jammed |= partners
@@ -312,12 +322,12 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
     for slot in range(board.max_balls):
         is_jammed = jammed >> slot & 1 != 0
         if is_jammed:
-            stop_jammed_ball(lane, geometry, world.ball[slot], time, log.ball_jams[slot] > 0)
-            log.ball_events[slot] = 0
-            log.ball_jams[slot] += 1
+            stop_jammed_ball(lane, geometry, world.ball[slot], time, scratch.ball_jams[slot] > 0)
+            scratch.ball_events[slot] = 0
+            scratch.ball_jams[slot] += 1
         for one in range(slot):
             if is_jammed or jammed >> one & 1 != 0:
-                log.pair_events[pair] = 0
+                scratch.pair_events[pair] = 0
             pair += 1
 
 
@@ -336,9 +346,10 @@ def stop_jammed_ball(
     near = board.ball_radius + JAM_GAP
     for index in range(board.paddles):
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
-        sweep = read_sweep(lane.log.sweep[index])
+        sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_repeat):
-            write_sweep(lane.log.sweep[index], stop_sweep(sweep, time), NEVER)
+            until = stall_time(sweep, c, ball, board.ball_radius, time)
+            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, NOTHING, 0.0, 0.0)
@@ -362,6 +373,19 @@ def must_stall(
         return False
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
     return bool(gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
+
+
+@internal
+def stall_time(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float) -> float:
+    """Compute up to which time of the tick a stalling paddle has turned [s].
+
+    A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and presses it
+    a little deeper before the jam is noticed. Such a paddle stays where it was, or it would creep on.
+    """
+    if paddle.alpha == 0.0 or paddle.omega != 0.0:
+        return time
+    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    return 0.0 if gap < radius - MAX_CREEP else time
 
 
 @inlined
@@ -423,7 +447,12 @@ def run_worlds(
     is_continued = ticks < 0
     ticks = abs(ticks)
     for index in range(first, end):
-        lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index])
+        lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index], lanes.logs[first])
+        if index + 1 < end:
+            next_world = lanes.worlds[index + 1]
+            for line in range(HOT_LINES):
+                prefetch(next_world, line * LINE)
+            prefetch(lanes.logs[index + 1], 0)
         world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)

@@ -68,7 +68,8 @@ def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
     for button, first in ((LEFT_BUTTON, Raw.LEFT_ANGLE), (RIGHT_BUTTON, Raw.RIGHT_ANGLE)):
         number = first_paddles(boards, colliders, button)
         has_paddle = number >= 0
-        collider = colliders[boards["collider_first"] + Part.FIRST_PADDLE + number * has_paddle]
+        row = np.where(has_paddle, Part.FIRST_PADDLE + number, 0)
+        collider = colliders[boards["collider_first"] + row]
         paddle = state["paddle"][np.arange(len(state)), number * has_paddle]
         swing = (collider["angle_up"] - collider["angle_rest"]) * has_paddle
         is_present = swing > 0.0

@@ -360,7 +360,7 @@ def look_ahead(
     """
     plan, world, memory = scratch.plans[TRIAL], scratch.copies[copy], scratch.memory
     board, colliders = geometry.board, geometry.colliders
-    lane = Lane(world, scratch.log, scratch.tally)
+    lane = Lane(world, scratch.log, scratch.tally, scratch.log)
     value, played, scored_at, low = 0.0, 0, 0, 0
     max_low_steps = int(LOW_HORIZON / length)
     start, score, drained = world.score, world.score, world.drained

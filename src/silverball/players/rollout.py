@@ -168,7 +168,7 @@ def play_worlds(
     for index in range(first, end):
         world, log = lanes.worlds[index], lanes.logs[index]
         board = geometries.boards[lanes.board_of[index]]
-        lane = Lane(world, log, lanes.tallies[index])
+        lane = Lane(world, log, lanes.tallies[index], log)
         geometry = BoardGeometry(board, colliders, geometries.grid)
         for done in range(ticks):
             clear_log(log)

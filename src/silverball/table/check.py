@@ -1,8 +1,9 @@
 """Checks of a layout: the errors that keep a table from being played, and warnings, with their paths.
 
 In this order: the board, the paddles, each part by itself (degenerate, outside the board), what lines, holes,
-gates and plungers need (`devices.py`), the swing of the paddles, parts against each other (overlaps, gaps
-that a ball barely fits), the ways out, the places where a ball would lie forever, and the rules of a recipe.
+gates and plungers need (`check_devices.py`), the swing of the paddles, parts against each other (overlaps,
+gaps that a ball barely fits), the ways out, the places where a ball would lie forever, and the rules of a
+recipe.
 
 What cannot work is an error; what a maker may want, because real tables have it, is a warning, once for each
 pair of parts. Single values are validated by the models of the parts, meshes in `mesh.py`; `placement.py`
@@ -19,7 +20,7 @@ import numpy as np
 from silverball.errors import Problem
 from silverball.physics.forms import Shape
 from silverball.physics.tolerances import HOP, HOP_SHARE
-from silverball.table.devices import device_problems, limit_problems
+from silverball.table.check_devices import device_problems, limit_problems
 from silverball.table.geometry import (
     BORDER_NAMES,
     Bools,
@@ -35,7 +36,7 @@ from silverball.table.geometry import (
     offsets,
     side_of,
 )
-from silverball.table.layout import Layout, PlacedPart
+from silverball.table.placed_parts import Layout, PlacedPart
 from silverball.table.placement_rules import recipe_problems
 from silverball.table.primitive import Mover, Primitive
 from silverball.table.reach import PASSAGE_MARGIN, Space, creation_floor, resting_pieces, space

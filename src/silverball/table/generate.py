@@ -9,7 +9,7 @@ from numbers import Integral
 from silverball.errors import Problem, TableError
 from silverball.table.check import check_layout
 from silverball.table.file import load_table
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.placement import board_of
 from silverball.table.quantity import shown
 from silverball.table.table import Table

@@ -20,7 +20,7 @@ from silverball.errors import Problem, TableError
 from silverball.table.check import check_layout
 from silverball.table.geometry import Floats
 from silverball.table.kinds import Cylinder, TriangularPrism
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.placement_rules import Surroundings, allowed_rotations, circle_distances
 from silverball.table.recipe import RandomRecipe
 
@@ -105,7 +105,8 @@ def _prepare(table: Table) -> _Prepared:
     """Prepare a recipe, once for all seeds."""
     assert table.random is not None
     layout = Layout.of(table)
-    warnings = frozenset(check_layout(layout._replace(random=None)))
+    own = check_layout(layout._replace(random=None))
+    warnings = frozenset(problem for problem in own if not problem.is_error)
     rotations = np.array(allowed_rotations(table.random))
     return _Prepared(table, table.random, Surroundings.of(layout), rotations, warnings)
 

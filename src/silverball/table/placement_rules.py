@@ -24,7 +24,7 @@ from silverball.table.geometry import (
     is_solid,
     moving_reach,
 )
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.primitive import Primitive
 from silverball.table.reach import PASSAGE_MARGIN
 

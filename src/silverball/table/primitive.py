@@ -170,6 +170,11 @@ class Primitive(NamedTuple):
     passage: tuple[int, int] | None = None
 
     @property
+    def has_switch(self) -> bool:
+        """Whether it can be away: a drop target, or a gate that rules open."""
+        return self.bank is not None or self.is_gate
+
+    @property
     def arc(self) -> Arc:
         """The circle of an ARC."""
         return arc_of(self.points[0], self.points[1], self.bulge)

@@ -34,7 +34,7 @@ from silverball.table.geometry import (
     outward_normals,
     paddle_at,
 )
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.primitive import Point, Primitive
 
 if TYPE_CHECKING:

@@ -34,13 +34,12 @@ from silverball.table.kinds import (
     SlantWall,
     Slingshot,
     Spinner,
-    StationaryPart,
     Target,
     TriangularPrism,
     Wall,
 )
-from silverball.table.layout import Layout
 from silverball.table.model import SINCE_2, Model, Name, is_since_2, list_sections, places_of_format_2
+from silverball.table.placed_parts import Layout
 from silverball.table.placement import try_recipe
 from silverball.table.quantity import refuse, shown
 from silverball.table.recipe import RandomRecipe
@@ -171,11 +170,6 @@ class Table(Model):
             for path, part in zip(paths, self.paddle, strict=True)
             if path not in known
         ]
-
-    @property
-    def stationary_parts(self) -> tuple[StationaryPart, ...]:
-        """The slant walls, triangular prisms and cylinders, in this order."""
-        return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
 
     @property
     def has_mesh(self) -> bool:

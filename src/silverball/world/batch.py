@@ -29,7 +29,7 @@ from silverball.world.threads import cores, run_on_threads
 
 SLICES_PER_THREAD = 4  # more slices than threads, so that one slow world does not hold up the rest
 MIN_SLICE = 512  # world-ticks; a smaller slice costs more to schedule than to run
-CHUNK = 2**16  # world-ticks per thread and call, some 50 ms; Python notices Ctrl-C between two calls
+CHUNK = 2**19  # world-ticks per thread and call, some 50 ms; Python notices Ctrl-C between two calls
 
 
 class WorldBatch:

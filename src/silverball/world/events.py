@@ -62,12 +62,14 @@ class Event(NamedTuple):
 
     Attributes:
         kind: "hit" (a contact above `Board.hit_speed`), "touch" (a slower one), "ball_hit" and "ball_touch"
-            (the same with the other ball), "gutter" (the ball left), "created", "jitter" (it was shoved), or
-            "jam" (it was pinched, and stopped).
+            (the same with another ball), "gutter" (the ball left, or fell into a drain), "created", "jitter"
+            (it was shoved), "jam" (it was pinched, and stopped), "pass" (it crossed a sensor, passage or
+            spinner), "spin" (a spinner made a turn), "captured" (a hole or plunger holds it), "released"
+            (that sent it off), or "reset" (a drop target has come back).
         part: The part's path in the table, for example "cylinder[1]"; for the borders and paddles
             "board.left", "board.right", "board.top", "paddle.left", "paddle.right"; else "gutter", "ball",
             or "" for none.
-        ball: The ball's id.
+        ball: The ball's id; 0 for "spin" and "reset".
         tick: The tick in which it happened, counted from 0.
         offset: Time since that tick began [s].
         position: The ball's centre (x, y, z) [u].

@@ -19,7 +19,7 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, bind_types, kernel
+from silverball.physics.kernel import SETTINGS, bind_types, wrapper
 from silverball.physics.records import (
     BOARD,
     COLLIDER,
@@ -144,7 +144,7 @@ def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[
 array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_array_at
 
 
-@kernel
+@wrapper
 def step_single_world(addresses: Any, buttons: int, ticks: int) -> int:
     """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
     at = addresses[0]

@@ -7,14 +7,15 @@ import math
 import numpy as np
 import pytest
 
-from silverball.drawing import THEMES, Camera, Moment, Renderer, best_size
+from silverball.drawing import THEMES, Camera, Moment, Renderer, best_size, moment
 from silverball.drawing.bake_levels import FLOOR_CELL, floor_cells
-from silverball.drawing.finishes import LOOKS
 from silverball.drawing.layout import Layout
+from silverball.drawing.looks import LOOKS
 from silverball.drawing.moment import BallAt, BladeAt
 from silverball.drawing.moving import Motion, coarse_to_fine, moving_parts, pose_angle, turning_pose
 from silverball.drawing.pictures import levels_key, sprites_key, table_key
 from silverball.drawing.themes import role_color
+from silverball.physics.records import NOTHING, Motion as Motions
 from silverball.table import Table, load_table
 from silverball.table.primitive import Finish
 from silverball.world import Event
@@ -69,6 +70,11 @@ def test_every_finish_has_a_look_and_every_look_colours_in_every_theme():
         for theme in THEMES.values():
             for role in (look.role, look.fill.role):
                 assert all(0 <= level <= 255 for level in role_color(theme, role, 3))
+
+
+def test_the_number_of_captured_balls_is_that_of_the_physics():
+    """It stands twice, because the drawing starts before the physics is loaded."""
+    assert (moment.CAPTURED, moment.NOTHING) == (Motions.CAPTURED, NOTHING)
 
 
 def test_the_playground_has_every_motion():

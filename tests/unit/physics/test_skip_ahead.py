@@ -90,7 +90,7 @@ def test_a_skip_on_a_board_without_paddles_ends_at_the_contact() -> None:
 
 @numba.njit(error_model="numpy")
 def _search(board, colliders, grid, ball, tick):  # pragma: no cover  (compiled)
-    find_contact(BoardGeometry(board, colliders, grid), ball, tick)
+    find_contact(BoardGeometry(board, colliders, grid), ball, 0, tick)
 
 
 def is_same_flight(before, after) -> bool:

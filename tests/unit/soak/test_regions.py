@@ -42,7 +42,7 @@ class Chart:
         self.map = region_map(self.boards.board, self.boards.collider)
 
     def label(self, x: float, z: float) -> int:
-        return label_at(self.map.headers[0], self.map.labels, x, z)
+        return label_at(self.map.headers[0], self.map.labels, 0, x, z)
 
     def region(self, x: float, z: float) -> int:
         return region_of(self.label(x, z))

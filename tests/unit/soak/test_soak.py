@@ -9,7 +9,7 @@ import tomllib
 import numpy as np
 import pytest
 
-from boards import FIRST_SHAPE, LEFT, PADDLES, RIGHT, full_table, table_of
+from boards import LEFT, PADDLES, RIGHT, full_table, table_of
 from holed import hide_from_the_solver, options_of
 from silverball.physics.records import Part
 from silverball.soak.checks import (
@@ -38,6 +38,11 @@ PRISM = TriangularPrism(center=(2.0, 0.0), size=0.8)
 CYLINDER = Cylinder(center=(2.0, 0.0), radius=0.6)
 WALL = SlantWall(start=(2.0, -1.0), end=(2.0, 1.0))
 BOARD = full_table()
+
+
+def first_shape(soaked: SoakBatch) -> int:
+    """The row of the first stationary shape of the only board."""
+    return int(soaked.batch.boards.board["shape_first"][0])
 
 
 def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> SoakBatch:
@@ -107,7 +112,7 @@ def test_a_ball_that_a_broken_solver_lets_through_a_part_within_a_tick_is_report
     # At 10 ticks a second and 20 u/s it is 1 u above the part before the tick and 1 u below it after it.
     ball = (3.0, 0.05, -20.0, 0.0)
     sound, broken = (still(table_of(part, gravity=0.1), ball, tick_rate=10) for _ in range(2))
-    hide_from_the_solver(broken.batch, FIRST_SHAPE)
+    hide_from_the_solver(broken.batch, first_shape(broken))
     sound.run(1)
     broken.run(1)
     assert (found(sound), found(broken)) == (Found.NOTHING, Found.PASSAGE)
@@ -147,7 +152,7 @@ def test_balls_that_pass_through_each_other_within_a_tick_overlap_on_their_paths
 def test_a_contact_with_nothing_is_reported() -> None:
     # The solver's cylinder is larger by 0.01 u than the true one: the ball bounces 0.01 u away from it.
     soaked = still(table_of(CYLINDER), (4.0, 0.0, -20.0, 0.0))
-    soaked.batch.boards.collider[FIRST_SHAPE]["radius"] += 0.01
+    soaked.batch.boards.collider[first_shape(soaked)]["radius"] += 0.01
     soaked.run(20)
     assert found(soaked) == Found.PHANTOM
     assert soaked.watches.states["depth"][0] == pytest.approx(-0.01, abs=1e-9)
@@ -155,7 +160,7 @@ def test_a_contact_with_nothing_is_reported() -> None:
 
 def test_a_contact_inside_a_part_is_reported_although_the_ball_has_left_it_at_the_end_of_the_tick() -> None:
     soaked = still(table_of(CYLINDER), (4.0, 0.0, -20.0, 0.0))
-    soaked.batch.boards.collider[FIRST_SHAPE]["radius"] -= 1e-6
+    soaked.batch.boards.collider[first_shape(soaked)]["radius"] -= 1e-6
     soaked.run(20)
     assert found(soaked) == Found.PENETRATION
     assert soaked.watches.states["depth"][0] == pytest.approx(1e-6, abs=1e-9)

@@ -42,7 +42,8 @@ from silverball.table.kinds import (
     Slingshot,
     Wall,
 )
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
+from silverball.table.placement_rules import Surroundings
 from silverball.table.primitive import Mover, Primitive
 from silverball.table.reach import space
 
@@ -352,7 +353,8 @@ def test_free_samples_are_those_that_every_distance_leaves(seed):
         SlantWall(start=tuple(numbers.uniform(-8, 8, 2) / 2), end=tuple(numbers.uniform(-8, 8, 2) / 2))
         for _ in range(8)
     ]
-    upright = SlantWall(start=(-5.0, 0.75), end=(5.0, 0.75), thickness=0.25)  # 1.25 u from columns of samples
+    column = 33 * 0.0390625  # of samples, half a unit from the middle of this wall
+    upright = SlantWall(start=(-5.0, column - 0.5), end=(5.0, column - 0.5), thickness=0.25)
     table = Table(slant_wall=[*walls, upright], cylinder=[Cylinder(center=(6.0, -2.0), radius=0.9)])
     layout = Layout.of(table)
     where = space(layout)
@@ -378,9 +380,9 @@ def test_sensors_and_holes_are_not_solid():
 def test_a_recipe_of_format_2_is_placed_around_all_of_its_parts():
     recipe = Table(
         board=Board(),
-        wall=[Wall(points=((0.0, -3.5), (4.0, -3.5), (4.0, -1.0), (0.0, -1.0)), closed=True)],
-        post=[Post(center=(7.0, 0.0), radius=0.3), Post(center=(7.2, 0.3), radius=0.3)],  # they overlap
-        hole=[Hole(center=(2.0, 2.5), exit=(-4.0, 0.0), exit_velocity=(1, 0))],
+        wall=[Wall(points=((0.5, -4.0), (6.0, -4.0), (6.0, 0.0), (0.5, 0.0)), closed=True)],
+        post=[Post(center=(8.0, 2.0), radius=0.3), Post(center=(8.2, 2.3), radius=0.3)],  # they overlap
+        hole=[Hole(center=(4.0, 3.5), exit=(-2.0, 0.0), exit_velocity=(1, 0))],
         random=RandomRecipe(
             triangular_prisms=2, cylinders=3, cylinder_radius=(0.3, 0.5), prism_size=(0.5, 0.6)
         ),
@@ -392,9 +394,16 @@ def test_a_recipe_of_format_2_is_placed_around_all_of_its_parts():
         assert set(check_table(board)) <= own
         for cylinder in board.cylinder:
             x, z = cylinder.center
-            assert not (-0.9 < x < 4.9 and -4.4 < z < -0.1)
-            assert math.dist((x, z), (2.0, 2.5)) > 0.3 + 0.9
-            assert math.dist((x, z), (-4.0, 0.0)) > 0.25 + 0.9
+            assert not (0.5 < x < 6.0 and -4.0 < z < 0.0)
+            assert math.dist((x, z), (4.0, 3.5)) > 0.3 + 0.9
+            assert math.dist((x, z), (-2.0, 0.0)) > 0.25 + 0.9
+
+
+def test_a_place_in_a_closed_wall_is_no_place_for_an_obstacle():
+    around = Surroundings.of(Layout.of(Table(wall=[Wall(points=BOX, closed=True)])))
+    inside, outside = around.wall_distances(np.array([[3.0, 0.0], [0.0, 0.0]]))
+    assert inside == -math.inf
+    assert outside == pytest.approx(2.0 - 0.05)
 
 
 # Time and memory

@@ -25,7 +25,7 @@ from silverball.table import (
     parse_table,
 )
 from silverball.table.geometry import core_distances, distances, moving_pieces
-from silverball.table.layout import Layout
+from silverball.table.placed_parts import Layout
 from silverball.table.reach import resting_pieces, space
 from silverball.table.traps import Terrain, pockets
 

@@ -230,6 +230,6 @@ def test_what_the_last_board_had_is_told_when_no_board_passes(monkeypatch):
         return [Problem("board", "has no way to the gutter")]
 
     monkeypatch.setattr(placing, "check_layout", refuse)
-    ((path, message),) = try_recipe(RECIPE)
+    ((path, message, _),) = try_recipe(RECIPE)
     assert path == "random"
     assert "board has no way to the gutter" in message

@@ -29,7 +29,7 @@ def test_top_and_circle_hold_every_corner_at_every_angle(side: str, shape: dict)
     paddle = Paddle(side=side, pivot=(-7.2, z), **shape)
     table = table_of(paddle)
     boards = WorldBatch(table).boards
-    board, row = boards.board[0], boards.collider[Part[f"{side.upper()}_PADDLE"]]
+    board, row = boards.board[0], boards.collider[Part.FIRST_PADDLE]
     radius = table.board.ball_radius
     middle, reach = (row["sweep_x"], row["sweep_z"]), row["sweep_reach"]
     for share in range(101):
@@ -40,10 +40,11 @@ def test_top_and_circle_hold_every_corner_at_every_angle(side: str, shape: dict)
     assert reach - radius < 1.5 * (paddle.length + paddle.base)  # a bound, but not any bound
 
 
-def test_a_paddle_that_is_not_there_is_out_of_reach() -> None:
+def test_a_board_without_paddles_has_no_rows_for_them_and_none_is_in_reach() -> None:
     boards = WorldBatch(table_of()).boards
-    assert boards.board[0]["paddle_top"] < -1e6
-    assert np.abs(boards.collider["sweep_x"][Part.LEFT_PADDLE : Part.RIGHT_PADDLE + 1]).min() > 1e6
+    board = boards.board[0]
+    assert (board["paddles"], board["shape_first"], len(boards.collider)) == (0, 3, 3)
+    assert board["paddle_top"] < -1e6
 
 
 def test_the_number_of_a_part_is_its_row_and_its_column_of_tallies() -> None:

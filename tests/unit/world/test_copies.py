@@ -81,22 +81,13 @@ def test_equal_places_have_equal_digests_whatever_the_sign_of_their_zeros():
 
 
 def test_parts_that_make_no_sense_are_refused_with_their_paths():
-    paddle = sb.load_table("classic").paddle[0]
     prism = sb.load_table("classic").triangular_prism[0]
     flat = prism.model_copy(update={"vertices": ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0))})
-    table = sb.load_table("classic").model_copy(update={"paddle": (paddle,) * 9, "triangular_prism": (flat,)})
+    wall = sb.load_table("classic").slant_wall[0]
+    point = wall.model_copy(update={"end": wall.start})
+    table = sb.load_table("classic").model_copy(
+        update={"slant_wall": (wall, point), "triangular_prism": (flat,)}
+    )
     with pytest.raises(sb.TableError) as refusal:
         sb.World(table)
-    assert [problem.path for problem in refusal.value.problems] == ["triangular_prism[0]", "table"]
-
-
-@pytest.mark.parametrize("short", [1e-170, 5e-324])
-def test_a_side_whose_square_is_zero_is_refused_too(short: float):
-    wall = sb.parts.SlantWall(start=(0.0, 0.0), end=(0.0, short))
-    prism = sb.parts.TriangularPrism(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, short)))
-    with pytest.raises(sb.TableError) as refusal:
-        sb.World(
-            sb.load_table("classic").model_copy(update={"slant_wall": (wall,), "triangular_prism": (prism,)})
-        )
-    paths = [problem.path for problem in refusal.value.problems]
-    assert paths == ["slant_wall[0]", "triangular_prism[0]"]
+    assert [problem.path for problem in refusal.value.problems] == ["slant_wall[1]", "triangular_prism[0]"]

@@ -78,12 +78,13 @@ def test_the_digest_tells_every_field_apart() -> None:
     seen = {before}
     fields = [("ball", name, slot) for name in record["ball"].dtype.names for slot in (0, 1)]
     fields += [("paddle", name, side) for name in record["paddle"].dtype.names for side in (0, 1)]
+    fields += [("spinner", name, slot) for name in record["spinner"].dtype.names for slot in (0, 1)]
     for group, name, index in fields:
         kept = record[group][name][index]
         record[group][name][index] = kept + 1 if kept + 1 != kept else 0.0  # one is infinite
         seen.add(world.digest())
         record[group][name][index] = kept
-    plain = [name for name in record.dtype.names if name not in ("ball", "paddle")]
+    plain = [name for name in record.dtype.names if record.dtype[name].shape == ()]
     for name in plain:
         record[name] += 1
         seen.add(world.digest())

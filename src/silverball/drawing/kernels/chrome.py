@@ -11,19 +11,36 @@ ball; one that goes up meets a bright room.
 from __future__ import annotations
 
 from math import sqrt
-from typing import TypeAlias
+from typing import NamedTuple
 
 from silverball.drawing.kernels.patches import pixel_ray
 from silverball.drawing.kernels.stage import Box, Heights, Ink, Inks, Pixels, Records, StageRecord, Vector
 from silverball.drawing.kernels.tones import RGB, add_scaled, clamp01, ink, mix, multiply, scale, smoothstep
 from silverball.physics.kernel import inlined, internal, kernel
 
-Sphere: TypeAlias = tuple[float, float, float, float]
-"""A ball: its centre x, y, z and its radius [u]."""
-
 SHADOW = 0.72  # share of the light that a ball blocks at most
 CONTACT = 0.85  # the same where it lies on the playfield
 CONTACT_REACH = 2.2  # how far that is visible, in radii of the ball
+
+
+class Sphere(NamedTuple):
+    """A ball.
+
+    Attributes:
+        x: Its centre [u].
+        y: Height of its centre [u].
+        z: Its centre [u].
+        radius: Its radius [u].
+        floor: Height of the floor [u]; what is below it, in a hole, is hidden.
+        tint: Factors of the light that it mirrors.
+    """
+
+    x: float
+    y: float
+    z: float
+    radius: float
+    floor: float
+    tint: RGB
 
 
 @kernel
@@ -36,7 +53,7 @@ def cast_shadow(frame: Pixels, height: Heights, stage: Records, ball: Sphere, bo
     Source: I. Quilez, "sphere ambient occlusion" and "sphere soft shadow", 2006 and 2014.
     """
     s = stage[0]
-    x, middle, z, r = ball
+    x, middle, z, r = ball.x, ball.y, ball.z, ball.radius
     left, top, right, bottom = box
     for row in range(max(top, 0), min(bottom, frame.shape[0])):
         for column in range(max(left, 0), min(right, frame.shape[1])):
@@ -67,8 +84,6 @@ def draw_ball(
     stage: Records,
     inks: Inks,
     ball: Sphere,
-    floor: float,
-    tint: RGB,
     box: Box,
 ) -> None:
     """Draw a ball.
@@ -80,12 +95,10 @@ def draw_ball(
         stage: The camera, a STAGE record.
         inks: The colours of the scene.
         ball: The ball.
-        floor: Height of the floor [u]; what is below it, in a hole, is hidden.
-        tint: Factors of what the ball mirrors.
         box: The pixels that it can cover.
     """
     s = stage[0]
-    x, middle, z, r = ball
+    x, middle, z, r = ball.x, ball.y, ball.z, ball.radius
     left, top = max(box[0], 0), max(box[1], 0)
     right, bottom = min(box[2], frame.shape[1]), min(box[3], frame.shape[0])
     for row in range(top, bottom):
@@ -107,13 +120,13 @@ def draw_ball(
             if (height[row, column] - s.eye_y) / dy < t - 0.02 * r:
                 continue  # hidden by something in front of it
             nx, ny, nz = dx * t - ex, dy * t - ey, dz * t - ez
-            if middle + ny < floor:
+            if middle + ny < ball.floor:
                 continue
             inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz)
             nx, ny, nz = nx * inverse, ny * inverse, nz * inverse
             direction, normal = (dx, dy, dz), (nx, ny, nz)
             light = _reflection(frame, before, s, inks, ball, direction, normal, (left, top, right, bottom))
-            light = multiply(light, tint)
+            light = multiply(light, ball.tint)
             for channel in range(3):
                 shown = 255.0 * sqrt(clamp01(light[channel]))
                 old = float(frame[row, column, channel])
@@ -126,7 +139,7 @@ def _reflection(
     direction: Vector, normal: Vector, box: Box,
 ) -> RGB:  # fmt: skip
     """The light that a ball mirrors at a normal, seen along a direction (two unit vectors)."""
-    x, _middle, z, r = ball
+    x, z, r = ball.x, ball.z, ball.radius
     dx, dy, dz = direction
     nx, ny, nz = normal
     toward = -(dx * nx + dy * ny + dz * nz)

@@ -54,7 +54,7 @@ class Look(NamedTuple):
 LOOKS = {
     Finish.BORDER: Look(Material.BAR, "rail", 0.36),
     Finish.WALL: Look(Material.BAR, "wall", 0.36, bevel=0.06, has_tube=True),
-    Finish.METAL: Look(Material.STEEL, "steel", 0.34, bevel=0.1),
+    Finish.METAL: Look(Material.STEEL, "metal", 0.34, bevel=0.1),
     Finish.WOOD: Look(Material.TIMBER, "timber", 0.40, bevel=0.03, fill=Fill(Material.TIMBER, "timber")),
     Finish.PLASTIC: Look(
         Material.PLASTIC, "plastics", 0.40, bevel=0.03, glow=0.3,
@@ -68,10 +68,10 @@ LOOKS = {
     Finish.BUMPER: Look(Material.BUMPER, "cylinders", 0.38, glow=1.0, flashes=True, flash_reach=1.9),
     Finish.TARGET: Look(Material.TARGET, "targets", 0.46, bevel=0.03, glow=0.35, flashes=True),
     Finish.ROLLOVER: Look(Material.INSERT, "inserts", 0.012, bevel=0.006, glow=0.5, flashes=True),
-    Finish.GATE: Look(Material.STEEL, "steel", 0.58, bevel=0.03),
+    Finish.GATE: Look(Material.STEEL, "metal", 0.58, bevel=0.03),
     Finish.SPINNER: Look(Material.BLADE, "spinner", 0.58, bevel=0.03),
     Finish.HOLE: Look(Material.PIT, "hole", 0.012, bevel=0.006, flashes=True),
-    Finish.PLUNGER: Look(Material.STEEL, "steel", 0.36, bevel=0.08),
+    Finish.PLUNGER: Look(Material.STEEL, "metal", 0.36, bevel=0.08),
     Finish.RAMP: Look(Material.MOUTH, "mouth", 0.012, bevel=0.006, flashes=True),
 }  # fmt: skip
 """One row for each finish; a test refuses a finish without one."""

@@ -15,7 +15,7 @@ import numpy as np
 from silverball.errors import Problem
 from silverball.physics.forms import Shape
 from silverball.table.geometry import Bools, Floats, Pieces, Polygon, arc_edges, border_gaps, clear_of
-from silverball.table.layout import Layout, PlacedPart
+from silverball.table.placed_parts import Layout, PlacedPart
 from silverball.table.primitive import Primitive
 from silverball.table.reach import Space, resting_pieces
 

@@ -1,6 +1,6 @@
 """Solids: the SOLID records that are built on the primitives of a table.
 
-A primitive's shape gives the footprint, its finish the look (see finishes.py). Gates, spinners and plungers
+A primitive's shape gives the footprint, its finish the look (see looks.py). Gates, spinners and plungers
 have a frame that stands and a piece that moves; the pieces of a pose are built by `add_pose`.
 """
 
@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.drawing.dimensions import LEVEL_RISE, Dimensions, corner_behind
-from silverball.drawing.finishes import LOOKS, Fill, Look
 from silverball.drawing.kernels.solids import CAP_RISE, CAP_SHARE, RING
 from silverball.drawing.kernels.stage import SOLID, Material, Outline
 from silverball.drawing.layout import Layout, Row
+from silverball.drawing.looks import LOOKS, Fill, Look
 from silverball.drawing.moving import (
     FLAP_ANGLE,
     PULL,
