@@ -19,6 +19,8 @@ from silverball.table import (
     load_table,
     table_digest,
 )
+from silverball.table.kinds import Passage, Plunger, Wall
+from silverball.table.model import list_sections
 from silverball.world import Event, World
 from silverball.world.saved_world import pack
 
@@ -36,14 +38,11 @@ CONTACTS = ("hit", "touch", "ball_hit", "ball_touch")
 
 def table_of(*parts: Any, **board: Any) -> Table:
     """A table of these parts; nothing checks whether they fit together."""
-    kinds = {
-        "slant_wall": SlantWall,
-        "paddle": Paddle,
-        "triangular_prism": TriangularPrism,
-        "cylinder": Cylinder,
+    lists = {
+        key: tuple(part for part in parts if type(part) is kind) for key, kind in list_sections(Table).items()
     }
-    lists = {key: tuple(part for part in parts if isinstance(part, kind)) for key, kind in kinds.items()}
-    return Table(name="of a test", board=Board(**board), **lists)
+    is_old = {type(part) for part in parts} <= {SlantWall, Paddle, TriangularPrism, Cylinder}
+    return Table(format=1 if is_old else 2, name="of a test", board=Board(**board), **lists)
 
 
 def full_table(*more: Any, boost: float = 1.25, restitution: float | None = None, **board: Any) -> Table:
@@ -80,34 +79,40 @@ def full_table(*more: Any, boost: float = 1.25, restitution: float | None = None
 
 def mirrored(table: Table) -> Table:
     """The same table in the mirror: every z changes its sign, and the paddles change sides."""
-
-    def flip(point: tuple[float, float]) -> tuple[float, float]:
-        return point[0], -point[1]
-
-    other = {"left": "right", "right": "left"}
     return table.model_copy(
         update={
-            "slant_wall": tuple(
-                wall.model_copy(update={"start": flip(wall.start), "end": flip(wall.end)})
-                for wall in table.slant_wall
-            ),
-            "paddle": tuple(
-                paddle.model_copy(update={"side": other[paddle.side], "pivot": flip(paddle.pivot)})
-                for paddle in table.paddle
-            ),
-            "triangular_prism": tuple(
-                TriangularPrism.model_validate(
-                    prism.model_dump(exclude={"center", "size", "rotation", "mesh"})
-                    | {"vertices": tuple(flip(corner) for corner in prism.corners())}
-                )
-                for prism in table.triangular_prism
-            ),
-            "cylinder": tuple(
-                cylinder.model_copy(update={"center": flip(cylinder.circle()[:2])})
-                for cylinder in table.cylinder
-            ),
+            section: tuple(mirrored_part(part) for part in getattr(table, section))
+            for section in list_sections(Table)
         }
     )
+
+
+def mirrored_part(part: Any) -> Any:
+    """The same part in the mirror; one that is round or a triangle is given by its centre or its corners."""
+    other = {"left": "right", "right": "left"}
+    values = {name: getattr(part, name) for name in type(part).model_fields}
+    changes: dict[str, Any] = {
+        name: (values[name][0], -values[name][1])
+        for name in ("start", "end", "pivot", "center", "exit", "exit_velocity", "position", "gravity")
+        if values.get(name) is not None
+    }
+    changes |= {
+        name: other.get(values[name], values[name]) for name in ("side", "button", "passes") if name in values
+    }
+    if isinstance(part, Passage):  # what was to the left of it is to the right
+        changes["start"], changes["end"] = changes["end"], changes["start"]
+    if isinstance(part, Plunger):
+        changes["angle"] = 180.0 - part.angle
+    if isinstance(part, Wall):
+        changes["points"] = tuple((x, -z, *(-bulge for bulge in rest)) for x, z, *rest in part.points)
+    if isinstance(part, Cylinder):
+        x, z, radius = part.circle()
+        changes |= {"center": (x, -z), "radius": radius, "mesh": None}
+    if isinstance(part, TriangularPrism):
+        corners = tuple((x, -z) for x, z in part.corners())
+        dropped = {"center", "size", "rotation", "mesh", "vertices"}
+        return TriangularPrism(vertices=corners, **part.model_dump(exclude=dropped, exclude_defaults=True))
+    return part.model_copy(update=changes)
 
 
 def launched(

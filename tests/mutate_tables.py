@@ -29,7 +29,10 @@ from typing import NamedTuple
 import numpy as np
 
 from silverball.errors import SilverballError, TableError
+from silverball.soak.hostile_parts import hostile_part_table
+from silverball.soak.part_boards import part_table
 from silverball.table import dump_table, generate_table, load_table, table_names
+from silverball.table.model import key_of
 from silverball.table.parts import Arcade, Board, RandomRecipe
 from silverball.table.table import PART_KINDS
 from silverball.world import World
@@ -87,9 +90,9 @@ WORDS = tuple(
     dict.fromkeys(
         [
             *(
-                key
+                key_of(model, name)
                 for model in (Board, RandomRecipe, Arcade, *PART_KINDS.values())
-                for key in model.model_fields
+                for name in model.model_fields
             ),
             *("format", "from", "to", "flipper", "__class__", "\x1b[1m"),
         ]
@@ -251,9 +254,10 @@ WAYS: tuple[Callable[[str, random.Random], str], ...] = (
 
 
 def good_texts() -> list[str]:
-    """The files to damage: the built-in tables, some boards, and a table with every key."""
+    """The files to damage: the built-in tables, boards of all parts too, and a table with every key."""
     tables = [load_table(name) for name in table_names()]
     tables += [generate_table(seed, name) for name in ("random", "original") for seed in range(3)]
+    tables += [part_table(seed) for seed in range(6)] + [hostile_part_table(seed) for seed in range(3)]
     full = "\n".join(["[arcade]", "balls = 5", "tilt_limit = 2.0", "combo_window = 1.5"])
     return [dump_table(table) for table in tables] + [dump_table(tables[0]) + full + "\n"]
 
@@ -330,7 +334,7 @@ def take_through(path: Path, seed: int) -> tuple[str, str]:
                 world.create_ball()
         held = [state != (dice.random() < 0.3) for state in held]
         for _ in range(world.tick_rate // 10):
-            world.step(left=held[0], right=held[1], jitter=dice.random() < 0.01)
+            world.step(left=held[0], right=held[1], jitter=dice.random() < 0.01, launch=held[0])
     return "played", ""
 
 

@@ -18,7 +18,9 @@ import numpy as np
 
 from boards import CLASSIC, RANDOM, full_table
 from silverball.errors import BoardFull, NoRoom
-from silverball.table import SlantWall, Table, generate_table
+from silverball.soak.hostile_parts import hostile_part_table
+from silverball.soak.part_boards import part_table
+from silverball.table import SlantWall, Table, generate_table, load_table
 from silverball.world import World, WorldBatch
 
 BEAT = 15
@@ -26,7 +28,7 @@ BEAT = 15
 
 
 class Scene(NamedTuple):
-    """One game: what is played, for how many ticks, and the chance of a shove on a beat."""
+    """One game: what is played, for how many ticks, the chance of a shove on a beat, and of a launch."""
 
     name: str
     table: Callable[[], Table]
@@ -34,14 +36,17 @@ class Scene(NamedTuple):
     tick_rate: int = 60
     ticks: int = 1200
     jitter: float = 0.2
+    launch: float = 0.0
 
     def buttons(self) -> np.ndarray:
-        """Left, right, jitter for every tick, bool [ticks, 3]."""
+        """Left, right, jitter, launch for every tick, bool [ticks, 4]."""
         rng = random.Random(self.seed)  # of the standard library: its numbers are the same in every version
-        held = np.zeros((self.ticks, 3), np.bool_)
+        held = np.zeros((self.ticks, 4), np.bool_)
         for start in range(0, self.ticks, BEAT):
             held[start : start + BEAT, :2] = rng.random() < 0.5, rng.random() < 0.5
             held[start, 2] = rng.random() < self.jitter
+            if self.launch > 0.0:
+                held[start : start + BEAT, 3] = rng.random() < self.launch
         return held
 
     def world(self) -> World:
@@ -89,7 +94,20 @@ SCENES = (
     Scene("odd ticks", lambda: generated(10), seed=10, tick_rate=977, ticks=9000),
 )
 
-SHORT = tuple(scene._replace(ticks=300) for scene in SCENES if scene.tick_rate == 60)
+ALL_PARTS = (
+    Scene("built-in parts", lambda: load_table("parts"), seed=30, launch=0.5),
+    *(
+        Scene(f"all parts {seed}", lambda seed=seed: part_table(seed), seed=seed, launch=0.5)
+        for seed in (3, 8, 10)
+    ),
+    *(
+        Scene(f"hostile parts {seed}", lambda seed=seed: hostile_part_table(seed), seed=seed, launch=0.5)
+        for seed in (1, 6, 7)
+    ),
+)
+"""Boards of all kinds of parts; they may change with the generator, so they have no golden digests."""
+
+SHORT = tuple(scene._replace(ticks=300) for scene in (*SCENES, *ALL_PARTS) if scene.tick_rate == 60)
 """For the ladder, which plays them over and over: 5 s each, at one tick rate, so that a batch holds them."""
 
 
@@ -102,10 +120,10 @@ def create(world: World) -> None:
 def played(scene: Scene) -> World:
     """The world at the end of a scene, moved on one tick at a time."""
     world = scene.world()
-    for tick, (left, right, jitter) in enumerate(scene.buttons().tolist()):
+    for tick, (left, right, jitter, launch) in enumerate(scene.buttons().tolist()):
         if tick % BEAT == 0:
             create(world)
-        world.step(left, right, jitter)
+        world.step(left, right, jitter, launch=launch)
     return world
 
 
@@ -122,7 +140,7 @@ def batch_of(scenes: Sequence[Scene], threads: int | None = None) -> WorldBatch:
 
 
 def buttons_of(scenes: Sequence[Scene]) -> np.ndarray:
-    """The buttons of some scenes of equal length, bool [ticks, world, 3]."""
+    """The buttons of some scenes of equal length, bool [ticks, world, 4]."""
     rows = {scene.name: scene.buttons() for scene in scenes}
     return np.stack([rows[scene.name] for scene in scenes], axis=1)
 

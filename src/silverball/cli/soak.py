@@ -21,7 +21,7 @@ def soak(
         str | None,
         typer.Option(
             help="Built-in table or table file; not with --hostile.",
-            show_default="random",
+            show_default="random, and boards of all parts",
             autocompletion=complete_table,
         ),
     ] = None,
@@ -56,9 +56,7 @@ def soak(
         repeat(again, as_json)
     if hostile and table is not None:
         raise SilverballError("silverball soak: --table does not go with --hostile, which makes its own")
-    report = run_soak(
-        "random" if table is None else table, seed, worlds, tick_rate, hostile, frames, progress
-    )
+    report = run_soak(table, seed, worlds, tick_rate, hostile, frames, progress)
     if as_json:
         print_json(report)
     else:
@@ -67,18 +65,25 @@ def soak(
 
 
 def run_soak(
-    table: str, seed: int, worlds: int, tick_rate: int, hostile: bool, frames: int, progress: Path | None
+    table: str | None,
+    seed: int,
+    worlds: int,
+    tick_rate: int,
+    hostile: bool,
+    frames: int,
+    progress: Path | None,
 ) -> dict[str, Any]:
     """Soak until the total of frames is reached; returns the report."""
     from silverball.game.user_folder import data_folder
     from silverball.table import load_table
 
+    parts, table = table is None, table or "random"
     recipe = load_table(table)
     with compiling("soak_worlds"):
         from silverball.soak import campaign
         from silverball.soak.rounds import Options, SoakBatch
 
-        options = Options(recipe, seed, worlds, tick_rate, hostile)
+        options = Options(recipe, seed, worlds, tick_rate, hostile, hostile or parts)
         path = progress or data_folder() / "soak" / campaign.log_name(options)
         earlier = campaign.load_or_begin(options, path)
         SoakBatch([load_table("classic")], [seed], tick_rate, hostile).run(1)

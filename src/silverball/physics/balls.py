@@ -34,7 +34,7 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.shapes import distance
-from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, PLACE_STEPS
+from silverball.physics.tolerances import CREATE_TRIES, FREE_GAP, MAX_DEPTH, PLACE_STEPS
 
 TWO_PI = 6.283185307179586
 
@@ -185,6 +185,9 @@ def create_on_plunger(
     if row < 0:
         return as_int(Outcome.NO_ROOM)
     c = colliders[board.collider_first + row]
+    gap, _ = clearance(world, board, colliders, c.x, c.z, as_int(0))
+    if gap < -MAX_DEPTH:
+        return as_int(Outcome.NO_ROOM)
     is_known = flight_checksum(world, board) == log.checksum
     put_ball(world, board, log, slot, c.x, c.z, 0.0, 0.0)
     capture(world.ball[slot], row, c.x, c.z, 0.0)

@@ -55,7 +55,7 @@ from silverball.physics.records import (
 )
 from silverball.physics.shapes import distance
 from silverball.physics.spinner import blade_angle, slowed_by_blade, time_of_turn
-from silverball.physics.tolerances import FREE_GAP, NEVER
+from silverball.physics.tolerances import FREE_GAP, MAX_DEPTH, NEVER
 
 
 @for_devices(lambda lane, geometry, ball, row, tick: None)
@@ -80,8 +80,11 @@ def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int
         if ball.level != before:
             return  # it is on this level already
         advance_to(ball, board, age)
-        if not _has_room(world, board, ball, ball.x, ball.z, after, time):
-            # Another ball is in the way on the other level: the ball is thrown back.
+        if not (
+            _has_room(world, board, ball, ball.x, ball.z, after, time)
+            and _is_clear(lane, geometry, ball.x, ball.z, after, time)
+        ):
+            # Something is in the way on the other level: the ball is thrown back.
             ball.vx -= 2.0 * speed * c.inward_x
             ball.vz -= 2.0 * speed * c.inward_z
             start_flight(ball, board, time)
@@ -123,11 +126,13 @@ def _has_room(
 def _is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: int, time: float) -> bool:
     """Whether a ball at (x, z) on a level would overlap no collider at a time of the tick [s]."""
     world, board, scratch = lane.world, geometry.board, lane.scratch
-    if min(z - board.low_z, board.high_z - z, board.top_x - x) < 0.0:
+    if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
         return False
     for index in range(board.collider_first + Part.FIRST_PADDLE, board.collider_end):
         c = geometry.colliders[index]
         if c.response != Response.BOUNCE or c.levels >> level & 1 == 0 or c.switch & world.off != 0:
+            continue
+        if c.one_way != 0:  # a ball may overlap it
             continue
         dx, dz, reach = x - c.x, z - c.z, c.reach + board.ball_radius
         if dx * dx + dz * dz > reach * reach:
@@ -138,7 +143,7 @@ def _is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: in
             gap, _, _ = paddle_distance(c, angle, x, z)
         else:
             gap, _, _ = distance(c, x, z)
-        if gap < board.ball_radius:
+        if gap < board.ball_radius - MAX_DEPTH:
             return False
     return True
 

@@ -12,7 +12,7 @@ A search also ends at the moment a paddle reaches its stop, so a paddle's motion
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
@@ -30,8 +30,8 @@ from silverball.physics.devices import (
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
-from silverball.physics.for_devices import are_on_one_level, ball_slots
-from silverball.physics.kernel import as_int, inlined, internal, kernel
+from silverball.physics.for_devices import are_on_one_level, ball_slots, for_devices
+from silverball.physics.kernel import as_int, inlined, internal, kernel, prefetch
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
     angle_at,
@@ -46,12 +46,15 @@ from silverball.physics.paddle import (
     write_sweep,
 )
 from silverball.physics.records import (
+    BALL,
     JITTER,
     LAUNCH,
     LEFT,
     NOTHING,
     NULL_EVENT,
+    PLAIN_WORLD,
     RIGHT,
+    WORLD,
     BallRecord,
     BatchGeometry,
     BoardGeometry,
@@ -71,10 +74,13 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
-from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, NEVER
+from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, JAM_SHARE, MAX_CREEP, NEVER
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
 
 JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
+LINE = 64  # bytes of a line of the cache
+HOT_BYTES = cast(Any, WORLD.fields)["ball"][1] + 2 * BALL.itemsize  # of a world, up to its second ball
+HOT_LINES, PLAIN_LINES = -(-HOT_BYTES // LINE), -(-PLAIN_WORLD.itemsize // LINE)
 
 
 @inlined
@@ -352,7 +358,8 @@ def stop_jammed_ball(
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_repeat):
-            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, time), NEVER)
+            until = stall_time(sweep, c, ball, board.ball_radius, time)
+            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, NOTHING, 0.0, 0.0)
@@ -376,6 +383,19 @@ def must_stall(
         return False
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
     return bool(gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
+
+
+@internal
+def stall_time(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float) -> float:
+    """Compute up to which time of the tick a stalling paddle has turned [s].
+
+    A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and presses it
+    a little deeper before the jam is noticed. Such a paddle stays where it was, or it would creep on.
+    """
+    if paddle.alpha == 0.0 or paddle.omega != 0.0:
+        return time
+    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    return 0.0 if gap < radius - MAX_CREEP else time
 
 
 @inlined
@@ -416,6 +436,13 @@ def held_buttons(actions: Any, row: int, index: int) -> int:
     return buttons
 
 
+@for_devices(lambda world: PLAIN_LINES)
+@inlined
+def hot_lines(world: WorldRecord) -> int:
+    """The lines of the cache at the start of a world's record that every tick reads."""
+    return HOT_LINES
+
+
 @kernel
 def run_worlds(
     lanes: Lanes, geometries: BatchGeometry, actions: Any, first: int, end: int, ticks: int, tick: float
@@ -438,6 +465,11 @@ def run_worlds(
     ticks = abs(ticks)
     for index in range(first, end):
         lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index], lanes.logs[first])
+        if index + 1 < end:
+            next_world = lanes.worlds[index + 1]
+            for line in range(hot_lines(next_world)):
+                prefetch(next_world, line * LINE)
+            prefetch(lanes.logs[index + 1], 0)
         world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)

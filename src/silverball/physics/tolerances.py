@@ -55,6 +55,10 @@ it."""
 JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""
 
+MAX_CREEP = 1e-11
+"""[u] depth of a jammed ball in a paddle on a coil above which the paddle goes back to where it was at the
+start of the tick. Larger than the rounding of a contact, far smaller than `MAX_DEPTH`."""
+
 FREE_GAP = 1e-9
 """[u] A ball is created only at this distance from everything or more, so that it starts clear."""
 

@@ -1,8 +1,9 @@
 """Checks of the soak after every tick: places, contacts, tunnelling, faults, and balls that are stuck.
 
 They do not use the solver's geometry. A ball must be on the board and in the region it was created in
-(`regions.py`), inside nothing, and just at the surface at every contact (`audit.py`). It must not pass
-through anything without a contact, nor stay in one place for a minute. The first finding stops a world.
+(`regions.py`), or to which a hole or another level brought it, inside nothing, and just at the surface at
+every contact (`audit.py`). It must not pass through anything without a contact, nor stay in one place for a
+minute. `crossings.py` checks sensors and one-way parts. The first finding stops a world.
 """
 
 from __future__ import annotations
@@ -20,13 +21,16 @@ from silverball.physics.audit import (
     depth_in_paddle,
     depth_in_stationary,
     gap_to,
+    is_met,
     is_out_of_reach,
 )
+from silverball.physics.for_devices import are_on_one_level, level_of, switches_off
 from silverball.physics.kernel import as_int, inlined, kernel
 from silverball.physics.records import (
     JITTER,
     LAUNCH,
     MAX_BALLS,
+    MAX_LEVELS,
     MAX_PADDLES,
     BallRecord,
     BatchGeometry,
@@ -38,12 +42,14 @@ from silverball.physics.records import (
     Lane,
     Lanes,
     LogRecord,
+    Motion,
     Part,
     Places,
     WorldRecord,
 )
 from silverball.physics.step import button_bits, step_world
-from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action
+from silverball.soak.crossings import depth_in_one_way, gap_to_sensor, has_passed, is_crossing_wrong
+from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action, move_gates
 from silverball.soak.regions import (
     BLOCKED,
     MAIN_REGION,
@@ -73,6 +79,7 @@ class Found(IntEnum):
     PHANTOM = 4  # a contact with nothing
     FAULT = 5  # the solver has stopped the world with a fault
     STUCK = 6  # a ball in one place for too long
+    MISSED = 7  # a ball crossed a sensor without an event, or there was an event without a crossing
 
 
 class PreviousBall(NamedTuple):
@@ -95,9 +102,12 @@ STUCK_TRACKER = np.dtype(
 WATCH = np.dtype(
     [
         ("tracker", STUCK_TRACKER, (MAX_BALLS,)),
-        # The balls and the paddles before the tick: ids, centres [u], angles [rad].
+        # Balls, switches and paddles before the tick: centres [u], velocities [u/s], angles [rad], [rad/s].
         ("id_before", "i8", (MAX_BALLS,)), ("x_before", "f8", (MAX_BALLS,)), ("z_before", "f8", (MAX_BALLS,)),
-        ("angle_before", "f8", (MAX_PADDLES,)),
+        ("vx_before", "f8", (MAX_BALLS,)), ("vz_before", "f8", (MAX_BALLS,)),
+        ("level_before", "i8", (MAX_BALLS,)), ("motion_before", "i8", (MAX_BALLS,)),
+        ("off_before", "i8"),
+        ("angle_before", "f8", (MAX_PADDLES,)), ("omega_before", "f8", (MAX_PADDLES,)),
         ("frames", "i8"),  # ticks watched
         ("deepest", "f8"),  # [u]
         ("found", "i8"),  # Found
@@ -118,7 +128,7 @@ class ReferenceBoard(NamedTuple):
         colliders: COLLIDER records of all boards.
         header: The GRID_HEADER record of the board.
         labels: Labels of the cells of all boards.
-        hostile: Whether the board was not checked: then a ball may start in any region, and get stuck.
+        hostile: Whether a ball may start in any region, and get stuck: the check was not made, or warned.
     """
 
     board: BoardRecord
@@ -137,7 +147,7 @@ class Watches(NamedTuple):
         headers: GRID_HEADER records [board].
         labels: Labels of the cells of all boards.
         states: WATCH records [world].
-        hostile: Whether the boards were not checked.
+        hostile: Whether the check of each board was not made, or warned, bool [board].
     """
 
     boards: Any
@@ -145,20 +155,38 @@ class Watches(NamedTuple):
     headers: Any
     labels: Any
     states: Any
-    hostile: bool
+    hostile: Any
 
 
 @kernel
 def register_new_balls(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) -> None:
-    """Record where new balls start. On a checked board, that can only be the region of the gutter."""
+    """Record where new balls start. On a checked board without holes, that can only be at the gutter."""
     for slot in range(truth.board.max_balls):
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id != tracker.id:
             tracker.id, tracker.x, tracker.z = ball.id, ball.x, ball.z
             tracker.since, tracker.jams = world.tick, world.jams
             tracker.region = MAIN_REGION
-            if truth.hostile:
-                tracker.region = region_of(label_at(truth.header, truth.labels, ball.x, ball.z))
+            if truth.hostile or truth.board.sensors != 0:
+                label = label_at(truth.header, truth.labels, level_of(ball), ball.x, ball.z)
+                tracker.region = region_of(label)
+
+
+@kernel
+def follow_transfers(lane: Lane, truth: ReferenceBoard, watch: WatchRecord) -> None:
+    """Record to where holes and passages have brought balls in the last tick."""
+    world, log = lane.world, lane.log
+    for slot in range(truth.board.max_balls):
+        ball, tracker = world.ball[slot], watch.tracker[slot]
+        if ball.id == 0 or ball.id != tracker.id:
+            continue
+        is_moved = level_of(ball) != watch.level_before[slot] or log.lost > 0
+        for number in range(log.count):
+            event = log.event[number]
+            is_hole = event.kind in (EventKind.CAPTURED, EventKind.RELEASED)
+            is_moved = is_moved or (is_hole and event.ball == ball.id)
+        if is_moved:
+            tracker.region = region_of(label_at(truth.header, truth.labels, level_of(ball), ball.x, ball.z))
 
 
 @kernel
@@ -177,20 +205,26 @@ def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) 
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        label = label_at(truth.header, truth.labels, ball.x, ball.z)
+        label = label_at(truth.header, truth.labels, level_of(ball), ball.x, ball.z)
         region = region_of(label)
         if label == OFF_BOARD or ball.x < board.gutter - GUTTER_MARGIN:
             report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
             continue
+        if watch.tracker[slot].region == BLOCKED:
+            watch.tracker[slot].region = region
         if region != BLOCKED and region != watch.tracker[slot].region:
             report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
         depth = depth_in_borders(board, colliders, ball.x, ball.z)
-        if is_narrow(label):
-            depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z))
-        for number in range(board.paddles):
-            c = colliders[board.collider_first + Part.FIRST_PADDLE + number]
-            inside = depth_in_paddle(c, world.paddle[number].angle, ball.x, ball.z, board.ball_radius)
+        if is_narrow(label) and ball.motion != Motion.CAPTURED:
+            inside = depth_in_stationary(
+                board, colliders, ball.x, ball.z, level_of(ball), switches_off(world)
+            )
             depth = max(depth, inside)
+        for number in range(board.paddles if ball.motion != Motion.CAPTURED else 0):
+            c = colliders[board.collider_first + Part.FIRST_PADDLE + number]
+            if is_met(c, level_of(ball), switches_off(world)):
+                inside = depth_in_paddle(c, world.paddle[number].angle, ball.x, ball.z, board.ball_radius)
+                depth = max(depth, inside)
         if not has_checked_pairs:
             has_checked_pairs, depth = True, max(depth, depth_in_other_ball(world, board.ball_radius))
         watch.deepest = max(watch.deepest, depth)
@@ -230,7 +264,10 @@ def gap_to_part(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord, e
             continue
         angle, paddle = 0.0, row - Part.FIRST_PADDLE
         if 0 <= paddle < board.paddles:
-            angle = angle_after(c, watch.angle_before[paddle], world.paddle[paddle].angle, event.offset)
+            angle = angle_after(
+                c, watch.angle_before[paddle], world.paddle[paddle].angle, event.offset,
+                watch.omega_before[paddle],
+            )  # fmt: skip
         gap = min(gap, gap_to(c, row, angle, event.x, event.z))
     return gap
 
@@ -253,7 +290,8 @@ def is_untouched(log: LogRecord, ball: int) -> bool:
         event = log.event[number]
         if event.kind in (EventKind.BALL_HIT, EventKind.BALL_TOUCH, EventKind.JAM):
             return False
-        if event.ball == ball and event.kind in (EventKind.HIT, EventKind.TOUCH):
+        is_own = event.kind in (EventKind.HIT, EventKind.TOUCH, EventKind.CAPTURED, EventKind.RELEASED)
+        if event.ball == ball and is_own:
             return False
     return True
 
@@ -265,9 +303,17 @@ def max_sagitta(board: BoardRecord, tick: float) -> float:
     At most a quarter of the tick times everything that changes the velocity on the way: gravity, friction,
     and, where a slipping ball begins to roll, once more what gravity does in a tick.
     """
+    return 0.25 * tick * max_change(board, tick)
+
+
+@kernel
+def max_change(board: BoardRecord, tick: float) -> float:
+    """Upper bound [u/s] on how far the velocity of a flight changes over one tick [s]."""
     pull = sqrt(board.accel_x * board.accel_x + board.accel_z * board.accel_z)
-    changes: float = tick * (2.0 * pull + board.friction * board.normal_accel)
-    return 0.25 * tick * changes
+    for level in range(MAX_LEVELS):
+        pull = max(pull, board.level_size[level])
+    change: float = tick * (2.0 * pull + board.friction * board.normal_accel)
+    return change
 
 
 @kernel
@@ -286,7 +332,7 @@ def depth_along_path(
     swept, at_paddle = path, False
     for paddle in range(board.paddles):
         c = colliders[paddles + paddle]
-        if not is_out_of_reach(c, ball.x, ball.z, radius + path):
+        if is_met(c, level_of(ball), 0) and not is_out_of_reach(c, ball.x, ball.z, radius + path):
             at_paddle = True
             turned = abs(world.paddle[paddle].angle - watch.angle_before[paddle])
             swept = max(swept, path + turned * hypot(ball.x - c.x, ball.z - c.z))
@@ -295,12 +341,20 @@ def depth_along_path(
     for number in range(1, count):
         share = number / count
         x, z = start_x + share * dx, start_z + share * dz
-        if is_narrow(label_at(truth.header, truth.labels, x, z)):
-            depth = max(depth, depth_in_stationary(board, colliders, x, z))
+        if is_narrow(label_at(truth.header, truth.labels, level_of(ball), x, z)):
+            inside = depth_in_stationary(
+                board, colliders, x, z, level_of(ball), switches_off(world) | watch.off_before
+            )
+            depth = max(depth, inside)
         if at_paddle:
             for paddle in range(board.paddles):
                 c = colliders[paddles + paddle]
-                angle = angle_after(c, watch.angle_before[paddle], world.paddle[paddle].angle, share * tick)
+                if not is_met(c, level_of(ball), 0):
+                    continue
+                angle = angle_after(
+                    c, watch.angle_before[paddle], world.paddle[paddle].angle, share * tick,
+                    watch.omega_before[paddle],
+                )  # fmt: skip
                 depth = max(depth, depth_in_paddle(c, angle, x, z, radius))
     return depth
 
@@ -318,10 +372,20 @@ def depth_of_meeting(
 
 
 @kernel
-def is_free(lane: Lane, watch: WatchRecord, slot: int) -> bool:
-    """Whether the ball in a slot was there before the tick and met nothing in it."""
+def is_free(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, slot: int, tick: float) -> bool:
+    """Whether the ball in a slot was there before the tick, on the same level, and met nothing in it."""
     ball = lane.world.ball[slot]
-    return bool(ball.id != 0 and ball.id == watch.id_before[slot] and is_untouched(lane.log, ball.id))
+    if ball.id == 0 or ball.id != watch.id_before[slot] or level_of(ball) != watch.level_before[slot]:
+        return False
+    if Motion.CAPTURED in (ball.motion, watch.motion_before[slot]):
+        return False
+    if truth.board.sensors != 0:  # a spinner may slow a ball, a passage may throw it back
+        change = hypot(ball.vx - watch.vx_before[slot], ball.vz - watch.vz_before[slot])
+        if change > max_change(truth.board, tick) + PASSAGE_DEPTH:
+            return False
+        if has_passed(lane.log, truth.board, truth.colliders, ball.id):
+            return False
+    return is_untouched(lane.log, ball.id)
 
 
 @kernel
@@ -333,19 +397,44 @@ def check_tunnelling(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick
     world, board = lane.world, truth.board
     allowed = max_sagitta(board, tick) + PASSAGE_DEPTH
     for slot in range(board.max_balls):
-        if not is_free(lane, watch, slot):
+        if not is_free(lane, truth, watch, slot, tick):
             continue
         depth = depth_along_path(world, truth, watch, slot, tick)
         if depth > allowed:
             report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
         for other in range(slot + 1, board.max_balls):
-            if is_free(lane, watch, other):
+            is_same = are_on_one_level(world.ball[other], world.ball[slot])
+            if is_same and is_free(lane, truth, watch, other, tick):
                 depth = depth_of_meeting(
                     previous_ball(watch, slot), world.ball[slot],
                     previous_ball(watch, other), world.ball[other], board.ball_radius,
                 )  # fmt: skip
                 if depth > 2.0 * allowed:
                     report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
+
+
+@kernel
+def check_crossings(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick: float) -> None:
+    """Check the crossings of sensors, and that one-way parts block balls from the one side."""
+    world, board, log = lane.world, truth.board, lane.log
+    if log.lost > 0:
+        return
+    for number in range(log.count):
+        event = log.event[number]
+        if event.kind == EventKind.PASS:
+            gap = gap_to_sensor(board, truth.colliders, event.part, event.x, event.z)
+            if gap > DEPTH:
+                report(world, watch, as_int(Found.PHANTOM), slot_of(watch, event.ball), world.tick - 1, -gap)
+    margin = max_sagitta(board, tick) + PASSAGE_DEPTH
+    for slot in range(board.max_balls):
+        if not is_free(lane, truth, watch, slot, tick):
+            continue
+        ball = world.ball[slot]
+        if is_crossing_wrong(log, board, truth.colliders, ball, watch, slot, margin):
+            report(world, watch, as_int(Found.MISSED), slot, world.tick - 1, 0.0)
+        depth = depth_in_one_way(board, truth.colliders, ball, watch, slot)
+        if depth > margin:
+            report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
 
 
 @inlined
@@ -360,8 +449,12 @@ def remember_state(world: WorldRecord, board: BoardRecord, watch: WatchRecord) -
     for slot in range(board.max_balls):
         ball = world.ball[slot]
         watch.id_before[slot], watch.x_before[slot], watch.z_before[slot] = ball.id, ball.x, ball.z
+        watch.vx_before[slot], watch.vz_before[slot] = ball.vx, ball.vz
+        watch.level_before[slot], watch.motion_before[slot] = level_of(ball), ball.motion
+    watch.off_before = switches_off(world)
     for paddle in range(board.paddles):
         watch.angle_before[paddle] = world.paddle[paddle].angle
+        watch.omega_before[paddle] = world.paddle[paddle].angular_velocity
 
 
 @kernel
@@ -372,7 +465,7 @@ def check_stuck(world: WorldRecord, board: BoardRecord, watch: WatchRecord, tick
         if ball.id == 0:
             continue
         away = (ball.x - tracker.x) ** 2 + (ball.z - tracker.z) ** 2 > STUCK_RADIUS * STUCK_RADIUS
-        if away or world.jams != tracker.jams:
+        if away or world.jams != tracker.jams or ball.motion == Motion.CAPTURED:
             tracker.x, tracker.z, tracker.since, tracker.jams = ball.x, ball.z, world.tick, world.jams
         elif (world.tick - tracker.since) * tick > STUCK_AFTER:
             report(world, watch, as_int(Found.STUCK), slot, tracker.since, 0.0)
@@ -401,6 +494,7 @@ def watched_tick(
     """
     world = lane.world
     apply_action(world, geometry.board, geometry.colliders, places, lane.log, action)
+    move_gates(world, geometry, action)
     register_new_balls(world, truth, watch)
     remember_state(world, truth.board, watch)
     buttons = button_bits(action.left != 0, action.right != 0) | (JITTER if action.shove != 0 else 0)
@@ -409,10 +503,13 @@ def watched_tick(
     watch.frames += 1
     if world.fault != Fault.NONE:
         report(world, watch, as_int(Found.FAULT), 0, world.tick, 0.0)
+    follow_transfers(lane, truth, watch)
     check_places(world, truth, watch)
     if watch.found == Found.NOTHING:
         check_contacts(lane, truth, watch)
         check_tunnelling(lane, truth, watch, tick)
+        if truth.header.crossings != 0:
+            check_crossings(lane, truth, watch, tick)
     if not truth.hostile and truth.board.gravity > 0.0:  # without gravity a ball may stay forever
         check_stuck(world, truth.board, watch, tick)
 
@@ -430,13 +527,11 @@ def soak_worlds(
         world, log, tally = lanes.worlds[index], lanes.logs[index], lanes.tallies[index]
         watch, action, number = watches.states[index], drivers.actions[index], lanes.board_of[index]
         board, driver, wild = geometries.boards[number], drivers.states[index], drivers.wild[index]
-        lane, geometry = (
-            Lane(world, log, tally, log),
-            BoardGeometry(board, geometries.colliders, geometries.grid),
-        )
+        lane = Lane(world, log, tally, log)
+        geometry = BoardGeometry(board, geometries.colliders, geometries.grid)
         truth = ReferenceBoard(
             watches.boards[number], watches.colliders, watches.headers[number], watches.labels,
-            watches.hostile,
+            watches.hostile[number],
         )  # fmt: skip
         for _ in range(ticks):
             if watch.found != Found.NOTHING:

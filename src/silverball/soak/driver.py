@@ -1,9 +1,9 @@
 """Random play for the soak: which buttons are held, and when balls are created, kicked and shoved.
 
 As many balls as the table allows are kept on the board. Buttons are held for random times, sometimes for only
-a tick or two; balls are shoved; and in *wild* worlds a ball gets a random velocity about once a second. A
-*quiet* world presses nothing for `QUIET` seconds, then plays for `LIVELY` seconds, so that a ball that lies
-somewhere forever is found.
+a tick or two, that of the plungers too; held gates open and close; balls are shoved; and in *wild* worlds a
+ball gets a random velocity about once a second. A *quiet* world presses nothing for `QUIET` seconds, then
+plays for `LIVELY` seconds, so that a ball that lies somewhere forever is found.
 
 Everything random is a function of the world's seed and a counter, so one world can be run again alone. What
 is done in a tick is an ACTION record, which can be written to a file and replayed without this module.
@@ -18,11 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
+from silverball.physics.devices import set_switch
 from silverball.physics.event_log import clear_log
+from silverball.physics.for_devices import switches_off
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
     MAX_BALLS,
+    BoardGeometry,
     BoardRecord,
     Colliders,
     LogRecord,
@@ -39,12 +42,14 @@ BOTH_SHARE = 0.2  # share of presses of both buttons at once
 KICK_EVERY = 2.0  # [s] longest time between two random velocities of a ball; half of it on average
 CAP_SHARE = 0.25  # share of kicks as fast as the cap
 SHOVE_EVERY = 4.0  # [s] longest time between two shoves
+GATES_EVERY = 2.0  # [s] longest time between two moves of the gates
 QUIET, LIVELY = 75.0, 25.0  # [s]
 RETRY = 0.25  # [s] between two attempts to create a ball: a crowded board may have no free place
 
 ACTION = np.dtype(
     [
         ("left", "i8"), ("right", "i8"), ("shove", "i8"), ("launch", "i8"),  # buttons, 0 or 1
+        ("gates", "i8"),  # whether all held gates open, or close if one is open
         ("create", "i8"),  # whether to create a ball
         ("kick", "i8", (MAX_BALLS,)),  # whether the ball in the slot gets this velocity [u/s]
         ("vx", "f8", (MAX_BALLS,)), ("vz", "f8", (MAX_BALLS,)),
@@ -56,9 +61,10 @@ ActionRecord: TypeAlias = Any  # an ACTION record
 DRIVER = np.dtype(
     [
         ("draws", "i8"),  # random numbers used
-        # The first ticks at which these may change: the buttons (left, right), a shove, a kick, a creation.
+        # The first ticks at which these may change: the buttons (left, right), a shove, a kick, a creation,
+        # the launch button, the gates.
         ("press_at", "i8", (2,)), ("shove_at", "i8"), ("kick_at", "i8", (MAX_BALLS,)),
-        ("create_at", "i8"),
+        ("create_at", "i8"), ("launch_at", "i8"), ("gates_at", "i8"),
     ],
     align=True,
 )  # fmt: skip
@@ -105,8 +111,8 @@ def choose_action(
     """Choose the action of a world before and in its next tick, of length `tick` [s]."""
     now, balls = world.tick, 0
     action.shove = 0
-    action.launch = 1 if launch_bit(world, board, tick) != 0 else 0
     is_active = wild or now * tick % (QUIET + LIVELY) >= QUIET
+    choose_devices(world, board, driver, action, tick, is_active)
     for side in range(2):
         if is_active and now >= driver.press_at[side]:
             down = 1 if next_random(world, driver) < 0.5 else 0
@@ -137,6 +143,46 @@ def choose_action(
     if balls < board.max_balls and now >= driver.create_at:
         action.create = 1
         driver.create_at = now + 1 + int(RETRY / tick)
+
+
+@kernel
+def choose_devices(
+    world: WorldRecord,
+    board: BoardRecord,
+    driver: DriverRecord,
+    action: ActionRecord,
+    tick: float,
+    active: bool,
+) -> None:
+    """Choose whether the launch button is held in the next tick, and whether gates move before it."""
+    now = world.tick
+    if not active:
+        action.launch = 1 if launch_bit(world, board, tick) != 0 else 0
+    elif board.plungers != 0 and now >= driver.launch_at:
+        action.launch = 1 if next_random(world, driver) < 0.5 else 0
+        hold = HOLDS[int(next_random(world, driver) * len(HOLDS))] * (0.5 + next_random(world, driver))
+        driver.launch_at = now + 1 + int(hold / tick)
+    action.gates = 0
+    if active and now >= driver.gates_at and gate_switches(board) != 0:
+        action.gates = 1
+        driver.gates_at = now + 1 + int(next_random(world, driver) * GATES_EVERY / tick)
+
+
+@kernel
+def gate_switches(board: BoardRecord) -> int:
+    """The switches of the held gates of a board: all but those of drop targets."""
+    switches = board.switches
+    for bank in range(board.banks):
+        switches &= ~board.bank_switches[bank]
+    return int(switches)
+
+
+@kernel
+def move_gates(world: WorldRecord, geometry: BoardGeometry, action: ActionRecord) -> None:
+    """Open all held gates, or close them if one is open, if the action says so."""
+    if action.gates != 0:
+        gates = gate_switches(geometry.board)
+        set_switch(world, geometry, gates, switches_off(world) & gates == 0)
 
 
 @kernel

@@ -32,6 +32,7 @@ from silverball.world.saved_world import pack, unpack
 FORMAT = 1
 LEAD_SECONDS = 1.0  # [s] from the saved state to the finding
 BUTTONS = ("left", "right", "shove", "create")
+DEVICES = ([1], [2], [3])  # launch and gates
 SIZE_LIMIT = 2**25  # [bytes] of a finding; a ball stuck at 10,000 ticks a second takes 20 million
 DESCRIPTION = "a finding of a soak"
 LEAST_KICKS = 2  # velocities of an action, also where there are fewer balls
@@ -41,7 +42,8 @@ MAX_KICK = 1e4  # [u/s] of a kick: far above every speed cap
 def _action(values: list[Any]) -> list[Any]:
     """An action as `_action_values` writes it, or a ValueError."""
     buttons, kicks = _buttons_and_kicks(values)
-    are_valid = all(type(button) is int and button in (0, 1) for button in buttons)
+    are_valid = all(type(button) is int and button in (0, 1) for button in buttons[: len(BUTTONS)])
+    are_valid &= all(type(devices) is int for devices in buttons[len(BUTTONS) :])
     has_count = LEAST_KICKS <= len(kicks) <= MAX_BALLS
     if not are_valid or not has_count or not all(kick is None or _is_kick(kick) for kick in kicks):
         raise ValueError(f"must be four times 0 or 1 and {LEAST_KICKS} to {MAX_BALLS} velocities")
@@ -49,8 +51,8 @@ def _action(values: list[Any]) -> list[Any]:
 
 
 def _buttons_and_kicks(values: list[Any]) -> tuple[list[Any], list[Any]]:
-    """The buttons of an action, with the launch button if it is held, and the velocities after them."""
-    count = len(BUTTONS) + (values[len(BUTTONS) : len(BUTTONS) + 1] == [1])
+    """The buttons of an action, with the devices if there are any, and the velocities after them."""
+    count = len(BUTTONS) + (values[len(BUTTONS) : len(BUTTONS) + 1] in DEVICES)
     return values[:count], values[count:]
 
 
@@ -80,12 +82,12 @@ class Finding:
         physics: The version of the physics.
         table_text: The table as a table file.
         table_digest: Its hash.
-        hostile: Whether the table was not checked.
+        hostile: Whether the check of the table was not made, or warned.
         tick_rate: Ticks per second.
         state: The saved world before the first action, in hexadecimal.
-        actions: Of each tick: left, right, shove, create (0 or 1), 1 if the launch button is held, then the
-            new velocity of each ball, [vx, vz] [u/s], or null; at least two, later ones only where there are
-            any.
+        actions: Of each tick: left, right, shove, create (0 or 1), the sum of 1 if the launch button is held
+            and 2 if gates move, unless it is 0, then the new velocity of each ball, [vx, vz] [u/s], or null;
+            at least two, later ones only where there are any.
     """
 
     kind: Annotated[str, Field(pattern=f"^({'|'.join(kind.name.lower() for kind in KINDS)})$")]
@@ -184,7 +186,7 @@ def record_finding(options: Options, place: FindingPlace) -> Finding:
         physics=PHYSICS_VERSION,
         table_text=dump_table(table),
         table_digest=digest,
-        hostile=options.hostile,
+        hostile=bool(first_run.watches.hostile[0]),
         tick_rate=options.tick_rate,
         state=state.hex(),
         actions=actions,
@@ -238,8 +240,8 @@ def _action_values(action: ActionRecord) -> list[Any]:
     ]
     while len(kicks) > LEAST_KICKS and kicks[-1] is None:
         del kicks[-1]
-    launch = [1] if action["launch"] else []
-    return [*(int(action[name]) for name in BUTTONS), *launch, *kicks]
+    devices = int(action["launch"]) + 2 * int(action["gates"])
+    return [*(int(action[name]) for name in BUTTONS), *([devices] if devices else []), *kicks]
 
 
 def _fill_action(action: ActionRecord, values: list[Any]) -> None:
@@ -247,7 +249,8 @@ def _fill_action(action: ActionRecord, values: list[Any]) -> None:
     buttons, kicks = _buttons_and_kicks(values)
     for name, value in zip(BUTTONS, buttons, strict=False):
         action[name] = value
-    action["launch"] = len(buttons) > len(BUTTONS)
+    devices = buttons[len(BUTTONS)] if len(buttons) > len(BUTTONS) else 0
+    action["launch"], action["gates"] = devices & 1, devices >> 1
     for slot in range(MAX_BALLS):
         kick = kicks[slot] if slot < len(kicks) else None
         action["kick"][slot] = kick is not None

@@ -33,22 +33,7 @@ class _Site(NamedTuple):
 def hostile_table(seed: int) -> Table:
     """The hostile board of a seed; the same seed always gives the same one."""
     pick = random.Random(seed)
-    friction = pick.choice((0.0, 0.0, 0.02, 0.2, 1.0))
-    board = Board(
-        friction=friction,
-        rolling=friction > 0.0 and pick.random() < 0.7,
-        slope=pick.uniform(2.0, 20.0),
-        length=pick.uniform(12.0, 24.0),
-        width=pick.uniform(7.0, 14.0),
-        gravity=pick.choice((0.5, 3.0, 10.0, 20.0)),
-        ball_radius=pick.choice((0.1, 0.2, 0.25, 0.25, 0.4)),
-        ball_restitution=pick.choice((0.0, 0.5, 0.95, 1.0)),
-        jitter=pick.uniform(0.0, 6.0),
-        gutter=-5.5,
-        wall_thickness=pick.choice((0.0, 0.1, 0.5)),
-        wall_restitution=pick.choice((0.0, 0.8, 1.0)),
-        speed_cap=pick.uniform(22.0, 60.0),
-    )
+    board = hostile_board(pick)
     paddles = _paddles(pick, board)
     parts: list[Part] = []
     for _ in range(pick.randint(MIN_FEATURES, MAX_FEATURES)):
@@ -62,6 +47,26 @@ def hostile_table(seed: int) -> Table:
         slant_wall=tuple(part for part in parts if isinstance(part, SlantWall)),
         triangular_prism=tuple(part for part in parts if isinstance(part, TriangularPrism)),
         cylinder=tuple(part for part in parts if isinstance(part, Cylinder)),
+    )
+
+
+def hostile_board(pick: random.Random) -> Board:
+    """A board with extreme values."""
+    friction = pick.choice((0.0, 0.0, 0.02, 0.2, 1.0))
+    return Board(
+        friction=friction,
+        rolling=friction > 0.0 and pick.random() < 0.7,
+        slope=pick.uniform(2.0, 20.0),
+        length=pick.uniform(12.0, 24.0),
+        width=pick.uniform(7.0, 14.0),
+        gravity=pick.choice((0.5, 3.0, 10.0, 20.0)),
+        ball_radius=pick.choice((0.1, 0.2, 0.25, 0.25, 0.4)),
+        ball_restitution=pick.choice((0.0, 0.5, 0.95, 1.0)),
+        jitter=pick.uniform(0.0, 6.0),
+        gutter=-5.5,
+        wall_thickness=pick.choice((0.0, 0.1, 0.5)),
+        wall_restitution=pick.choice((0.0, 0.8, 1.0)),
+        speed_cap=pick.uniform(22.0, 60.0),
     )
 
 

@@ -4,8 +4,9 @@ The board is cut into square cells. A cell is *blocked* when no point of it is f
 the distance of its middle; *clear* when all of it is further than a ball's radius from every stationary
 part; otherwise *narrow*. Cells that are not blocked and touch, corners included, form a *region*
 (connected-component labelling with 8 neighbours). No free point lies in a blocked cell, so a ball can never
-get from one region to another: a ball that does has escaped. Paddles move and block nothing. Regions that
-touch the gutter line are all number 1, because they are connected below it.
+get from one region to another: a ball that does has escaped. Paddles move and block nothing, nor do parts
+that may be away, one-way parts and sensors. Every level has cells of its own. Regions that touch the gutter
+line are all number 1, because they are connected below it.
 
 Like `audit.py`, which it uses, this module shares no code with the solver.
 """
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 
 from silverball.physics.audit import box, part_gap
 from silverball.physics.kernel import kernel
-from silverball.physics.records import BoardRecord, Colliders, Part, records
+from silverball.physics.records import BoardRecord, Colliders, Part, Response, records
 
 CELL = 0.4  # [ball radii] side of a cell: a wall is at least two radii thick to a centre
 SLACK = 1e-6  # [u] for a ball that is deeper in something than it may be, and for rounding
@@ -35,9 +36,10 @@ NARROW, CLEAR = -1, -2
 GRID_HEADER = np.dtype(
     [
         ("first", "i8"),  # this board's first cell among the labels of all boards
-        ("rows", "i8"), ("columns", "i8"),  # along x and z
+        ("rows", "i8"), ("columns", "i8"), ("levels", "i8"),  # along x and z, and of how many levels
         ("low_x", "f8"), ("low_z", "f8"), ("high_x", "f8"), ("high_z", "f8"),  # where the board ends [u]
         ("cell", "f8"),  # side of a cell [u]
+        ("crossings", "i8"),  # rows that are crossed: sensors and one-way parts
     ],
     align=True,
 )  # fmt: skip
@@ -68,24 +70,39 @@ def region_map(boards: NDArray[Any], colliders: NDArray[Any]) -> RegionMap:
         header["high_x"], header["high_z"] = board["half_length"], board["half_width"]
         header["rows"] = np.ceil(2.0 * board["half_length"] / cell) + 1
         header["columns"] = np.ceil(2.0 * board["half_width"] / cell) + 1
-        count += int(header["rows"] * header["columns"])
+        rows = colliders[board["collider_first"] : board["collider_end"]]
+        header["crossings"] = ((rows["response"] != Response.BOUNCE) | (rows["one_way"] != 0)).sum()
+        header["levels"] = level_count(rows)
+        count += int(header["rows"] * header["columns"] * header["levels"])
     labels = np.zeros(count, np.int64)
     stack = np.zeros(max(int(header["rows"] * header["columns"]) for header in headers), np.int64)
     label_boards(boards, colliders, headers, labels, stack)
     return RegionMap(headers, labels)
 
 
+def level_count(colliders: NDArray[Any]) -> int:
+    """Count the levels from 0 to the highest one of a board with these COLLIDER records."""
+    masks = colliders["levels"][Part.FIRST_PADDLE :].tolist()  # the borders are on all levels
+    return max(1, int(colliders["exit_level"].max()) + 1, *(mask.bit_length() for mask in masks))
+
+
 @kernel
 def label_boards(boards: Any, colliders: Colliders, headers: Any, labels: Any, stack: Any) -> None:
     """Label the cells of all boards; `stack` is scratch for the cells of the largest one."""
     for index in range(len(headers)):
-        classify_cells(boards[index], colliders, headers[index], labels)
-        label_regions(boards[index], headers[index], labels, stack)
+        header = headers[index]
+        cells = header.rows * header.columns
+        for level in range(header.levels):
+            of_level = labels[header.first + level * cells : header.first + (level + 1) * cells]
+            classify_cells(boards[index], colliders, header, of_level, level)
+            label_regions(boards[index], header, of_level, stack)
 
 
 @kernel
-def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderRecord, labels: Any) -> None:
-    """Label each cell BLOCKED, NARROW or CLEAR."""
+def classify_cells(
+    board: BoardRecord, colliders: Colliders, header: GridHeaderRecord, labels: Any, level: int
+) -> None:
+    """Label each cell of a level BLOCKED, NARROW or CLEAR."""
     first, radius, half = board.collider_first, board.ball_radius, header.cell / sqrt(2.0) + SLACK
     left = colliders[first + Part.LEFT_WALL].z + radius
     right = colliders[first + Part.RIGHT_WALL].z - radius
@@ -96,9 +113,11 @@ def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderR
             z = header.low_z + (column + 0.5) * header.cell
             gap = min(z - left, right - z, top - x)
             label = BLOCKED if gap < -half else NARROW if gap <= half else CLEAR
-            labels[header.first + row * header.columns + column] = label
+            labels[row * header.columns + column] = label
     for index in range(first + board.shape_first, board.collider_end):
         c = colliders[index]
+        if c.levels >> level & 1 == 0 or c.response != Response.BOUNCE or c.one_way != 0:
+            continue
         low_x, high_x, low_z, high_z = box(c)
         wide = radius + half
         for row in range(
@@ -111,9 +130,9 @@ def classify_cells(board: BoardRecord, colliders: Colliders, header: GridHeaderR
                 cell_number(high_z + wide, header.low_z, header.cell, header.columns) + 1,
             ):
                 z = header.low_z + (column + 0.5) * header.cell
-                cell = header.first + row * header.columns + column
+                cell = row * header.columns + column
                 gap = part_gap(c, 0.0, x, z) - radius
-                if gap < -half:
+                if gap < -half and c.switch == 0:
                     labels[cell] = BLOCKED
                 elif gap <= half and labels[cell] == CLEAR:
                     labels[cell] = NARROW
@@ -133,7 +152,7 @@ def label_regions(board: BoardRecord, header: GridHeaderRecord, labels: Any, sta
         flood_fill(header, labels, stack, gutter_row * header.columns + column, MAIN_REGION)
     region = MAIN_REGION
     for cell in range(header.rows * header.columns):
-        if labels[header.first + cell] < 0:
+        if labels[cell] < 0:
             region += 1
             flood_fill(header, labels, stack, cell, region)
 
@@ -141,9 +160,9 @@ def label_regions(board: BoardRecord, header: GridHeaderRecord, labels: Any, sta
 @kernel
 def flood_fill(header: GridHeaderRecord, labels: Any, stack: Any, start: int, region: int) -> None:
     """Label all cells connected to `start` with a region, unless it is blocked or labelled already."""
-    if labels[header.first + start] >= 0:
+    if labels[start] >= 0:
         return
-    labels[header.first + start] = label_of(region, labels[header.first + start])
+    labels[start] = label_of(region, labels[start])
     stack[0], count = start, 1
     while count > 0:
         count -= 1
@@ -151,8 +170,8 @@ def flood_fill(header: GridHeaderRecord, labels: Any, stack: Any, start: int, re
         for near_row in range(max(row - 1, 0), min(row + 2, header.rows)):
             for near_column in range(max(column - 1, 0), min(column + 2, header.columns)):
                 cell = near_row * header.columns + near_column
-                if labels[header.first + cell] < 0:
-                    labels[header.first + cell] = label_of(region, labels[header.first + cell])
+                if labels[cell] < 0:
+                    labels[cell] = label_of(region, labels[cell])
                     stack[count] = cell
                     count += 1
 
@@ -164,12 +183,14 @@ def label_of(region: int, kind: int) -> int:
 
 
 @kernel
-def label_at(header: GridHeaderRecord, labels: Any, x: float, z: float) -> int:
-    """The label of the cell at (x, z), or OFF_BOARD; a coordinate that is not a number is off the board."""
+def label_at(header: GridHeaderRecord, labels: Any, level: int, x: float, z: float) -> int:
+    """The label of the cell at (x, z) on a level, or OFF_BOARD, as where a coordinate is not a number."""
+    if not 0 <= level < header.levels:
+        return OFF_BOARD
     if not (header.low_x <= x <= header.high_x and header.low_z <= z <= header.high_z):
         return OFF_BOARD
     row, column = int((x - header.low_x) / header.cell), int((z - header.low_z) / header.cell)
-    return labels[header.first + row * header.columns + column]
+    return labels[header.first + (level * header.rows + row) * header.columns + column]
 
 
 @kernel

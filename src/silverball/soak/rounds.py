@@ -13,6 +13,7 @@ from dataclasses import field
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import AfterValidator
 from pydantic.dataclasses import dataclass
 
@@ -20,7 +21,9 @@ from silverball.physics.records import records
 from silverball.soak.checks import WATCH, Found, ReferenceBoard, Watches, soak_worlds
 from silverball.soak.driver import Drivers
 from silverball.soak.hostile import hostile_table
+from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.json_file import STRICT, Amount, Count
+from silverball.soak.part_boards import part_table
 from silverball.soak.regions import region_map
 from silverball.table import Table, generate_table, table_digest
 from silverball.world import WorldBatch
@@ -48,6 +51,7 @@ class Options(NamedTuple):
         worlds: Worlds in a round.
         tick_rate: Ticks per second.
         hostile: Whether to soak boards that break every rule (see `hostile.py`).
+        parts: Whether every other board is made of all kinds of parts (see `part_boards.py`).
     """
 
     recipe: Table
@@ -55,6 +59,7 @@ class Options(NamedTuple):
     worlds: int
     tick_rate: int
     hostile: bool
+    parts: bool = False
 
     def as_dict(self) -> dict[str, Any]:
         """The options as plain values: soaks with equal ones do the same."""
@@ -128,7 +133,7 @@ class SoakBatch:
         tables: The table of each world.
         seeds: The seed of each world.
         tick_rate: Ticks per second.
-        hostile: Whether the tables were not checked.
+        hostile: Whether the check of each table was not made, or may have warned, or the same for all.
         wild: Whether each world is wild rather than quiet; empty: all are.
 
     Attributes:
@@ -144,7 +149,7 @@ class SoakBatch:
         tables: Sequence[Table],
         seeds: Sequence[int],
         tick_rate: int,
-        hostile: bool,
+        hostile: bool | Sequence[bool],
         wild: Sequence[bool] = (),
     ) -> None:
         self.batch = batch = WorldBatch(tables, len(tables), seeds, tick_rate)
@@ -156,14 +161,18 @@ class SoakBatch:
             boards.collider,
             *region_map(boards.board, boards.collider),
             records(len(tables), WATCH),
-            hostile,
+            np.array([hostile] * len(tables) if isinstance(hostile, bool) else hostile)[_first_of(batch)],
         )
 
     def truth(self, world: int) -> ReferenceBoard:
         """What the checks know of the table of a world."""
         watches, board = self.watches, self.batch.board_of[world]
         return ReferenceBoard(
-            watches.boards[board], watches.colliders, watches.headers[board], watches.labels, watches.hostile
+            watches.boards[board],
+            watches.colliders,
+            watches.headers[board],
+            watches.labels,
+            watches.hostile[board],
         )
 
     def run(self, ticks: int) -> None:
@@ -201,7 +210,7 @@ def round_batch(options: Options, number: int, only: int | None = None) -> SoakB
         [boards[board_of[world]] for world in worlds],
         [_seed(options.seed, number, f"world {world}") for world in worlds],
         options.tick_rate,
-        options.hostile,
+        [options.hostile or _has_parts(options, board_of[world]) for world in worlds],
         [world % QUIET_EVERY != 0 for world in worlds],
     )
 
@@ -234,14 +243,27 @@ def play_round(
 
 def _board(options: Options, number: int, board: int) -> Table:
     seed = _seed(options.seed, number, f"board {board}")
+    has_parts = _has_parts(options, board)
     if options.hostile:
-        return hostile_table(seed)
+        return hostile_part_table(seed) if has_parts else hostile_table(seed)
+    if has_parts:
+        return part_table(seed)
     if options.recipe.random is None:
         return options.recipe
     table = generate_table(seed, options.recipe)
     if board % ROLLING_EVERY:
         return table
     return table.model_copy(update={"board": table.board.model_copy(update=ROLLING)})
+
+
+def _has_parts(options: Options, board: int) -> bool:
+    """Whether a board of a round is made of all kinds of parts; the check may have warned of it."""
+    return options.parts and board % 2 != 0
+
+
+def _first_of(batch: WorldBatch) -> NDArray[np.int64]:
+    """The first world on each board of a batch."""
+    return np.unique(batch.board_of, return_index=True)[1]
 
 
 def _seed(seed: int, number: int, of: str) -> int:
