@@ -141,7 +141,8 @@ def put_ball(
     start_flight(ball, board, 0.0)
     if is_known:
         store_checksum(world, board, log)
-    log_event(log, as_int(EventKind.CREATED), ball, world.tick, NOTHING, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
+    contact = Contact(0.0, as_int(NOTHING), 0.0, 0.0)
+    log_event(log, as_int(EventKind.CREATED), ball, world.tick, NOTHING, contact, 0.0)
 
 
 @kernel
@@ -209,7 +210,7 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
         ball.vz += board.jitter * cosine
         ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
         start_flight(ball, board, 0.0)
-        contact = Contact(0.0, NOTHING, sine, cosine)
+        contact = Contact(0.0, as_int(NOTHING), sine, cosine)
         log_event(log, as_int(EventKind.JITTER), ball, world.tick, NOTHING, contact, board.jitter)
 
 

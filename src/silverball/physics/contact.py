@@ -20,6 +20,7 @@ from silverball.physics.for_devices import (
     is_captured,
     is_solid,
     level_of,
+    paddle_count,
     shares_level,
     switches_off,
 )
@@ -219,12 +220,13 @@ def first_contact(
         return best
     speed = sqrt(state.vx * state.vx + state.vz * state.vz)
     travel = span * (speed + board.max_accel * span)
-    for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
+    for number in range(paddle_count(ball, board)):
+        row = number + Part.FIRST_PADDLE
         c = colliders[board.collider_first + row]
         if not shares_level(c, ball):
             continue
         if is_near(state.x, state.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
-            sweep = read_sweep(lane.scratch.sweep[row - Part.FIRST_PADDLE])
+            sweep = read_sweep(lane.scratch.sweep[number])
             best = contact_with_paddle(c, row, sweep, ball, board.ball_radius, speed, start, best)
     return best
 
@@ -244,7 +246,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     advance_to(ball, board, ball.age + time)
     if contact.row == GUTTER:
         world.drained += 1
-        contact = Contact(time, GUTTER, 1.0, 0.0)
+        contact = Contact(time, as_int(GUTTER), 1.0, 0.0)
         log_event(lane.log, as_int(EventKind.GUTTER), ball, world.tick, GUTTER, contact, -ball.vx)
         clear_ball(ball)
         return

@@ -333,7 +333,7 @@ def _send_off(
     set_free(ball, board, time)
     speed = sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
     nx, nz = (ball.vx / speed, ball.vz / speed) if speed > 0.0 else (0.0, 0.0)
-    contact = Contact(time, NOTHING, nx, nz)
+    contact = Contact(time, as_int(NOTHING), nx, nz)
     log_event(lane.log, as_int(EventKind.RELEASED), ball, lane.world.tick, c.part, contact, speed)
 
 

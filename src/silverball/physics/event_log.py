@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from silverball.physics.for_devices import ball_slots, for_devices
+from silverball.physics.for_devices import ball_slots, for_devices, paddle_count
 from silverball.physics.kernel import as_int, inlined, internal, mixed_bits, wrapped
 from silverball.physics.records import (
     LOG_LENGTH,
@@ -89,12 +89,12 @@ def flight_checksum(world: WorldRecord, board: BoardRecord) -> int:
         checksum += _device_checksum(world, board)
     for slot in range(ball_slots(world, board)):
         checksum += _ball_checksum(world.ball[slot])
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         checksum += (3 + 2 * index) * mixed_bits(world.paddle[index].angle)
     return wrapped(checksum)
 
 
-@for_devices(lambda world, board: 0)
+@for_devices(lambda world, board: as_int(0))
 @internal
 def _device_checksum(world: WorldRecord, board: BoardRecord) -> int:
     """Compute the share of the devices."""
@@ -128,7 +128,7 @@ def _ball_checksum(ball: BallRecord) -> int:
     return start + motion + contact + _place_checksum(ball)
 
 
-@for_devices(lambda ball: 0)
+@for_devices(lambda ball: as_int(0))
 @inlined
 def _place_checksum(ball: BallRecord) -> int:
     """Compute the share of the fields that balls of plain worlds do not have."""

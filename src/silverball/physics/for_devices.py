@@ -21,10 +21,11 @@ from typing import Any, TypeVar, cast
 
 from numba import from_dtype as untyped_from_dtype, types
 
-from silverball.physics.kernel import SETTINGS, inlined
+from silverball.physics.kernel import SETTINGS, as_int, inlined
 from silverball.physics.records import (
     PLAIN_BALL,
     PLAIN_BALLS,
+    PLAIN_PADDLES,
     PLAIN_WORLD,
     BallRecord,
     BoardRecord,
@@ -92,14 +93,21 @@ def _is_plain(argument: Any) -> bool:
     return getattr(argument, "dtype", None) in PLAIN
 
 
-@for_devices(lambda world, board: PLAIN_BALLS)
+@for_devices(lambda world, board: as_int(PLAIN_BALLS))
 @inlined
 def ball_slots(world: WorldRecord, board: BoardRecord) -> int:
     """The slots in which balls can be; in plain worlds a constant, so that loops are unrolled."""
     return int(board.max_balls)
 
 
-@for_devices(lambda ball: 0)
+@for_devices(lambda world, board: as_int(PLAIN_PADDLES))
+@inlined
+def paddle_count(world: WorldRecord, board: BoardRecord) -> int:
+    """The number of paddles; in plain worlds a constant. `world` may be a ball instead."""
+    return int(board.paddles)
+
+
+@for_devices(lambda ball: as_int(0))
 @inlined
 def level_of(ball: BallRecord) -> int:
     """The level on which a ball is."""
@@ -113,7 +121,7 @@ def is_captured(ball: BallRecord) -> bool:
     return bool(ball.motion == Motion.CAPTURED)
 
 
-@for_devices(lambda world: 0)
+@for_devices(lambda world: as_int(0))
 @inlined
 def switches_off(world: WorldRecord) -> int:
     """The switches whose colliders are away, as bits."""

@@ -245,7 +245,8 @@ PLAIN_WORLD = np.dtype(
     ],
     align=True,
 )  # fmt: skip
-"""The record of a world on a *plain* board: few balls and paddles, one level, no devices.
+"""The record of a world on a *plain* board: two paddles, at most two balls, one
+level, no devices, nothing one-way, no arcs.
 
 It is a seventh as long as WORLD. Kernels are compiled for either type of record when they first meet it; see
 `for_devices.py` for what they leave out.

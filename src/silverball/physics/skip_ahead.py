@@ -11,8 +11,8 @@ from silverball.physics.broad_phase import is_near, max_travel
 from silverball.physics.contact import find_contact
 from silverball.physics.devices import ticks_to_clock
 from silverball.physics.flight import contact_with_ball, state_at, time_to_line
-from silverball.physics.for_devices import ball_slots, is_captured, switches_off
-from silverball.physics.kernel import as_int, inlined, internal
+from silverball.physics.for_devices import ball_slots, is_captured, paddle_count, switches_off
+from silverball.physics.kernel import inlined, internal
 from silverball.physics.motion import restart_slip, start_rolling
 from silverball.physics.records import (
     NOTHING,
@@ -50,8 +50,9 @@ def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, off: int, tick: fl
     if ball.x + margin * tick * (min(ball.vx, 0.0) - board.max_accel * tick) > board.paddle_top:
         return True
     travel = margin * tick * (abs(ball.vx) + abs(ball.vz) + board.max_accel * tick)
-    for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
-        c = geometry.colliders[board.collider_first + row]
+    first = board.collider_first + Part.FIRST_PADDLE
+    for number in range(paddle_count(ball, board)):
+        c = geometry.colliders[first + number]
         if is_near(ball.x, ball.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
             return False
     return True

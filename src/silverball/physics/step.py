@@ -30,7 +30,7 @@ from silverball.physics.devices import (
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
-from silverball.physics.for_devices import are_on_one_level, ball_slots, for_devices
+from silverball.physics.for_devices import are_on_one_level, ball_slots, for_devices, paddle_count
 from silverball.physics.kernel import as_int, inlined, internal, kernel, prefetch
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
@@ -133,7 +133,7 @@ def turn_paddles(
     Then they stand still as long as the buttons are the same.
     """
     first, stand = board.collider_first + Part.FIRST_PADDLE, True
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c, paddle = colliders[first + index], world.paddle[index]
         sweep = start_sweep(c, paddle, buttons & c.button != 0)
         store_paddle(paddle, sweep, tick)
@@ -165,9 +165,9 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     time = 0.0
     while True:
         limit = min(tick, clock)
-        for index in range(board.paddles):
+        for index in range(paddle_count(world, board)):
             limit = min(limit, scratch.sweep[index].stop_time)
-        slot, other, contact = -1, -1, Contact(limit, NOTHING, 0.0, 0.0)
+        slot, other, contact = -1, -1, Contact(limit, as_int(NOTHING), 0.0, 0.0)
         for index in range(ball_slots(world, board)):
             found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
@@ -185,7 +185,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
         elif slot >= 0:
             resolve(lane, geometry, world.ball[slot], contact, tick)
             scratch.ball_events[slot] += 1
-        for index in range(board.paddles):
+        for index in range(paddle_count(world, board)):
             sweep = scratch.sweep[index]
             if time >= sweep.stop_time:
                 write_sweep(sweep, end_at_stop(read_sweep(sweep)), NEVER)
@@ -201,7 +201,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             stop_jammed_balls(lane, geometry, time, jam_limit)
     for index in range(ball_slots(world, board)):
         release(world.ball[index], board, tick)
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         store_paddle(world.paddle[index], read_sweep(scratch.sweep[index]), tick)
     count_launch_ticks(world, board, buttons, as_int(1))
     finish_ticks(world, board, tick, as_int(1))
@@ -214,7 +214,7 @@ def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
     """Set the paddles' motion in a tick, and empty the counters that detect jams."""
     world, board, scratch = lane.world, geometry.board, lane.scratch
     first = board.collider_first + Part.FIRST_PADDLE
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c = geometry.colliders[first + index]
         sweep = start_sweep(c, world.paddle[index], buttons & c.button != 0)
         write_sweep(scratch.sweep[index], sweep, time_to_stop(sweep, tick))
@@ -354,7 +354,7 @@ def stop_jammed_ball(
     world, board, colliders = lane.world, geometry.board, geometry.colliders
     advance_to(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_repeat):
@@ -362,7 +362,7 @@ def stop_jammed_ball(
             write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
-    contact = Contact(time, NOTHING, 0.0, 0.0)
+    contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
     log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, NOTHING, contact, 0.0)
     if is_repeat:
         hold_still(ball, time)
@@ -479,7 +479,7 @@ def run_worlds(
             continue
         tick_index = 0
         while tick_index < ticks and are_balls_on_board(world, board):
-            row = 0 if is_held else tick_index
+            row = as_int(0) if is_held else tick_index
             if actions[row, index, JITTER_COLUMN] and (not is_held or (tick_index == 0 and not is_continued)):
                 shove_balls(world, board, log)
             buttons = held_buttons(actions, row, index)

@@ -18,6 +18,7 @@ from silverball.physics.for_devices import (
     is_captured,
     is_solid,
     level_of,
+    paddle_count,
     shares_level,
     switches_off,
 )
@@ -103,7 +104,7 @@ def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
     Overlapping balls are moved apart first, if that is possible.
     """
     board, colliders = geometry.board, geometry.colliders
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c, angle = colliders[board.collider_first + Part.FIRST_PADDLE + index], world.paddle[index].angle
         if not min(c.angle_rest, c.angle_up) <= angle <= max(c.angle_rest, c.angle_up):
             world.fault = as_int(Fault.BEYOND_STOP)
@@ -136,7 +137,7 @@ def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, ball: BallRec
         gap, _, _ = distance(c, x, z)
         if gap < min_gap:
             return False
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
         if not shares_level(c, ball):
             continue
@@ -166,7 +167,7 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
         else:
             world.fault = as_int(Fault.TOO_FAST)
         return False
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         if not is_finite(world.paddle[index].angle):
             world.fault = as_int(Fault.NOT_FINITE)
             return False

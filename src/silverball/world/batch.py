@@ -39,8 +39,8 @@ class WorldBatch:
         count: The number of worlds.
         tick_rate: Ticks per second.
         threads: The number of threads that `step` may use.
-        state: WORLD records, shape [world], or PLAIN_WORLD records if all boards are plain (no devices, one
-            level, at most two balls and paddles): everything that changes. A copied row, stepped with the
+        state: WORLD records, shape [world], or PLAIN_WORLD records if all boards are plain (two paddles, at
+            most two balls, one level, no devices): everything that changes. A copied row, stepped with the
             same actions, has exactly the same future.
         tables: The concrete tables (random parts already generated); worlds on the same table share one.
         board_of: The number of each world's table in `tables`, int64 [world].

@@ -261,9 +261,10 @@ def _is_plain(board: Any, rows: NDArray[Any]) -> bool:
     """Whether PLAIN_WORLD has room for a world on a board, and its kernels know all that is there."""
     return bool(
         board["max_balls"] <= PLAIN_BALLS
-        and board["paddles"] <= PLAIN_PADDLES
+        and board["paddles"] == PLAIN_PADDLES
         and board["sensors"] == board["switches"] == 0
         and not rows["one_way"].any()
+        and not (rows["form"] == Shape.ARC).any()
         and (rows["levels"] & 1).all()
     )
 
