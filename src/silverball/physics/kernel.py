@@ -44,7 +44,7 @@ from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
-from silverball.physics.linkage import HelperCompiler, KernelCompiler, WrapperCompiler, can_link
+from silverball.physics.linkage import HelperCompiler, KernelCompiler, can_link
 
 SETTINGS: Any = numba.core.config
 cgutils: Any = untyped_cgutils
@@ -86,11 +86,6 @@ F = TypeVar("F", bound=Callable[..., Any])
 def kernel(function: F) -> F:
     """Compile a function on its first call and cache the machine code for the next start."""
     return _compile(function)
-
-
-def wrapper(function: F) -> F:
-    """Compile a kernel that does little but call another one, without optimizing that one again."""
-    return _compile(function, **({"pipeline_class": WrapperCompiler} if can_link else {}))
 
 
 def internal(function: F) -> F:
@@ -235,7 +230,7 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     return folder if os.access(folder, os.W_OK) else None
 
 
-def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> bool:
+def is_compiled(name: str = "step_single_world", packages: tuple[str, ...] = PLAY) -> bool:
     """Whether a kernel's compiled code is on disk; otherwise a first start compiles it and all it calls.
 
     The first call for a folder checks its files. If one is damaged, it is discarded together with the code of

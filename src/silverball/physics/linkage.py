@@ -66,15 +66,6 @@ class HelperLibrary(Library):  # type: ignore[misc,valid-type]
         super()._finalize_final_module()
 
 
-class WrapperLibrary(KernelLibrary):
-    """The code of a kernel that does little but call another one, which is optimized already."""
-
-    def _optimize_final_module(self) -> None:
-        for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage.name == "linkonce_odr":
-                function.linkage = "internal"
-
-
 class KernelCompiler(Pipeline):  # type: ignore[misc,valid-type]
     """Compiles kernels that Python may call."""
 
@@ -91,9 +82,3 @@ class HelperCompiler(KernelCompiler):
     """Compiles functions that only kernels call."""
 
     library = HelperLibrary
-
-
-class WrapperCompiler(KernelCompiler):
-    """Compiles kernels that do little but call another one."""
-
-    library = WrapperLibrary

@@ -443,6 +443,34 @@ def hot_lines(world: WorldRecord) -> int:
     return HOT_LINES
 
 
+@inlined
+def run_held(lane: Lane, geometry: BoardGeometry, buttons: int, ticks: int, tick: float) -> None:
+    """Advance a world by a number of ticks, with these bits of buttons held and the jitter on the first.
+
+    A negative number continues the previous call by −ticks, as for `run_worlds`.
+    """
+    world, board, log = lane.world, geometry.board, lane.log
+    if ticks >= 0:
+        begin_step(log)
+    if ticks == 0 or not can_step(world, geometry, log, tick):
+        return
+    if buttons & JITTER != 0 and ticks > 0 and are_balls_on_board(world, board):
+        shove_balls(world, board, log)
+    left = abs(ticks)
+    while left > 0 and are_balls_on_board(world, board):
+        left -= advance(lane, geometry, buttons & ~JITTER, tick, left)
+    end_step(world, board, log)
+
+
+@inlined
+def end_step(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
+    """Set the fault of a world after its last tick, and what its log says about it."""
+    if not are_balls_on_board(world, board):
+        validate_world(world, board)  # sets the fault
+    store_checksum(world, board, log)
+    log.done = log.count
+
+
 @kernel
 def run_worlds(
     lanes: Lanes, geometries: BatchGeometry, actions: Any, first: int, end: int, ticks: int, tick: float
@@ -473,19 +501,21 @@ def run_worlds(
         world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)
+        if is_held:
+            buttons = held_buttons(actions, as_int(0), index)
+            if actions[0, index, JITTER_COLUMN]:
+                buttons |= JITTER
+            run_held(lane, geometry, buttons, -ticks if is_continued else ticks, tick)
+            continue
         if not is_continued:
             begin_step(log)
         if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
         tick_index = 0
         while tick_index < ticks and are_balls_on_board(world, board):
-            row = as_int(0) if is_held else tick_index
-            if actions[row, index, JITTER_COLUMN] and (not is_held or (tick_index == 0 and not is_continued)):
+            if actions[tick_index, index, JITTER_COLUMN]:
                 shove_balls(world, board, log)
-            buttons = held_buttons(actions, row, index)
-            if is_held:
-                tick_index += advance(lane, geometry, buttons, tick, ticks - tick_index)
-                continue
+            buttons = held_buttons(actions, tick_index, index)
             free = 0
             if not is_launching(world, board, buttons):
                 free = event_free_ticks(geometry, world, tick, ticks - tick_index)
@@ -505,7 +535,4 @@ def run_worlds(
                 count += 1
             finish_ticks(world, board, tick, count)
             tick_index += count
-        if not are_balls_on_board(world, board):
-            validate_world(world, board)  # sets the fault
-        store_checksum(world, board, log)
-        log.done = log.count
+        end_step(world, board, log)

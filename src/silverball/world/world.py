@@ -89,7 +89,7 @@ class World:
         self._paddle_count = int(self._board["paddles"])
         batch = self._batch
         self._stepper = SingleStepper(
-            batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
+            batch.boards, batch.state, batch.logs, batch.tallies, 1.0 / self.tick_rate
         )
         self._static = (self._board, self._batch.boards.collider)
 
@@ -389,7 +389,7 @@ class World:
         return bool(set_switch(self._record, geometry, switches, is_open))
 
     def _step_in_chunks(self, buttons: int, ticks: int) -> int:
-        """Play all but the last chunk of a step; return the remaining ticks for `run_worlds`."""
+        """Play all but the last chunk of a step; return the remaining ticks for `run_held`."""
         sign = 1
         while ticks > CHUNK_TICKS and not self._stepper.step(buttons, sign * CHUNK_TICKS):
             ticks, sign = ticks - CHUNK_TICKS, -1
