@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import tomllib
 
+import numpy as np
 import pytest
 
 from boards import table_of
 from holed import hide_from_the_solver, options_of
-from silverball.physics.records import NOTHING
+from silverball.physics.records import NOTHING, Device
+from silverball.soak import rounds as soak_module
+from silverball.soak.campaign import soak
 from silverball.soak.checks import Found, check_places
+from silverball.soak.finding import Finding, reproduce
 from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.part_boards import SECTION, part_table
 from silverball.soak.regions import MAIN_REGION
 from silverball.soak.rounds import SoakBatch, play_round, round_batch
 from silverball.table import SlantWall, Table, check_table, dump_table, load_table
 from silverball.table.kinds import DropTarget, Gate, Hole, Level, Passage, Plunger, Rollover
+from silverball.world import WorldBatch
 
 LINE = Rollover(start=(2.0, -2.0), end=(2.0, 2.0))
 DISC = Rollover(center=(2.0, 0.0), radius=0.6)
 GATE = Gate(start=(2.0, -2.0), end=(2.0, 2.0), passes="up")
-FALLING = (4.0, 0.1, -10.0, 0.0)
+FALLING = (4.05, 0.1, -10.0, 0.0)
 
 
 def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> SoakBatch:
@@ -179,10 +184,32 @@ def test_a_short_soak_of_all_parts_finds_nothing(short_rounds, hostile: bool) ->
     options = options_of(hostile, worlds=32, seed=11)._replace(parts=True)
     totals, places = play_round(options, 0)
     assert places == []
-    assert totals.hits > 10_000
+    assert totals.hits > 3000
 
 
 def test_the_built_in_table_of_all_parts_is_sound(short_rounds) -> None:
     totals, places = play_round(options_of(worlds=8)._replace(recipe=load_table("parts")), 0)
     assert places == []
     assert totals.hits > 1000
+
+
+class Blind(WorldBatch):
+    """Worlds whose solver knows nothing of the rollovers of its boards."""
+
+    def __init__(self, *arguments, **options) -> None:
+        super().__init__(*arguments, **options)
+        for row in np.nonzero(self.boards.collider["role"] == Device.SENSOR)[0]:
+            hide_from_the_solver(self, int(row))
+
+
+def test_a_finding_with_launches_is_recorded_and_reproduced(short_rounds, monkeypatch, tmp_path) -> None:
+    options = options_of()._replace(recipe=load_table("parts"))
+    with monkeypatch.context() as broken:
+        broken.setattr(soak_module, "WorldBatch", Blind)
+        log = soak(options, 1, tmp_path / "soak.json")
+        assert log.totals.found["missed"] == sum(log.totals.found.values()) > 0
+        findings = [Finding.from_text((tmp_path / name).read_text(), name) for name in log.findings]
+        assert {reproduce(finding) for finding in findings} == {Found.MISSED}
+        assert all(Finding.from_text(finding.to_text(), "") == finding for finding in findings)
+    assert {reproduce(finding) for finding in findings} == {Found.NOTHING}
+    assert any(type(action[4]) is int for finding in findings for action in finding.actions)
