@@ -16,11 +16,14 @@ from silverball.table.model import is_since_2, key_of
 from silverball.table.table import PART_KINDS
 
 PAGE = Path(__file__).parent / "tables.md"
+EXAMPLES = Path(__file__).parent / "parts"
 HEAD = """\
 # The table file
 
 A table is a TOML file: data only, never code. `silverball check FILE` reports every problem, with its place in
 the file; `silverball show --table FILE --out table.png` draws the table; `silverball play --table FILE` plays it.
+[Make a table](tutorials/table.md) and [Build a whole machine](tutorials/machine.md) are the tutorials; the built-in table
+`parts` has every kind of part once.
 
 Axes: x runs up the table from the gutter to the top, z to the player's right, the origin is the centre of the
 board. Points are written `[x, z]`. Angles are counter-clockwise as the player sees the board, from +z (right)
@@ -39,7 +42,8 @@ with the same checks:
     mine = table.replace(name="Mine", board={"gravity": 12}, cylinder=[bumper], triangular_prism=[])
     sb.save_table(mine, "mine.toml")
 
-This page is generated from `src/silverball/table/kinds/` and `table.py`.
+This page is generated from `src/silverball/table/kinds/` and `table.py`, the pictures from the examples below them by
+`docs/make_parts.py`.
 """
 MESHES = """\
 ## Obstacles from meshes
@@ -70,9 +74,7 @@ most 256 KB, and all its parts together at most 4,096 shapes, of which an edge o
 Where it fits, the defaults of format 2 are what tables for Visual Pinball use: 1 u is 100 of its units and 1 u/s one of
 its units of speed.
 """
-COMMON = """\
-## Keys of all parts
-
+ERRORS = """\
 ## Errors and warnings
 
 `silverball check FILE` and `sb.check_table(table)` tell two severities apart. An **error** keeps a table from being
@@ -82,6 +84,9 @@ gate or a plunger without room, a level that does not exist, too many of somethi
 and a maker may want: parts that overlap, cross or extend beyond the board, gaps that a ball barely fits, level faces and
 pockets in which a ball would lie until the table is shoved. Each is reported once for a pair of parts. With
 `--strict`, warnings are errors; the boards of a recipe add none to those of the recipe itself.
+"""
+COMMON = """\
+## Keys of all parts
 
 Every part may have these keys beside its own, solid ones all of them, others the name and the level. (Format 2, but for
 the name.)
@@ -97,7 +102,7 @@ NOTES = {"paddle": "Any number; in format 1 at most one per side"}
 
 def page() -> str:
     """Return the whole page."""
-    parts = [HEAD, FORMATS, _table("Top level", Table, "", skip=(*PART_KINDS, "board", "arcade"))]
+    parts = [HEAD, FORMATS, ERRORS, _table("Top level", Table, skip=(*PART_KINDS, "board", "arcade"))]
     parts.append(_table("`[board]`", Board, "Once"))
     rows = [_row(Bouncing, name, is_marked=False) for name in in_order(Bouncing) if name in SHARED]
     parts.append(COMMON + "\n".join(rows) + "\n")
@@ -105,7 +110,8 @@ def page() -> str:
         is_new = is_since_2(Table.model_fields[kind])
         note = NOTES.get(kind, "Any number; format 2" if is_new else "Any number")
         shared = [name for name in SHARED if _is_as_in_all(model, name)]
-        parts.append(_table(f"`[[{kind}]]`", model, note, skip=tuple(shared), is_marked=not is_new))
+        shown = _example(kind)
+        parts.append(_table(f"`[[{kind}]]`", model, note, shown, skip=tuple(shared), is_marked=not is_new))
     parts.append(_table("`[random]`", RandomRecipe, "Makes the table a recipe, with a board for every seed"))
     parts.append(_table("`[arcade]`", Arcade, "Once"))
     parts.append(MESHES)
@@ -118,10 +124,24 @@ def _is_as_in_all(model: Any, name: str) -> bool:
     return field is not None and (field.default, is_since_2(field)) == (common.default, is_since_2(common))
 
 
-def _table(title: str, model: Any, note: str, skip: tuple[str, ...] = (), is_marked: bool = True) -> str:
+def _example(kind: str) -> str:
+    """The picture of a kind, and the lines of a file that it shows."""
+    text = (EXAMPLES / f"{kind}.toml").read_text(encoding="utf-8")
+    return f"![{kind.replace('_', ' ')}]({EXAMPLES.name}/{kind}.png)\n\n```toml\n{text}```\n"
+
+
+def _table(
+    title: str,
+    model: Any,
+    note: str = "",
+    shown: str = "",
+    skip: tuple[str, ...] = (),
+    is_marked: bool = True,
+) -> str:
     text = "\n\n".join(" ".join(paragraph.split()) for paragraph in (model.__doc__ or "").split("\n\n")[:2])
     text = text.partition(" Examples:")[0].rstrip()
     lines = [f"## {title}", "", f"{text} ({note}.)" if note else text, ""]
+    lines += [shown] if shown else []
     lines += ["| key | default | range | meaning |", "| --- | --- | --- | --- |"]
     lines += [_row(model, name, is_marked) for name in in_order(model) if name not in skip]
     return "\n".join([*lines, ""])
@@ -155,7 +175,7 @@ def _default(field: Any) -> str:
 def _span(field: dict[str, Any]) -> str:
     for choice in (field, *field.get("anyOf", ())):
         if "minimum" in choice and "maximum" in choice:
-            return f"{choice['minimum']:g} to {choice['maximum']:g} {choice.get('unit', '')}".rstrip()
+            return f"{choice['minimum']:g} to {choice['maximum']:,.10g} {choice.get('unit', '')}".rstrip()
         if "enum" in choice:
             return " or ".join(f'"{v}"' if isinstance(v, str) else str(v) for v in choice["enum"])
     return ""

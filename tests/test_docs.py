@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pytest
+from PIL import Image
 
 import silverball
 from silverball.cli.app import main_command
-from silverball.table import parse_table
+from silverball.table import parse_table, table_digest
+from silverball.table.table import PART_KINDS
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+MACHINE = ROOT / "docs" / "tutorials" / "machine.md"
 DOCUMENTS = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
 
 
@@ -81,13 +84,56 @@ def test_an_example_is_short(example: Example):
 @pytest.mark.parametrize("example", examples("python"), ids=name_of)
 def test_an_example_runs_and_prints_what_stands_below_it(example: Example, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    if example.document == MACHINE:
+        Path("machine.toml").write_text("\n".join(STEPS), encoding="utf-8")
     printed = printed_by(example, capsys)
     assert printed == (example.shown.splitlines() or printed)
 
 
-@pytest.mark.parametrize("example", examples("toml"), ids=name_of)
+STEPS = [example.text for example in examples("toml") if example.document == MACHINE]
+"""The blocks of this tutorial are one table file."""
+
+FILES = [example for example in examples("toml") if example.document != MACHINE]
+
+
+@pytest.mark.parametrize("example", FILES, ids=name_of)
 def test_an_example_of_a_table_file_has_no_mistake(example: Example):
-    parse_table(f"format = 1\n{example.text}", example.document.name)
+    """A whole file is of format 1 unless it says otherwise; what begins with a part may be a piece of any."""
+    version = 2 if example.text.startswith("[[") else 1
+    table = parse_table(f"format = {version}\n{example.text}", example.document.name)
+    assert silverball.check_table(table) == []
+
+
+@pytest.mark.parametrize("count", range(1, len(STEPS) + 1))
+def test_the_check_has_no_complaint_after_any_step_of_the_tutorial(count: int):
+    table = parse_table("\n".join(STEPS[:count]), MACHINE.name)
+    assert silverball.check_table(table) == []
+
+
+def test_the_tutorial_ends_with_levels_a_bank_and_a_plunger():
+    table = parse_table("\n".join(STEPS), MACHINE.name)
+    assert table.plunger
+    assert table.level
+    assert len({target.bank for target in table.drop_target}) == 1 < len(table.drop_target)
+
+
+def script(name: str) -> dict[str, Any]:
+    """What a script of the documents defines."""
+    path = ROOT / "docs" / name
+    names: dict[str, Any] = {"__name__": path.stem, "__file__": str(path)}
+    exec(compile(path.read_text(encoding="utf-8"), path.name, "exec"), names)
+    return names
+
+
+@pytest.mark.parametrize("name", [*PART_KINDS, "machine"])
+def test_the_picture_of_a_part_is_small_and_shows_the_example_beside_it(name: str):
+    drawing = script("make_parts.py")
+    path = drawing["file_of"](name)
+    with Image.open(path) as picture:
+        assert picture.info[drawing["DIGEST"]] == table_digest(drawing["table_of"](name)), (
+            f"run: python docs/make_parts.py {name}"
+        )
+    assert path.stat().st_size < 100_000
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
@@ -107,9 +153,7 @@ def test_every_file_and_folder_that_architecture_names_exists():
 
 
 def test_the_reference_of_the_table_file_is_what_the_models_say():
-    script = ROOT / "docs" / "make_reference.py"
-    names: dict = {"__name__": "reference", "__file__": str(script)}
-    exec(compile(script.read_text(encoding="utf-8"), script.name, "exec"), names)
+    names = script("make_reference.py")
     assert names["PAGE"].read_text(encoding="utf-8") == names["page"](), "run: python docs/make_reference.py"
 
 

@@ -6,7 +6,7 @@ import importlib.util
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import pytest
 
@@ -300,3 +300,11 @@ def test_the_playground_has_every_kind_once_at_least() -> None:
     missing = [kind for kind in PART_KINDS if not getattr(playground, kind)]
     assert missing == []
     assert sb.check_table(playground) == []
+
+
+@pytest.mark.parametrize("kind", PART_KINDS)
+def test_none_is_a_value_only_where_it_is_the_default(kind: str):
+    """A file has no null, so a part with another None could not be written."""
+    for name, field in PART_KINDS[kind].model_fields.items():
+        accepts_none = type(None) in get_args(field.annotation)
+        assert not accepts_none or field.default is None, name

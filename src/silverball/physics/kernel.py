@@ -35,7 +35,10 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+from llvmlite import ir
 from numba import extending, types
+from numba.core import cgutils as untyped_cgutils
+from numba.core.cpu import CPUContext
 from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
@@ -43,6 +46,7 @@ from silverball.physics.compile_thread import run_in_compiler_thread
 from silverball.physics.linkage import HelperCompiler, KernelCompiler, WrapperCompiler, can_link
 
 SETTINGS: Any = numba.core.config
+cgutils: Any = untyped_cgutils
 # The packages whose sources the machine code of some kernels depends on.
 PLAY = ("physics", "world", "players")
 STUDY = (*PLAY, "metrics", "soak")
@@ -138,6 +142,29 @@ as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
 To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
 them would be compiled once for each.
 """
+
+
+@extending.intrinsic
+def _compiled_prefetch(typing_context: Any, record: Any, offset: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        if not isinstance(context, cast(Any, CPUContext)):  # of a graphics card
+            return context.get_dummy_value()
+        byte, number = ir.IntType(8), ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [byte.as_pointer(), number, number, number])
+        function = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch.p0")
+        at = builder.gep(builder.bitcast(arguments[0], byte.as_pointer()), [arguments[1]])
+        builder.call(function, [at, number(1), number(3), number(1)])
+        return context.get_dummy_value()
+
+    return types.void(record, types.int64), generate
+
+
+def _interpreted_prefetch(record: Any, offset: int) -> None:
+    pass
+
+
+prefetch: Any = _interpreted_prefetch if SETTINGS.DISABLE_JIT else _compiled_prefetch
+"""Ask for the line of the cache at an offset [bytes] of a record, which will soon be written."""
 
 
 def code_folder(packages: tuple[str, ...] = PLAY) -> Path:

@@ -12,7 +12,7 @@ A search also ends at the moment a paddle reaches its stop, so a paddle's motion
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
@@ -28,7 +28,7 @@ from silverball.physics.devices import (
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
-from silverball.physics.kernel import as_int, inlined, internal, kernel
+from silverball.physics.kernel import as_int, inlined, internal, kernel, prefetch
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
     angle_at,
@@ -43,12 +43,14 @@ from silverball.physics.paddle import (
     write_sweep,
 )
 from silverball.physics.records import (
+    BALL,
     JITTER,
     LAUNCH,
     LEFT,
     NOTHING,
     NULL_EVENT,
     RIGHT,
+    WORLD,
     BallRecord,
     BatchGeometry,
     BoardGeometry,
@@ -72,6 +74,9 @@ from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, JAM_GAP, J
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
 
 JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
+LINE = 64  # bytes of a line of the cache
+HOT_BYTES = cast(Any, WORLD.fields)["ball"][1] + 2 * BALL.itemsize  # of a world, up to its second ball
+HOT_LINES = -(-HOT_BYTES // LINE)
 
 
 @inlined
@@ -443,6 +448,11 @@ def run_worlds(
     ticks = abs(ticks)
     for index in range(first, end):
         lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index], lanes.logs[first])
+        if index + 1 < end:
+            next_world = lanes.worlds[index + 1]
+            for line in range(HOT_LINES):
+                prefetch(next_world, line * LINE)
+            prefetch(lanes.logs[index + 1], 0)
         world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)

@@ -34,7 +34,6 @@ from silverball.table.kinds import (
     SlantWall,
     Slingshot,
     Spinner,
-    StationaryPart,
     Target,
     TriangularPrism,
     Wall,
@@ -171,11 +170,6 @@ class Table(Model):
             for path, part in zip(paths, self.paddle, strict=True)
             if path not in known
         ]
-
-    @property
-    def stationary_parts(self) -> tuple[StationaryPart, ...]:
-        """The slant walls, triangular prisms and cylinders, in this order."""
-        return (*self.slant_wall, *self.triangular_prism, *self.cylinder)
 
     @property
     def has_mesh(self) -> bool:

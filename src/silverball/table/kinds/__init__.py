@@ -4,8 +4,6 @@ A new kind is one file here, with its model, its docstring for the reference and
 field of `Table`. Whatever reads a table reads the primitives (see `expand.py`).
 """
 
-from typing import TypeAlias
-
 from silverball.table.kinds.board import BORDERS, LEVELS, MAX_BALLS, Board
 from silverball.table.kinds.cylinder import Cylinder, CylinderSurface
 from silverball.table.kinds.gate import Gate
@@ -22,9 +20,6 @@ from silverball.table.kinds.spinner import Spinner
 from silverball.table.kinds.target import DropTarget, Target
 from silverball.table.kinds.triangular_prism import PrismSurface, TriangularPrism
 from silverball.table.kinds.wall import Wall
-
-StationaryPart: TypeAlias = SlantWall | TriangularPrism | Cylinder
-"""A part of format 1 that does not move."""
 
 __all__ = [
     "BORDERS",
@@ -48,7 +43,6 @@ __all__ = [
     "SlantWall",
     "Slingshot",
     "Spinner",
-    "StationaryPart",
     "Target",
     "TriangularPrism",
     "Wall",

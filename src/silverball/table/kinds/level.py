@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from silverball.physics.forms import Response, Shape
 from silverball.table.kinds.board import LEVELS, Board
 from silverball.table.kinds.part import LevelNumber, Line, Scored
-from silverball.table.model import Model, Name, SineCosine, libm
+from silverball.table.model import Model, Name, Points, SineCosine, libm
 from silverball.table.primitive import Finish, Point, Primitive, Surface
 from silverball.table.quantity import Count, FixedList, Quantity, refuse
 
@@ -38,6 +38,8 @@ class Passage(Line, Scored):
     """The level to the right of start → end, from which a ball comes."""
     to_level: Annotated[LevelNumber, Field(alias="to")]
     """The level to the left of start → end, to which it goes."""
+    points: Points = 0
+    """Points for a crossing that changes the level."""
 
     @model_validator(mode="after")
     def _changes_levels(self) -> Self:

@@ -34,7 +34,7 @@ class Slingshot(Line, Solid):
     """[u] from the middle of the band to its surface."""
     post_radius: Annotated[float, Quantity(0.02, 2.0, "u")] = 0.12
     """[u] radius of the posts at its ends."""
-    hit_speed: Annotated[HitSpeed | None, SINCE_2] = 2.0
+    hit_speed: Annotated[HitSpeed, SINCE_2] = 2.0
     """[u/s] an impact above it is a hit, and only a hit kicks."""
     restitution: Restitution = 0.8
     """Restitution at a slow contact."""

@@ -28,7 +28,7 @@ class Target(Line, Solid):
 
     thickness: Thickness = 0.08
     """[u] from the line between the ends to the surface, on both sides and around the ends."""
-    hit_speed: Annotated[HitSpeed | None, SINCE_2] = 1.0
+    hit_speed: Annotated[HitSpeed, SINCE_2] = 1.0
     """[u/s] an impact above it is a hit, below it a touch."""
     restitution: Restitution = 0.4
     """Restitution at a slow contact."""
