@@ -147,8 +147,8 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
     has_devices = board.sensors != 0 or board.switches != 0
-    work_plungers(lane, geometry, buttons, tick)
     start_tick(lane, geometry, buttons, tick)
+    work_plungers(lane, geometry, buttons, tick)
     near = near_pairs(world, board, tick)
     clock = clock_time(world, geometry, tick) if world.next_clock <= world.tick else NEVER
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
