@@ -1,4 +1,4 @@
-"""Invariances on boards of all kinds of parts: the mirror, the tick rate, and cutting a run into ticks.
+"""Invariances on boards of all kinds of parts: the mirror, and cutting a run into ticks.
 
 As in `test_symmetries.py`, flights on which rounding alone decides are left out.
 """
@@ -96,21 +96,6 @@ def test_the_mirrored_board_with_swapped_buttons_gives_the_mirrored_path(seed, s
         for time, at_x, at_z, kind, number, ball in image
     ]
     assert difference(seen, back) <= SAME
-
-
-@settings(max_examples=25, deadline=None)
-@given(st.integers(0, 60), starts)
-def test_the_tick_rate_does_not_matter_while_no_tick_end_clamp_plays_a_part(seed, start) -> None:
-    table = board(seed)
-    table = table.model_copy(update={"board": table.board.model_copy(update={"speed_cap": 200.0})})
-    assume(World(table).clearance(*start[:2]) > 1e-3)
-    idle = [(False, False)]
-    seen = seen_on(launched(table, start), idle)
-    assume(seen and is_tame(table, start, seen, idle))
-    for tick_rate in (10, 60, 1000):
-        other = seen_on(launched(table, start, tick_rate=tick_rate), idle)
-        count = min(len(seen), len(other))
-        assert difference(seen[:count], other[:count]) <= SAME
 
 
 @settings(max_examples=12, deadline=None)

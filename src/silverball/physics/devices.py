@@ -340,7 +340,10 @@ def _send_off(
 @for_devices(lambda lane, geometry, buttons, tick: None)
 @internal
 def work_plungers(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
-    """Launch the balls on the plungers at the start of a tick, if the button has been released."""
+    """Launch the balls on the plungers at the start of a tick, if the button has been released.
+
+    A ball stays where something is in its place, as a paddle that has turned over it.
+    """
     world, board = lane.world, geometry.board
     if not is_launching(world, board, buttons):
         return
@@ -348,7 +351,7 @@ def work_plungers(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float
         ball = world.ball[slot]
         if ball.id != 0 and ball.motion == Motion.CAPTURED:
             c = geometry.colliders[board.collider_first + ball.holder]
-            if c.role == Device.PLUNGER:
+            if c.role == Device.PLUNGER and _is_clear(lane, geometry, c.x, c.z, ball.level, 0.0):
                 speed = launch_speed(
                     c.launch_least, c.launch_greatest, c.charge_time, world.launch_held, tick
                 )

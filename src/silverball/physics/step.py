@@ -157,8 +157,8 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     each other in the order of their slots.
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
-    work_plungers(lane, geometry, buttons, tick)
     start_tick(lane, geometry, buttons, tick)
+    work_plungers(lane, geometry, buttons, tick)
     near = near_pairs(world, board, tick)
     clock = clock_time(world, geometry, tick) if ticks_to_clock(world) <= 0 else NEVER
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)

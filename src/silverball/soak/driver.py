@@ -29,6 +29,7 @@ from silverball.physics.records import (
     BoardRecord,
     Colliders,
     LogRecord,
+    Motion,
     Places,
     WorldRecord,
     records,
@@ -132,6 +133,8 @@ def choose_action(
         if world.ball[slot].id == 0:
             continue
         balls += 1
+        if world.ball[slot].motion == Motion.CAPTURED:
+            continue
         if wild and now >= driver.kick_at[slot]:
             driver.kick_at[slot] = now + 1 + int(next_random(world, driver) * KICK_EVERY / tick)
             speed = board.speed_cap
