@@ -9,7 +9,7 @@ minute. `crossings.py` checks sensors and one-way parts. The first finding stops
 from __future__ import annotations
 
 from enum import IntEnum
-from math import hypot, sqrt
+from math import hypot
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -306,11 +306,10 @@ def max_sagitta(board: BoardRecord, tick: float) -> float:
 @kernel
 def max_change(board: BoardRecord, tick: float) -> float:
     """Upper bound [u/s] on how far the velocity of a flight changes over one tick [s]."""
-    pull = sqrt(board.accel_x * board.accel_x + board.accel_z * board.accel_z)
+    accel = 0.0
     for level in range(MAX_LEVELS):
-        pull = max(pull, board.level_size[level])
-    change: float = tick * (2.0 * pull + board.friction * board.normal_accel)
-    return change
+        accel = max(accel, 2.0 * board.level_size[level] + board.friction * board.level_normal[level])
+    return tick * accel
 
 
 @kernel
