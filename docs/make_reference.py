@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from silverball.table import Arcade, Board, RandomRecipe, Table
-from silverball.table.kinds import Bouncing, in_order
+from silverball.table.kinds.part import Bouncing, in_order
 from silverball.table.model import is_since_2, key_of
 from silverball.table.table import PART_KINDS
 

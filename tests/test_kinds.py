@@ -15,7 +15,8 @@ from silverball.errors import TableError
 from silverball.physics.forms import Response, Shape
 from silverball.table import Table, dump_table, expand, parse_table, table_digest
 from silverball.table.geometry import pieces_of
-from silverball.table.kinds import Level, Part
+from silverball.table.kinds import Level
+from silverball.table.kinds.part import Part
 from silverball.table.model import is_since_2
 from silverball.table.placed_parts import Layout
 from silverball.table.primitive import Finish, Primitive

@@ -19,6 +19,7 @@ from hostile_text import obeyed_in
 from silverball.cli.app import run
 from silverball.cli.shared_options import check_output
 from silverball.errors import OutputError
+from silverball.physics.records import MAX_BALLS
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import soak
 from silverball.soak.finding import Finding, reproduce
@@ -323,7 +324,9 @@ def test_every_damaged_finding_is_refused_in_one_sentence(refused, soaked: Path)
     table = good["table_text"]
     bad |= {
         "an action too short": json.dumps(good | {"actions": [[0, 0, 0, 0, None]]}),
-        "an action too long": json.dumps(good | {"actions": [[0, 0, 0, 0, None, None, None]]}),
+        "an action too long": json.dumps(good | {"actions": [[0, 0, 0, 0, *[None] * (MAX_BALLS + 1)]]}),
+        "devices too large": json.dumps(good | {"actions": [[0, 0, 0, 0, 4, None, None]]}),
+        "devices true": json.dumps(good | {"actions": [[0, 0, 0, 0, True, None, None]]}),
         "state cut off": json.dumps(good | {"state": state[:-2]}),
         "state of another kind": json.dumps(good | {"state": "00" * 500}),
         "state changed": json.dumps(good | {"state": state[:300] + "01"[state[300] == "0"] + state[301:]}),

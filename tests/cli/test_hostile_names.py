@@ -15,6 +15,7 @@ from silverball.cli import app as cli
 from silverball.cli.app import run
 from silverball.errors import SilverballError, StateError, TableError
 from silverball.game.game import Game
+from silverball.game.replay.digest import OLDEST_PHYSICS
 from silverball.game.replay.format import Replay
 from silverball.game.replay.reader import checksum
 from silverball.game.view import Mode
@@ -211,7 +212,7 @@ def test_the_program_line_of_a_replay_is_shown(told, played: Replay):
         lines[1] = f"program = {name}"
         game = Replay.from_text(with_lines(lines))
         assert game.program == plain(name)
-        older = [*lines[:2], f"physics = {PHYSICS_VERSION - 1}", *lines[3:]]
+        older = [*lines[:2], f"physics = {OLDEST_PHYSICS - 1}", *lines[3:]]
         with pytest.raises(StateError) as caught:
             Replay.from_text(with_lines(older))
         assert f"play it with Silverball {plain(name)}, which wrote it" in str(caught.value)

@@ -220,7 +220,7 @@ def test_a_ball_written_into_a_part_stops_its_world_with_a_named_fault(x: float,
 def test_two_balls_written_into_each_other_are_parted() -> None:
     world = played(full_table(), 3)
     ball = world.records[0]["ball"]
-    ball["x"][:], ball["z"][:] = (3.0, 3.1), (3.0, 3.2)
+    ball["x"][:2], ball["z"][:2] = (3.0, 3.1), (3.0, 3.2)
     world.step()
     assert deepest(*world.records) <= DEPTH
 

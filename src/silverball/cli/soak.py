@@ -77,7 +77,7 @@ def run_soak(
     from silverball.game.user_folder import data_folder
     from silverball.table import load_table
 
-    parts, table = table is None, table or "random"
+    parts, table = table is None, "random" if table is None else table
     recipe = load_table(table)
     with compiling("soak_worlds"):
         from silverball.soak import campaign

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from silverball.table import Board, Table
-from silverball.table.kinds import BORDERS
+from silverball.table.kinds.board import BORDERS
 from silverball.table.primitive import Finish, Primitive
 
 RECIPE_FINISHES = (Finish.PRISM, Finish.BUMPER)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from silverball.table.kinds import BORDERS
+from silverball.table.kinds.board import BORDERS
 
 if TYPE_CHECKING:
     from silverball.table import Table

@@ -18,7 +18,6 @@ from silverball.table.kinds import (
     DropTarget,
     Gate,
     Hole,
-    Part,
     Passage,
     Plunger,
     Post,
@@ -28,6 +27,7 @@ from silverball.table.kinds import (
     Target,
     Wall,
 )
+from silverball.table.kinds.part import Part
 from silverball.table.kinds.wall import ChainPoint
 from silverball.table.primitive import Point
 

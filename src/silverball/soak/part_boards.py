@@ -20,7 +20,6 @@ from silverball.table.kinds import (
     Gate,
     Hole,
     Level,
-    Part,
     Passage,
     Plunger,
     Post,
@@ -31,6 +30,7 @@ from silverball.table.kinds import (
     Wall,
 )
 from silverball.table.kinds.gate import DIRECTIONS
+from silverball.table.kinds.part import Part
 from silverball.table.model import list_sections
 from silverball.table.primitive import Point
 

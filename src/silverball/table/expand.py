@@ -11,7 +11,9 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import NamedTuple
 
-from silverball.table.kinds import BORDERS, LEVELS, Board, Part
+from silverball.table.kinds import Board
+from silverball.table.kinds.board import BORDERS, LEVELS
+from silverball.table.kinds.part import Part
 from silverball.table.primitive import Point, Primitive
 from silverball.table.table import Table
 

@@ -26,7 +26,8 @@ from pydantic import BaseModel
 from silverball.errors import OutputError, Problem, TableError, UnknownTable
 from silverball.plain import plain
 from silverball.table.arcade import Arcade
-from silverball.table.kinds import Board, in_order
+from silverball.table.kinds import Board
+from silverball.table.kinds.part import in_order
 from silverball.table.model import Model, is_since_2, key_of
 from silverball.table.table import PART_KINDS, Table, check_table, checked_table, examine
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole

@@ -14,50 +14,10 @@ A constructor refuses unknown names and values out of range with pydantic's `Val
 use: flipper for paddle, bumper for cylinder, kicker for hole, drain for gutter, nudge for jitter.
 """
 
+from silverball.table import kinds
 from silverball.table.arcade import Arcade
-from silverball.table.kinds import (
-    Board,
-    Cylinder,
-    CylinderSurface,
-    DropTarget,
-    Gate,
-    Hole,
-    Level,
-    Paddle,
-    Passage,
-    Plunger,
-    Post,
-    PrismSurface,
-    Rollover,
-    SlantWall,
-    Slingshot,
-    Spinner,
-    Target,
-    TriangularPrism,
-    Wall,
-)
+from silverball.table.kinds import *  # noqa: F403
 from silverball.table.recipe import RandomRecipe
 
-__all__ = [
-    "Arcade",
-    "Board",
-    "Cylinder",
-    "CylinderSurface",
-    "DropTarget",
-    "Gate",
-    "Hole",
-    "Level",
-    "Paddle",
-    "Passage",
-    "Plunger",
-    "Post",
-    "PrismSurface",
-    "RandomRecipe",
-    "Rollover",
-    "SlantWall",
-    "Slingshot",
-    "Spinner",
-    "Target",
-    "TriangularPrism",
-    "Wall",
-]
+__all__ = ["Arcade", "RandomRecipe"]
+__all__ += kinds.__all__

@@ -13,7 +13,8 @@ from silverball.table.geometry import Pieces, Polygon, closed_corners, is_solid,
 from silverball.table.primitive import Primitive
 
 if TYPE_CHECKING:
-    from silverball.table.kinds import Board, Part
+    from silverball.table.kinds import Board
+    from silverball.table.kinds.part import Part
     from silverball.table.recipe import RandomRecipe
     from silverball.table.table import Table
 

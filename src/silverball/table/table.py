@@ -14,30 +14,12 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
 
 from silverball.errors import Problem, TableError
+from silverball.table import kinds
 from silverball.table.arcade import Arcade
 from silverball.table.check import check_layout
 from silverball.table.explain import explain, path_of
-from silverball.table.kinds import (
-    LEVELS,
-    Board,
-    Cylinder,
-    DropTarget,
-    Gate,
-    Hole,
-    Level,
-    Paddle,
-    Part,
-    Passage,
-    Plunger,
-    Post,
-    Rollover,
-    SlantWall,
-    Slingshot,
-    Spinner,
-    Target,
-    TriangularPrism,
-    Wall,
-)
+from silverball.table.kinds.board import LEVELS, Board
+from silverball.table.kinds.part import Part
 from silverball.table.model import SINCE_2, Model, Name, is_since_2, list_sections, places_of_format_2
 from silverball.table.placed_parts import Layout
 from silverball.table.placement import try_recipe
@@ -93,37 +75,37 @@ class Table(Model):
     """The title of the table."""
     board: Board = Board()
     """The board and its borders."""
-    slant_wall: Annotated[tuple[SlantWall, ...], _AT_MOST] = ()
+    slant_wall: Annotated[tuple[kinds.SlantWall, ...], _AT_MOST] = ()
     """The slant walls."""
-    paddle: Annotated[tuple[Paddle, ...], _AT_MOST] = ()
+    paddle: Annotated[tuple[kinds.Paddle, ...], _AT_MOST] = ()
     """The paddles; format 1 has at most one per side."""
-    triangular_prism: Annotated[tuple[TriangularPrism, ...], _AT_MOST] = ()
+    triangular_prism: Annotated[tuple[kinds.TriangularPrism, ...], _AT_MOST] = ()
     """The triangular prisms."""
-    cylinder: Annotated[tuple[Cylinder, ...], _AT_MOST] = ()
+    cylinder: Annotated[tuple[kinds.Cylinder, ...], _AT_MOST] = ()
     """The cylinders."""
-    wall: Annotated[tuple[Wall, ...], _AT_MOST, SINCE_2] = ()
+    wall: Annotated[tuple[kinds.Wall, ...], _AT_MOST, SINCE_2] = ()
     """The walls."""
-    post: Annotated[tuple[Post, ...], _AT_MOST, SINCE_2] = ()
+    post: Annotated[tuple[kinds.Post, ...], _AT_MOST, SINCE_2] = ()
     """The posts."""
-    slingshot: Annotated[tuple[Slingshot, ...], _AT_MOST, SINCE_2] = ()
+    slingshot: Annotated[tuple[kinds.Slingshot, ...], _AT_MOST, SINCE_2] = ()
     """The slingshots."""
-    target: Annotated[tuple[Target, ...], _AT_MOST, SINCE_2] = ()
+    target: Annotated[tuple[kinds.Target, ...], _AT_MOST, SINCE_2] = ()
     """The targets that stand."""
-    drop_target: Annotated[tuple[DropTarget, ...], _AT_MOST, SINCE_2] = ()
+    drop_target: Annotated[tuple[kinds.DropTarget, ...], _AT_MOST, SINCE_2] = ()
     """The drop targets."""
-    rollover: Annotated[tuple[Rollover, ...], _AT_MOST, SINCE_2] = ()
+    rollover: Annotated[tuple[kinds.Rollover, ...], _AT_MOST, SINCE_2] = ()
     """The rollovers."""
-    gate: Annotated[tuple[Gate, ...], _AT_MOST, SINCE_2] = ()
+    gate: Annotated[tuple[kinds.Gate, ...], _AT_MOST, SINCE_2] = ()
     """The gates."""
-    spinner: Annotated[tuple[Spinner, ...], _AT_MOST, SINCE_2] = ()
+    spinner: Annotated[tuple[kinds.Spinner, ...], _AT_MOST, SINCE_2] = ()
     """The spinners."""
-    hole: Annotated[tuple[Hole, ...], _AT_MOST, SINCE_2] = ()
+    hole: Annotated[tuple[kinds.Hole, ...], _AT_MOST, SINCE_2] = ()
     """The holes and drains."""
-    plunger: Annotated[tuple[Plunger, ...], _AT_MOST, SINCE_2] = ()
+    plunger: Annotated[tuple[kinds.Plunger, ...], _AT_MOST, SINCE_2] = ()
     """The plungers."""
-    passage: Annotated[tuple[Passage, ...], _AT_MOST, SINCE_2] = ()
+    passage: Annotated[tuple[kinds.Passage, ...], _AT_MOST, SINCE_2] = ()
     """The lines at which balls change their level."""
-    level: Annotated[tuple[Level, ...], _AT_MOST, SINCE_2] = ()
+    level: Annotated[tuple[kinds.Level, ...], _AT_MOST, SINCE_2] = ()
     """The levels above the playfield."""
     random: RandomRecipe | None = None
     """The obstacles to place at random for each seed, if any."""

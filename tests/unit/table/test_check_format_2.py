@@ -31,17 +31,7 @@ from silverball.table.geometry import (
     near_pairs,
     pieces_of,
 )
-from silverball.table.kinds import (
-    DropTarget,
-    Gate,
-    Hole,
-    Level,
-    Passage,
-    Plunger,
-    Post,
-    Slingshot,
-    Wall,
-)
+from silverball.table.kinds import DropTarget, Gate, Hole, Level, Passage, Plunger, Post, Slingshot, Wall
 from silverball.table.placed_parts import Layout
 from silverball.table.placement_rules import Surroundings
 from silverball.table.primitive import Mover, Primitive

@@ -15,7 +15,7 @@ import tomli_w
 
 from silverball.errors import TableError
 from silverball.table import Table, parse_table
-from silverball.table.kinds import Part
+from silverball.table.kinds.part import Part
 from silverball.table.parts import Arcade, Board, RandomRecipe
 from silverball.table.table import PART_KINDS
 from test_kinds import EXAMPLES

@@ -1,16 +1,15 @@
 """The kinds of parts that a table may have: one file a kind, each part a model that knows its primitives.
 
-A new kind is one file here, with its model, its docstring for the reference and its `primitives`, and one
-field of `Table`. Whatever reads a table reads the primitives (see `expand.py`).
+A new kind is one file here, with its model, its docstring for the reference and its `primitives`, its name
+below and one field of `Table`. Whatever reads a table reads the primitives (see `expand.py`).
 """
 
-from silverball.table.kinds.board import BORDERS, LEVELS, MAX_BALLS, Board
+from silverball.table.kinds.board import Board
 from silverball.table.kinds.cylinder import Cylinder, CylinderSurface
 from silverball.table.kinds.gate import Gate
 from silverball.table.kinds.hole import Hole
 from silverball.table.kinds.level import Level, Passage
 from silverball.table.kinds.paddle import Paddle
-from silverball.table.kinds.part import Bouncing, Part, in_order
 from silverball.table.kinds.plunger import Plunger
 from silverball.table.kinds.post import Post
 from silverball.table.kinds.rollover import Rollover
@@ -22,11 +21,7 @@ from silverball.table.kinds.triangular_prism import PrismSurface, TriangularPris
 from silverball.table.kinds.wall import Wall
 
 __all__ = [
-    "BORDERS",
-    "LEVELS",
-    "MAX_BALLS",
     "Board",
-    "Bouncing",
     "Cylinder",
     "CylinderSurface",
     "DropTarget",
@@ -34,7 +29,6 @@ __all__ = [
     "Hole",
     "Level",
     "Paddle",
-    "Part",
     "Passage",
     "Plunger",
     "Post",
@@ -46,5 +40,4 @@ __all__ = [
     "Target",
     "TriangularPrism",
     "Wall",
-    "in_order",
 ]
