@@ -116,7 +116,7 @@ class EventKind(IntEnum):
     """The kind of an event."""
 
     HIT = 1  # a ball met a part above hit_speed
-    TOUCH = 2  # the same below hit_speed
+    TOUCH = 2  # the same below hit_speed; or a passage threw a ball back
     BALL_HIT = 3  # two balls met above hit_speed
     BALL_TOUCH = 4
     GUTTER = 5  # a ball left the board

@@ -47,7 +47,13 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.step import button_bits, step_world
-from silverball.soak.crossings import depth_in_one_way, gap_to_sensor, has_passed, is_crossing_wrong
+from silverball.soak.crossings import (
+    depth_in_one_way,
+    gap_to_sensor,
+    has_passed,
+    is_crossing_wrong,
+    is_thrown_back,
+)
 from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action, move_gates
 from silverball.soak.regions import (
     BLOCKED,
@@ -242,6 +248,8 @@ def check_contacts(lane: Lane, truth: ReferenceBoard, watch: WatchRecord) -> Non
         event = log.event[number]
         if event.kind not in (EventKind.HIT, EventKind.TOUCH):
             continue
+        if is_thrown_back(truth.board, truth.colliders, event.kind, event.part):  # see `check_crossings`
+            continue
         gap = gap_to_part(world, truth, watch, event) - truth.board.ball_radius
         slot = slot_of(watch, event.ball)
         watch.deepest = max(watch.deepest, -gap)
@@ -415,7 +423,7 @@ def check_crossings(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick:
         return
     for number in range(log.count):
         event = log.event[number]
-        if event.kind == EventKind.PASS:
+        if event.kind == EventKind.PASS or is_thrown_back(board, truth.colliders, event.kind, event.part):
             gap = gap_to_sensor(board, truth.colliders, event.part, event.x, event.z)
             if gap > DEPTH:
                 report(world, watch, as_int(Found.PHANTOM), slot_of(watch, event.ball), world.tick - 1, -gap)
