@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from boards import CLASSIC, RANDOM, full_table
+from boards import CLASSIC, PLAYGROUND, RANDOM, full_table
 from silverball.errors import BoardFull, NoRoom
 from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.part_boards import part_table
@@ -69,6 +69,15 @@ def rolling(seed: int) -> Table:
     return table.model_copy(update={"board": rough})
 
 
+def playground() -> Table:
+    return PLAYGROUND
+
+
+def rolling_playground() -> Table:
+    rough = PLAYGROUND.board.model_copy(update={"friction": 0.2, "rolling": True})
+    return PLAYGROUND.model_copy(update={"board": rough})
+
+
 def jamming() -> Table:
     """A bar above the paddles, under which they press balls."""
     return full_table(SlantWall(start=(-6.0, -1.5), end=(-6.2, 1.5)))
@@ -92,6 +101,8 @@ SCENES = (
     Scene("random board 9 as in the window", lambda: generated(9), seed=9, tick_rate=240, ticks=4800),
     Scene("rolling as in the window", lambda: rolling(11), seed=14, tick_rate=240, ticks=4800),
     Scene("odd ticks", lambda: generated(10), seed=10, tick_rate=977, ticks=9000),
+    Scene("devices", playground, seed=20, ticks=3600, launch=0.5),
+    Scene("devices as in the window", rolling_playground, seed=19, tick_rate=240, ticks=9600, launch=0.5),
 )
 
 ALL_PARTS = (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
 
 from golden.make_digests import FILE, REMEDY, Golden, changed, digest, read, renew
@@ -38,6 +40,13 @@ def test_the_scenes_meet_everything_there_is_to_meet(ends):
     total = {name: sum(int(world.records[0][name]) for world in ends.values()) for name in counters}
     assert all(total.values()), total
     assert not any(world.fault for world in ends.values())
+
+
+def test_the_scenes_of_devices_use_every_part(ends):
+    used = Counter()
+    for name in ("devices", "devices as in the window"):
+        used.update(ends[name].hits)
+    assert [part for part, count in used.items() if count == 0] == ["board.top"]  # behind the arch
 
 
 OLD = Golden(3, {"a": "1", "b": "2"}, {"a": 2, "b": 3})

@@ -25,12 +25,7 @@ EDGES = (
 BOARD = {"gravity": 3.0, "slope": 11.2, "friction": 0.02, "rolling": True, "gutter": -5.5, "length": 13.6}
 
 
-CREEPS = pytest.mark.xfail(
-    reason="a search along an arc goes on for a least time in which a ball sinks", strict=True
-)
-
-
-@pytest.mark.parametrize("walls", [EDGES, pytest.param(ARCS, marks=CREEPS)])
+@pytest.mark.parametrize("walls", [EDGES, ARCS])
 def test_a_wedged_ball_does_not_get_deeper_tick_by_tick(walls) -> None:
     world = World(table_of(*walls, width=11.0, **BOARD), tick_rate=240)
     world.create_ball((4.340597776431, -4.275462890422), (-1.67, 1.9))

@@ -186,11 +186,15 @@ def create_on_plunger(
     if row < 0:
         return as_int(Outcome.NO_ROOM)
     c = colliders[board.collider_first + row]
-    gap, _ = clearance(world, board, colliders, c.x, c.z, as_int(0))
+    level = as_int(0)
+    while c.levels >> level & 1 == 0:
+        level += 1
+    gap, _ = clearance(world, board, colliders, c.x, c.z, level)
     if gap < -MAX_DEPTH:
         return as_int(Outcome.NO_ROOM)
     is_known = flight_checksum(world, board) == log.checksum
     put_ball(world, board, log, slot, c.x, c.z, 0.0, 0.0)
+    world.ball[slot].level = level
     capture(world.ball[slot], row, c.x, c.z, 0.0)
     if is_known:
         store_checksum(world, board, log)

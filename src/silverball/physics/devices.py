@@ -87,6 +87,9 @@ def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int
             # Something is in the way on the other level: the ball is thrown back.
             ball.vx -= 2.0 * speed * c.inward_x
             ball.vz -= 2.0 * speed * c.inward_z
+            contact = Contact(time, row, -side * c.inward_x, -side * c.inward_z)
+            world.touches += 1
+            log_event(lane.log, as_int(EventKind.TOUCH), ball, world.tick, c.part, contact, abs(speed))
             start_flight(ball, board, time)
             return
         ball.level = after

@@ -167,21 +167,31 @@ def _time_to_arc(
         if gap <= CONTACT_GAP and rate < 0.0:
             return newton_refined(time, gap, rate), True
         gap = max(gap, 0.0)
-        least = min_step if rate >= 0.0 else 0.0  # of a ball that runs along the surface, see MIN_ADVANCE_GAP
-        step, center_x, center_z = 0.0, state.x - c.x2, state.z - c.z2
+        gap_accel = nx * ball.accel_x + nz * ball.accel_z
+        height = nx * (state.x - c.x2) + nz * (state.z - c.z2)  # over the centre; < 0 inside its disc
         if not is_beside_arc(c, state.x, state.z):
-            step = min(
-                _time_to_point(ball, state, c.x0, c.z0, c.radius + radius, min_step),
-                _time_to_point(ball, state, c.x1, c.z1, c.radius + radius, min_step),
-                max(_time_to_angle(c, ball, state), least),
+            to_end = min(
+                _time_to_point(ball, state, c.x0, c.z0, c.radius + radius),
+                _time_to_point(ball, state, c.x1, c.z1, c.radius + radius),
             )
-        elif nx * center_x + nz * center_z > 0.0:  # outside its disc
-            step = max(time_to_line(gap, rate, nx * ball.accel_x + nz * ball.accel_z), least)
+            is_pressed = to_end == 0.0
+            least = min_step if rate >= 0.0 else 0.0  # at the line through an end
+            step = min(to_end, max(_time_to_angle(c, ball, state), least))
+        elif height > 0.0:
+            step = time_to_line(gap, rate, gap_accel)
+            is_pressed = step == 0.0
         else:
-            half = 0.5 * sqrt(center_x * center_x + center_z * center_z)
-            if half > 0.125 * c.arc_radius:  # nearer to the centre the bound on the speed is the better one
-                step = max(time_to_line(gap, rate, -(accel + max_speed * max_speed / half)), least)
-                step = min(step, time_to_line(half, -max_speed, -accel))
+            along = nx * state.vz - nz * state.vx
+            opens = -gap_accel * height >= along * along  # the gap's acceleration is ≥ 0
+            is_pressed = gap == 0.0 and rate == 0.0 and not opens
+            least = min_step if rate >= 0.0 and opens else 0.0  # see MIN_ADVANCE_GAP
+            step = 0.0
+            if -height > 0.25 * c.arc_radius:  # nearer to the centre the bound on the speed is the better one
+                bend = accel - 2.0 * max_speed * max_speed / height
+                step = max(time_to_line(gap, rate, -bend), least)
+                step = min(step, time_to_line(-0.5 * height, -max_speed, -accel))
+        if is_pressed:  # at rest on the arc
+            return time, True
         speed = sqrt(state.vx * state.vx + state.vz * state.vz)
         time += max(step, time_to_line(gap, -speed, -accel))
         if not time < limit:
@@ -190,14 +200,11 @@ def _time_to_arc(
 
 
 @inlined
-def _time_to_point(
-    ball: BallRecord, state: BallMotion, px: float, pz: float, reach: float, min_step: float
-) -> float:
-    """Compute a time [s] for which a ball stays out of `reach` of a point; `min_step` if it recedes."""
+def _time_to_point(ball: BallRecord, state: BallMotion, px: float, pz: float, reach: float) -> float:
+    """Compute a time [s] for which a ball stays out of `reach` of a point; 0 where it is pressed to it."""
     gap, nx, nz = point_distance(state.x, state.z, px, pz)
     rate = nx * state.vx + nz * state.vz
-    step = time_to_line(max(gap - reach, 0.0), rate, nx * ball.accel_x + nz * ball.accel_z)
-    return max(step, min_step) if rate >= 0.0 else step
+    return time_to_line(max(gap - reach, 0.0), rate, nx * ball.accel_x + nz * ball.accel_z)
 
 
 @internal

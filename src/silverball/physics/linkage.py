@@ -33,13 +33,23 @@ can_link: bool = all(
 """Whether this version of Numba has what is changed here."""
 
 
+def make_internal(code: Any) -> None:
+    """Make the callees of a kernel internal.
+
+    The loader confuses an internal function with one of the same name in code that is not compiled here, such
+    as a `numba.njit` function that calls kernels. LLVM may have changed its arguments, so it gets a new name.
+    """
+    for function in code.functions:
+        if not function.is_declaration and function.linkage.name == "linkonce_odr":
+            function.linkage = "internal"
+            function.name += ".internal"
+
+
 class KernelLibrary(Library):  # type: ignore[misc,valid-type]
     """The code of a kernel that Python may call."""
 
     def _optimize_final_module(self) -> None:
-        for function in self._final_module.functions:
-            if not function.is_declaration and function.linkage.name == "linkonce_odr":
-                function.linkage = "internal"
+        make_internal(self._final_module)
         super()._optimize_final_module()
 
 

@@ -104,7 +104,7 @@ def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
     """Start a new flight from the state in the ball's record, `offset` [s] into the tick."""
     _set_start(ball, offset)
     level = level_of(ball)
-    if board.normal_accel == 0.0 or level != 0:
+    if board.level_normal[level] == 0.0:
         ball.accel_x, ball.accel_z = board.level_x[level], board.level_z[level]
         ball.motion, ball.roll_age = as_int(Motion.SLIDING), NEVER
     else:
@@ -205,26 +205,28 @@ def choose_motion_inlined(ball: BallRecord, board: BoardRecord) -> None:
 
     Along its direction the slip decreases from |u| at the rate  7/2·μ·p − g·u/|u|.
     """
+    level = level_of(ball)
+    pull_x, pull_z, pull = board.level_x[level], board.level_z[level], board.level_size[level]
     slip_x, slip_z = slip(ball, board)
     speed = sqrt(slip_x * slip_x + slip_z * slip_z)
-    grip = board.friction * board.normal_accel
+    grip = board.friction * board.level_normal[level]
     ball.roll_age = NEVER
     if speed <= MIN_SLIP_SPEED:
-        if board.gravity <= SLIP_DECAY_FACTOR * grip:
+        if pull <= SLIP_DECAY_FACTOR * grip:
             ball.motion = as_int(Motion.ROLLING)
-            ball.accel_x, ball.accel_z = ROLLING_SHARE * board.accel_x, ROLLING_SHARE * board.accel_z
+            ball.accel_x, ball.accel_z = ROLLING_SHARE * pull_x, ROLLING_SHARE * pull_z
             return
         # Too smooth to roll: the ball starts to slip down the slope.
-        along_x, along_z = board.accel_x / board.gravity, board.accel_z / board.gravity
+        along_x, along_z = pull_x / pull, pull_z / pull
     else:
         inverse = 1.0 / speed
         along_x, along_z = slip_x * inverse, slip_z * inverse
-        rate = SLIP_DECAY_FACTOR * grip - (board.accel_x * along_x + board.accel_z * along_z)
+        rate = SLIP_DECAY_FACTOR * grip - (pull_x * along_x + pull_z * along_z)
         if rate > 0.0:
             ball.roll_age = speed / rate
     ball.motion = as_int(Motion.SLIPPING)
-    ball.accel_x = board.accel_x - grip * along_x
-    ball.accel_z = board.accel_z - grip * along_z
+    ball.accel_x = pull_x - grip * along_x
+    ball.accel_z = pull_z - grip * along_z
 
 
 @inlined
@@ -253,9 +255,9 @@ def _advance_spin(ball: BallRecord, board: BoardRecord, age: float) -> None:
     if ball.motion == Motion.ROLLING:
         _set_rolling_spin(ball, board)
     elif ball.motion == Motion.SLIPPING:
-        gain = 2.5 * age * board.curvature
-        ball.spin_x -= gain * (ball.accel_z - board.accel_z)
-        ball.spin_z += gain * (ball.accel_x - board.accel_x)
+        gain, level = 2.5 * age * board.curvature, level_of(ball)
+        ball.spin_x -= gain * (ball.accel_z - board.level_z[level])
+        ball.spin_z += gain * (ball.accel_x - board.level_x[level])
 
 
 @internal
@@ -304,25 +306,19 @@ def has_valid_motion(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     if not _has_valid_search(ball):
         return False
     level = level_of(ball)
-    if level != 0:
-        return bool(
-            ball.motion == Motion.SLIDING
-            and ball.accel_x == board.level_x[level]
-            and ball.accel_z == board.level_z[level]
-            and ball.roll_age == NEVER
-        )
+    has_friction = board.level_normal[level] != 0.0
     if ball.motion == Motion.SLIPPING:
-        return board.normal_accel != 0.0
+        return has_friction
     share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
     if (
-        ball.accel_x != share * board.accel_x
-        or ball.accel_z != share * board.accel_z
+        ball.accel_x != share * board.level_x[level]
+        or ball.accel_z != share * board.level_z[level]
         or ball.roll_age != NEVER
     ):
         return False
     if ball.motion == Motion.ROLLING:
-        return board.normal_accel != 0.0 and not is_slipping(ball, board)
-    return ball.motion == Motion.SLIDING and board.normal_accel == 0.0
+        return has_friction and not is_slipping(ball, board)
+    return ball.motion == Motion.SLIDING and not has_friction
 
 
 @for_devices(lambda ball: True)

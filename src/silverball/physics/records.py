@@ -119,7 +119,7 @@ class EventKind(IntEnum):
     """The kind of an event."""
 
     HIT = 1  # a ball met a part above hit_speed
-    TOUCH = 2  # the same below hit_speed
+    TOUCH = 2  # the same below hit_speed; or a passage threw a ball back
     BALL_HIT = 3  # two balls met above hit_speed
     BALL_TOUCH = 4
     GUTTER = 5  # a ball left the board
@@ -279,9 +279,10 @@ BOARD = np.dtype(
         ("normal_accel", "f8"),  # acceleration onto the playfield [u/s²]; 0: it has no friction, balls slide
         ("max_accel", "f8"),  # bound on the acceleration of any flight [u/s²]
         ("max_balls", "i8"),
-        # Each level: acceleration of a sliding ball [u/s²], and its size.
+        # Each level: acceleration of a sliding ball [u/s²], its size, and the one onto the level. Where
+        # that is 0, balls slide.
         ("level_x", "f8", (MAX_LEVELS,)), ("level_z", "f8", (MAX_LEVELS,)),
-        ("level_size", "f8", (MAX_LEVELS,)),
+        ("level_size", "f8", (MAX_LEVELS,)), ("level_normal", "f8", (MAX_LEVELS,)),
         # Devices: rows that balls cross, all switches, rows of plungers and spinners, and of each bank its
         # switches and the time after which it comes back [s].
         ("sensors", "i8"), ("switches", "i8"), ("plungers", "i8"), ("plunger_row", "i8"),

@@ -42,6 +42,7 @@ from silverball.physics.paddle import (
     read_sweep,
     start_sweep,
     stop_sweep,
+    surface_velocity,
     time_to_stop,
     write_sweep,
 )
@@ -348,41 +349,63 @@ def stop_jammed_ball(
     """Stop a jammed ball at a time of the tick, and stall the paddles next to it.
 
     A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
+    So is one that an accelerating paddle leaves; the paddle goes on.
     """
     if ball.id == 0 or is_fixed(ball):
         return
     world, board, colliders = lane.world, geometry.board, geometry.colliders
     advance_to(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
+    first = board.collider_first + Part.FIRST_PADDLE
+    is_held = is_repeat
     for index in range(paddle_count(world, board)):
-        c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
+        is_held |= is_leaving(
+            read_sweep(lane.scratch.sweep[index]), colliders[first + index], ball, near, time
+        )
+    for index in range(paddle_count(world, board)):
+        c = colliders[first + index]
         sweep = read_sweep(lane.scratch.sweep[index])
-        if must_stall(sweep, c, ball, near, time, is_repeat):
+        if must_stall(sweep, c, ball, near, time, is_held):
             until = stall_time(sweep, c, ball, board.ball_radius, time)
             write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
     log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, NOTHING, contact, 0.0)
-    if is_repeat:
+    if is_held:
         hold_still(ball, time)
     else:
         start_flight(ball, board, time)
 
 
 @internal
+def is_leaving(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float) -> bool:
+    """Whether an accelerating paddle within `near` [u] of a jammed ball's centre turns away from it.
+
+    Such a paddle starts from rest. A ball pinched between it and something else meets both again and again
+    before there is a gap, so if that stopped the paddle, nothing would ever let the ball go. A paddle at
+    constant speed leaves faster than a ball hops.
+    """
+    if paddle.alpha == 0.0 or not is_turning(paddle):
+        return False
+    gap, nx, nz = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    ux, uz = surface_velocity(c, paddle.stop - paddle.angle, ball.x - gap * nx, ball.z - gap * nz)
+    return bool(gap < near and ux * nx + uz * nz < 0.0)
+
+
+@internal
 def must_stall(
-    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float, is_repeat: bool
+    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float, is_held: bool
 ) -> bool:
     """Whether a turning paddle is within `near` [u] of a jammed ball's centre, so that it has to stop.
 
-    If the ball is about to be held (`is_repeat`), a paddle that could reach it stops too: no paddle may run
-    into a held ball.
+    If the ball is about to be held, a paddle that could reach it stops too: no paddle may run into a held
+    ball.
     """
-    if not is_turning(paddle):
+    if not is_turning(paddle) or is_leaving(paddle, c, ball, near, time):
         return False
     gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
-    return bool(gap < near or (is_repeat and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
+    return bool(gap < near or (is_held and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
 
 
 @internal

@@ -9,7 +9,7 @@ minute. `crossings.py` checks sensors and one-way parts. The first finding stops
 from __future__ import annotations
 
 from enum import IntEnum
-from math import hypot, sqrt
+from math import hypot
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -48,7 +48,13 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.step import button_bits, step_world
-from silverball.soak.crossings import depth_in_one_way, gap_to_sensor, has_passed, is_crossing_wrong
+from silverball.soak.crossings import (
+    depth_in_one_way,
+    gap_to_sensor,
+    has_passed,
+    is_crossing_wrong,
+    is_thrown_back,
+)
 from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action, move_gates
 from silverball.soak.regions import (
     BLOCKED,
@@ -245,6 +251,8 @@ def check_contacts(lane: Lane, truth: ReferenceBoard, watch: WatchRecord) -> Non
         event = log.event[number]
         if event.kind not in (EventKind.HIT, EventKind.TOUCH):
             continue
+        if is_thrown_back(truth.board, truth.colliders, event.kind, event.part):  # see `check_crossings`
+            continue
         gap = gap_to_part(world, truth, watch, event) - truth.board.ball_radius
         slot = slot_of(watch, event.ball)
         watch.deepest = max(watch.deepest, -gap)
@@ -309,11 +317,10 @@ def max_sagitta(board: BoardRecord, tick: float) -> float:
 @kernel
 def max_change(board: BoardRecord, tick: float) -> float:
     """Upper bound [u/s] on how far the velocity of a flight changes over one tick [s]."""
-    pull = sqrt(board.accel_x * board.accel_x + board.accel_z * board.accel_z)
+    accel = 0.0
     for level in range(MAX_LEVELS):
-        pull = max(pull, board.level_size[level])
-    change: float = tick * (2.0 * pull + board.friction * board.normal_accel)
-    return change
+        accel = max(accel, 2.0 * board.level_size[level] + board.friction * board.level_normal[level])
+    return tick * accel
 
 
 @kernel
@@ -421,7 +428,7 @@ def check_crossings(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick:
         return
     for number in range(log.count):
         event = log.event[number]
-        if event.kind == EventKind.PASS:
+        if event.kind == EventKind.PASS or is_thrown_back(board, truth.colliders, event.kind, event.part):
             gap = gap_to_sensor(board, truth.colliders, event.part, event.x, event.z)
             if gap > DEPTH:
                 report(world, watch, as_int(Found.PHANTOM), slot_of(watch, event.ball), world.tick - 1, -gap)

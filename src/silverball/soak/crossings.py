@@ -123,6 +123,15 @@ def has_passed(log: LogRecord, board: BoardRecord, colliders: Colliders, ball: i
 
 
 @kernel
+def is_thrown_back(board: BoardRecord, colliders: Colliders, kind: int, part: int) -> bool:
+    """Whether an event is that of a passage which has thrown a ball back: a touch of its line."""
+    for index in range(board.collider_first + board.shape_first, board.collider_end):
+        if colliders[index].part == part and colliders[index].role == Device.PASSAGE:
+            return bool(kind == EventKind.TOUCH)
+    return False
+
+
+@kernel
 def gap_to_sensor(board: BoardRecord, colliders: Colliders, part: int, x: float, z: float) -> float:
     """Compute how far (x, z) is from the nearest line or circle of a part [u]."""
     gap = inf

@@ -226,8 +226,20 @@ def _set_board(row: Any, board: Board, expansion: Expansion) -> None:
     row["max_accel"] = board.gravity + board.friction * row["normal_accel"]
     for level, (x, z) in enumerate(expansion.gravity):
         size = abs(x) if z == 0.0 else math.sqrt(x * x + z * z)
-        row["level_x"][level], row["level_z"][level], row["level_size"][level] = x, z, size
-        row["max_accel"] = max(row["max_accel"], size)
+        normal = _normal_accel(size, board.gravity, row["normal_accel"])
+        row["level_x"][level], row["level_z"][level] = x, z
+        row["level_size"][level], row["level_normal"][level] = size, normal
+        row["max_accel"] = max(row["max_accel"], size + board.friction * normal)
+
+
+def _normal_accel(pull: float, gravity: float, normal: float) -> float:
+    """The acceleration onto a level along which it is `pull` [u/s²]; 0: vertical, or without friction.
+
+    Both have the size that `gravity` and `normal` have together, those of the playfield.
+    """
+    if normal == 0.0 or pull == gravity:
+        return normal
+    return math.sqrt(max(0.0, normal * normal + (gravity - pull) * (gravity + pull)))
 
 
 def _set_bounds(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:

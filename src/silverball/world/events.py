@@ -61,8 +61,9 @@ class Event(NamedTuple):
     """Something that happened to a ball.
 
     Attributes:
-        kind: "hit" (a contact above `Board.hit_speed`), "touch" (a slower one), "ball_hit" and "ball_touch"
-            (the same with another ball), "gutter" (the ball left, or fell into a drain), "created", "jitter"
+        kind: "hit" (a contact above `Board.hit_speed`), "touch" (a slower one, or a passage threw it back),
+            "ball_hit" and "ball_touch" (the same with another ball),
+            "gutter" (the ball left, or fell into a drain), "created", "jitter"
             (it was shoved), "jam" (it was pinched, and stopped), "pass" (it crossed a sensor, passage or
             spinner), "spin" (a spinner made a turn), "captured" (a hole or plunger holds it), "released"
             (that sent it off), or "reset" (a drop target has come back).

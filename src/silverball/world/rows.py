@@ -28,6 +28,8 @@ def set_row(row: Any, primitive: Primitive, board: Board) -> None:
     row["form"], row["response"] = primitive.shape, primitive.response
     row["levels"] = sum(1 << level for level in set(primitive.levels))
     SET_SHAPE[primitive.shape](row, primitive)
+    if primitive.passage is not None:
+        lengthen(row, board.ball_radius)
     set_surface(row, primitive.surface, board)
     if primitive.mover is not None:
         set_mover(row, primitive, primitive.mover)
@@ -142,6 +144,20 @@ def set_side(row: Any, number: int, start: Point, end: Point) -> None:
     row[f"x{number}"], row[f"z{number}"] = start
     row[f"along_x{number}"], row[f"along_z{number}"] = dx / length, dz / length
     row[f"length{number}"] = length
+
+
+def lengthen(row: Any, by: float) -> None:
+    """Lengthen a line at both ends [u].
+
+    Between two rails the line of a passage ends where a ball that rolls along a rail has its centre, or a
+    little before. The ball must not miss it.
+    """
+    row["x0"] -= by * row["along_x0"]
+    row["z0"] -= by * row["along_z0"]
+    row["x1"] += by * row["along_x0"]
+    row["z1"] += by * row["along_z0"]
+    row["length0"] += 2.0 * by
+    row["reach"] += by
 
 
 def set_surface(row: Any, surface: Surface, board: Board) -> None:

@@ -220,7 +220,21 @@ def test_a_ball_that_rests_on_an_arc_touches_it_at_once() -> None:
         assert distance(row, x, 0.0)[0] == pytest.approx(RADIUS, abs=1e-12)
         time, is_hit = fly((x, 0.0, 0.0, 0.0), row)
         assert is_hit
-        assert time < 1e-4
+        assert time < 1e-7  # from a rounding of 4e-16 u it falls for 9e-9 s
+
+
+def test_a_ball_that_is_pressed_to_an_arc_never_sinks() -> None:
+    """A ball at rest, pressed to either side or to an end, touches it before it has moved."""
+    bowl, cap = Curve((0.0, -2.0), (0.0, 2.0), 1.0, 0.0), Curve((0.0, -2.0), (0.0, 2.0), -1.0, 0.0)
+    for curve, x, z in ((bowl, -2.0 + RADIUS, 0.0), (cap, 2.0 + RADIUS, 0.0), (bowl, RADIUS, 2.0)):
+        row = row_of(curve.primitive)
+        for depth in (0.0, 1e-12):
+            assert fly((x - depth, z, 0.0, 0.0), row) == (0.0, True)
+        time, is_hit = fly((x, z, -1e-3, 0.0), row)  # it comes
+        assert (time, is_hit) == (0.0, True)
+        time, is_hit = fly((x, z, 1e-3, 0.0), row)  # it hops
+        assert is_hit
+        assert pytest.approx(time, rel=1e-6) == 2e-3 / GRAVITY
 
 
 def test_a_ball_on_both_ends_of_a_cup_bounces_off_each() -> None:

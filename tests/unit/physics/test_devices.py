@@ -245,6 +245,34 @@ def test_a_passage_throws_a_ball_back_where_another_one_is_in_the_way() -> None:
     assert world.balls[1].velocity == pytest.approx((-6.0 * up, 0.0, 0.0))
 
 
+def test_a_ball_that_a_passage_throws_back_touches_it() -> None:
+    line = Passage(start=(0.0, 1.0), end=(0.0, -1.0), **{"from": 0, "to": 1})
+    lid = SlantWall(start=(0.1, -1.0), end=(0.1, 1.0), levels=(1,))
+    world = World(table_with(line, lid, gravity=0.0))
+    up = -1.0 if line.left_normal[0] < 0.0 else 1.0
+    world.create_ball(position=(-up, 0.0), velocity=(6.0 * up, 0.0))
+    (event,) = [event for event in events_of(world, 120) if event.part]
+    assert (event.kind, event.part, event.speed) == ("touch", "passage[0]", pytest.approx(6.0))
+    assert event.normal[0] == pytest.approx(-up)
+    assert event.tick / 240 + event.offset == pytest.approx(1.0 / 6.0, abs=1e-12)
+    assert world.hits["passage[0]"] == 0
+
+
+def test_a_new_ball_is_on_the_level_of_its_plunger() -> None:
+    plunger = Plunger(position=(-3.0, 2.0), launch=(10.0, 10.0), level=1)
+    lid = Cylinder(center=(-3.0, 2.2), radius=0.5)  # on level 0 only
+    stop = SlantWall(start=(0.0, 1.0), end=(0.0, 3.0), levels=(1,))
+    world = World(table_with(plunger, lid, stop, Level(number=1)))
+    world.create_ball()
+    assert world.records[0]["ball"]["level"][0] == 1
+    world.step(launch=True, ticks=10)
+    parts = [event.part for event in events_of(world, 240) if event.kind in ("hit", "touch")]
+    assert parts[0] == "slant_wall[0]"
+    blocked = World(table_with(plunger, Cylinder(center=(-3.0, 2.2), radius=0.5, level=1), Level(number=1)))
+    with pytest.raises(NoRoom):
+        blocked.create_ball()
+
+
 @pytest.mark.parametrize("tick_rate", RATES)
 def test_a_spinner_turns_as_its_closed_form_says(tick_rate: int) -> None:
     spinner = Spinner(start=(2.0, -1.0), end=(2.0, 1.0), damping=2.0, height=0.3)

@@ -31,7 +31,8 @@ class Passage(Line, Scored):
     """A line at which a ball changes its level: where a ramp begins or ends.
 
     A ball that crosses it to the left of start → end changes from one level to the other; a ball that crosses
-    it to the right changes back.
+    it to the right changes back. The line counts up to a ball's radius beyond both ends; between two rails
+    let it end a radius before them. Where something is in the way on the other level, a ball is thrown back.
     """
 
     from_level: Annotated[LevelNumber, Field(alias="from")]
