@@ -88,7 +88,9 @@ class SingleStepper:
             tallies.shape[1],
         )
         row["tick"] = tick
-        self._step: Callable[[Any, int, int], int] = self._first_step
+        self._step: Callable[[Any, int, int], int] = (
+            self._interpreted_step if SETTINGS.DISABLE_JIT else self._first_step
+        )
 
     def __reduce__(self) -> Any:
         """Refuse copies: a copy would hold the addresses of the original's arrays."""
@@ -104,12 +106,14 @@ class SingleStepper:
         Returns:
             The fault of the world, 0 for none.
         """
-        if SETTINGS.DISABLE_JIT:
-            state, board, colliders, grid, logs, tallies = self._arrays
-            lane = Lane(state[0], logs[0], tallies[0], logs[0])
-            run_held(lane, BoardGeometry(board[0], colliders, grid), buttons, ticks, self._tick)
-            return int(self._arrays[0][0]["fault"])
         return self._step(self._addresses, buttons, ticks)
+
+    def _interpreted_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
+        """Do a step without the compiler."""
+        state, board, colliders, grid, logs, tallies = self._arrays
+        lane = Lane(state[0], logs[0], tallies[0], logs[0])
+        run_held(lane, BoardGeometry(board[0], colliders, grid), buttons, ticks, self._tick)
+        return int(state[0]["fault"])
 
     def _first_step(self, addresses: NDArray[Any], buttons: int, ticks: int) -> int:
         """Compile the step at the first call, and do it."""
