@@ -68,7 +68,7 @@ def test_info_says_what_is_compiled(silverball, folders, name):
 
     assert run_task.__name__ == info.LAST_KERNEL_OF_ENVIRONMENTS
     function, packages = {
-        "play": ("run_worlds", kernel.PLAY),
+        "play": ("step_single_world", kernel.PLAY),
         "planner": ("plan_worlds", kernel.PLAY),
         "drawing": ("draw_ball", kernel.DRAWING),
         "environments": ("run_task", kernel.AGENTS),

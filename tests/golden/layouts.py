@@ -7,16 +7,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from silverball.physics.records import BALL, PADDLE
+from silverball.physics.records import PADDLE, PLAIN_BALL
 from silverball.world import World
 
 BALLS_THEN = PADDLES_THEN = 2
-BALL_FIELDS = {name: "contact_part" if name == "contact_row" else name for name in BALL.names[:21]}
+BALL_FIELDS = {name: "contact_part" if name == "contact_row" else name for name in PLAIN_BALL.names}
 """Fields of a ball in versions 2 and 3, by their names now."""
 
 WORLD_3 = np.dtype(
     [
-        ("ball", [(old, BALL.fields[name][0]) for name, old in BALL_FIELDS.items()], (BALLS_THEN,)),
+        ("ball", [(old, PLAIN_BALL.fields[name][0]) for name, old in BALL_FIELDS.items()], (BALLS_THEN,)),
         ("paddle", PADDLE, (PADDLES_THEN,)),
         *(
             (name, "i8")

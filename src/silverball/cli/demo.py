@@ -89,7 +89,7 @@ def make_demo(
         board = generate_table(seed, board)
     picture_size = film_size(out, board, seconds, size)
     kernel, duration = (
-        ("plan_worlds", "half a minute") if player == "planner" else ("run_worlds", "ten seconds")
+        ("plan_worlds", "half a minute") if player == "planner" else ("step_single_world", "ten seconds")
     )
     with compiling(kernel, duration):
         from silverball.app.sessions import DemoSession

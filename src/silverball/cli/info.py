@@ -143,7 +143,7 @@ def compiled() -> dict[str, bool]:
     from silverball.physics.kernel import AGENTS, DRAWING, PLAY, code_folder
 
     kernels = {
-        "play": ("run_worlds", PLAY),
+        "play": ("step_single_world", PLAY),
         "planner": ("plan_worlds", PLAY),
         "drawing": (LAST_KERNEL, DRAWING),
         "environments": (LAST_KERNEL_OF_ENVIRONMENTS, AGENTS),

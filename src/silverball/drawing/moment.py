@@ -74,20 +74,21 @@ class Moment(NamedTuple):
 
     @classmethod
     def of_record(cls, record: Any, tick_rate: int) -> Self:
-        """The moment of a WORLD record; `tick_rate` is in ticks per second."""
+        """The moment of a world record; `tick_rate` is in ticks per second."""
         tick = 1.0 / tick_rate
+        has_devices = "spinner" in record.dtype.names
         blades = tuple(
             BladeAt(angle, speed, when * tick + offset)
-            for angle, speed, when, offset, *_ in record["spinner"].tolist()
+            for angle, speed, when, offset, *_ in (record["spinner"].tolist() if has_devices else ())
         )
         return cls(
             int(record["tick"]) * tick,
             _balls(record),
             tuple(math.degrees(angle) for angle in record["paddle"]["angle"].tolist()),
             int(record["score"]),
-            int(record["off"]),
+            int(record["off"]) if has_devices else 0,
             blades,
-            int(record["launch_held"]) * tick,
+            int(record["launch_held"]) * tick if has_devices else 0.0,
         )
 
     @classmethod
@@ -115,12 +116,13 @@ class Moment(NamedTuple):
 
 
 def _balls(record: Any) -> tuple[BallAt, ...]:
-    """The balls of a WORLD record."""
+    """The balls of a world record."""
     balls = record["ball"]
+    has_levels = "level" in balls.dtype.names
     return tuple(
         BallAt(
-            int(ball["id"]), float(ball["x"]), float(ball["z"]), int(ball["level"]),
-            int(ball["holder"]) if ball["motion"] == CAPTURED else NOTHING,
+            int(ball["id"]), float(ball["x"]), float(ball["z"]), int(ball["level"]) if has_levels else 0,
+            int(ball["holder"]) if has_levels and ball["motion"] == CAPTURED else NOTHING,
         )
         for ball in balls[balls["id"] != 0]
     )  # fmt: skip

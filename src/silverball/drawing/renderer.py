@@ -205,7 +205,7 @@ _lock = threading.Lock()  # a renderer draws one picture at a time
 
 
 def render(table: Table, record: Any, tick_rate: int, height: int, theme: str) -> NDArray[np.uint8]:
-    """Draw a WORLD record, without effects of earlier events: RGB, uint8 `[height, width, 3]`.
+    """Draw a world record, without effects of earlier events: RGB, uint8 `[height, width, 3]`.
 
     The renderers of the last few tables are reused, so calls after the first are fast.
     """

@@ -44,7 +44,7 @@ class Pool(NamedTuple):
         tables: The finished tables.
         seeds: The seed of each board, int64 [board]; for a list of tables its index; for one table −1.
         boards: The compiled tables.
-        blanks: WORLD records of new worlds, one for each board.
+        blanks: Records of new worlds, one for each board.
         layouts: The columns of an observation that describe the obstacles, float32 [board, column].
         fields: The groups of an observation and their columns.
         has_plunger: Whether the boards have a plunger, and so a launch button.
@@ -195,5 +195,5 @@ class PooledBatch(WorldBatch):
     def __init__(
         self, pool: Pool, tick_rate: int, threads: int, state: Any, board_of: NDArray[np.int64]
     ) -> None:
-        """Use these WORLD records and boards [world]; the caller changes both."""
+        """Use these world records and boards [world]; the caller changes both."""
         self._set_attributes(pool.tables, pool.boards, state, board_of, tick_rate, threads)

@@ -33,7 +33,8 @@ from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, R
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
-from silverball.physics.records import LEFT, MAX_PADDLES, RIGHT, WORLD, Part, records
+from silverball.physics.records import LEFT, MAX_PADDLES, RIGHT, Part, records
+from silverball.world.single_step import addresses_of
 from silverball.world.threads import thread_pool
 
 STATE_FORMAT = 3
@@ -97,7 +98,8 @@ class Engine:
 
     def _allocate_state(self, threads: int) -> None:
         """Allocate the state; that of a single environment is contiguous."""
-        sizes = (SIGNATURE_SIZE, 8, WORLD.itemsize, EPISODE.itemsize, self.stack * PICTURE_STATE.itemsize)
+        layout = self.pool.boards.layout
+        sizes = (SIGNATURE_SIZE, 8, layout.itemsize, EPISODE.itemsize, self.stack * PICTURE_STATE.itemsize)
         edges = np.cumsum((0, *(size * self.count for size in sizes)))
         self.memory = np.zeros(edges[-1], np.uint8)
         signatures, board_of, worlds, episodes, picture_states = (
@@ -106,7 +108,7 @@ class Engine:
         signatures.reshape(self.count, SIGNATURE_SIZE)[:] = np.frombuffer(self._signature(), np.uint8)
         self.episodes = _as_records(episodes, EPISODE)
         self.picture_states = _as_records(picture_states, PICTURE_STATE).reshape(self.count, self.stack)
-        state, board = _as_records(worlds, WORLD), board_of.view(np.int64)
+        state, board = _as_records(worlds, layout), board_of.view(np.int64)
         self.batch = PooledBatch(self.pool, self.options.tick_rate, threads, state, board)
         parts = (signatures, board_of, worlds, episodes, picture_states)
         self.state_parts = [part.reshape(self.count, -1) for part in parts]
@@ -163,7 +165,7 @@ class Engine:
             "paddle_sprites": pictures.paddles, "pictured_boards": pictures.pictured_boards,
             "lamp_of": pictures.lamp_of, "pieces": pictures.pieces, "masks": pictures.masks,
         }  # fmt: skip
-        self.addresses = records(1, ADDRESSES)
+        self.addresses = records(1, addresses_of(self.batch.state.dtype, ADDRESSES))
         write_addresses(self.addresses, {**vars(self), **arrays, **self.outputs.last.arrays})
         self._output_addresses = self.addresses.view(np.int64)[: len(OUTPUTS)]
 

@@ -19,13 +19,14 @@ from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
 from silverball.envs.state import COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
 from silverball.physics.balls import create_ball
+from silverball.physics.for_devices import for_devices
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
 from silverball.physics.portable_math import WORD, threefry
 from silverball.physics.records import (
+    HEADER,
     LEFT,
     MAX_LEVELS,
     RIGHT,
-    WORLD,
     BatchGeometry,
     Fault,
     Lanes,
@@ -38,9 +39,9 @@ from silverball.physics.step import run_worlds
 from silverball.world.single_step import INT, array_at
 
 BLOCK = 64  # worlds stepped before their rewards are computed, so that their records stay in the cache
-WORLD_SIZE, EPISODE_SIZE = WORLD.itemsize, EPISODE.itemsize
-# A WORLD record has its counters in the order of `COUNTS`; `write_counts` appends two fields of an episode.
-COUNTS_AT, COUNTS_SIZE = int(WORLD.fields["score"][1]), 8 * len(COUNTS)  # type: ignore[index]
+EPISODE_SIZE = EPISODE.itemsize
+# A world record has its counters in the order of `COUNTS`; `write_counts` appends two fields of an episode.
+COUNTS_AT, COUNTS_SIZE = 8 * [name for name, _ in HEADER].index("score"), 8 * len(COUNTS)
 EPISODE_COUNTS_SIZE = 8 * (len(INFO) - len(COUNTS))  # the first fields of an EPISODE record
 BALL_WIDTH, PADDLE_WIDTH, PLACE_WIDTH = len(BallSlot), len(PaddleSlot), len(PlaceSlot)
 
@@ -86,7 +87,7 @@ def step_envs(ptr: Pointers, first: int, end: int) -> tuple[float, int]:
         for index in range(start, stop):
             if rules.weighs_counts != 0:
                 row = ptr.counts_before_at + (first + index - start) * COUNTS_SIZE
-                copy_bytes(row, ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
+                copy_bytes(row, counts_at(ptr, index), COUNTS_SIZE)
             apply_action(ptr, rules, index)
         lanes = Lanes(views.worlds(ptr), views.board_of(ptr), views.logs(ptr), views.tallies(ptr))
         geometries = BatchGeometry(views.boards(ptr), views.colliders(ptr), views.grid(ptr))
@@ -200,7 +201,7 @@ def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> 
     stalled = views.episodes(ptr)[index].stalled
     views.terms(ptr)[index, STALLED] = stalled
     reward = rules.weights[STALLED] * stalled
-    counts = array_at(ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
+    counts = array_at(counts_at(ptr, index), (len(COUNTS),), INT)
     for term in range(FIRST_COUNT, len(TERMS)):
         count = term - FIRST_COUNT + 1  # counts[0] is the score, which has a term of its own
         grown = counts[count] - views.counts_before(ptr)[before, count]
@@ -221,7 +222,7 @@ def begin_episode(ptr: Pointers, rules: RulesRecord, index: int) -> None:
     if views.requested_boards(ptr)[index] >= 0:
         board = views.requested_boards(ptr)[index]
     views.board_of(ptr)[index] = board
-    copy_bytes(ptr.worlds_at + index * WORLD_SIZE, ptr.blanks_at + board * WORLD_SIZE, WORLD_SIZE)
+    views.worlds(ptr)[index] = views.blanks(ptr)[board]
     world, log = views.worlds(ptr)[index], views.logs(ptr)[index]
     world.seed = ((high & 0x7FFFFFFF) << 32) | low
     log.count, log.carried, log.done, log.lost = 0, 0, 0, 0
@@ -255,10 +256,16 @@ def observe(ptr: Pointers, rules: RulesRecord, index: int) -> None:
 
 
 @inlined
+def counts_at(ptr: Pointers, index: int) -> int:
+    """The address of the counters of a world."""
+    return int(ptr.worlds_at + index * views.worlds(ptr).itemsize + COUNTS_AT)
+
+
+@inlined
 def write_counts(ptr: Pointers, address: int, index: int) -> None:
     """Write the counts of the episode so far at an address, in the order of `INFO`."""
     start = address + index * ptr.info * 8
-    copy_bytes(start, ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, COUNTS_SIZE)
+    copy_bytes(start, counts_at(ptr, index), COUNTS_SIZE)
     copy_bytes(start + COUNTS_SIZE, ptr.episodes_at + index * EPISODE_SIZE, EPISODE_COUNTS_SIZE)
 
 
@@ -266,7 +273,7 @@ def write_counts(ptr: Pointers, address: int, index: int) -> None:
 def have_counts_changed(ptr: Pointers, index: int) -> bool:
     """Whether `write_counts` would change the last counts."""
     last = array_at(ptr.counts_at + index * ptr.info * 8, (ptr.info,), INT)
-    counts = array_at(ptr.worlds_at + index * WORLD_SIZE + COUNTS_AT, (len(COUNTS),), INT)
+    counts = array_at(counts_at(ptr, index), (len(COUNTS),), INT)
     episode = views.episodes(ptr)[index]
     differs = last[len(COUNTS)] != episode.board_seed or last[len(COUNTS) + 1] != episode.stalled
     for number in range(len(COUNTS)):
@@ -307,6 +314,7 @@ def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> 
     copy_bytes(target, ptr.layouts_at + views.board_of(ptr)[index] * size, size)
 
 
+@for_devices(lambda ptr, rules, world, row, index: None)
 @internal
 def write_devices(ptr: Pointers, rules: RulesRecord, world: WorldRecord, row: Any, index: int) -> None:
     """Write the slots of levels, holes, switches, spinners and plungers into a row of an observation."""

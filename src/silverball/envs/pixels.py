@@ -26,8 +26,9 @@ from silverball.envs.state import (
     PieceRecord,
     RasterRecord,
 )
+from silverball.physics.for_devices import switches_off
 from silverball.physics.kernel import inlined, internal, kernel
-from silverball.physics.records import MAX_BALLS, EventKind, WorldRecord
+from silverball.physics.records import MAX_BALLS, EventKind
 from silverball.world.single_step import array_at
 
 SUBPIXELS = 8  # positions of a ball within a pixel along each axis; each has a sprite
@@ -153,12 +154,6 @@ def record_state(ptr: Pointers, index: int, number: int) -> None:
             lamp = views.lamp_of(ptr)[state.board, event.part]
             if lamp >= 0:
                 state.lit[lamp // LAMP_BITS] |= 1 << lamp % LAMP_BITS
-
-
-@inlined
-def switches_off(world: WorldRecord) -> int:
-    """The switches whose parts are away."""
-    return int(world.off)
 
 
 @inlined

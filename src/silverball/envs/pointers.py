@@ -16,8 +16,16 @@ from numpy.typing import NDArray
 
 from silverball.envs.state import EPISODE, PICTURE_STATE, PICTURED_BOARD, PIECE, RASTER, RULES
 from silverball.physics.kernel import SETTINGS, ir_inlined
-from silverball.physics.records import BOARD, COLLIDER, LOG, WORLD
-from silverball.world.single_step import BOOL, INT, SHORT_INT, array_at, cgutils, intrinsic
+from silverball.physics.records import BOARD, COLLIDER, LOG
+from silverball.world.single_step import (
+    BOOL,
+    INT,
+    SHORT_INT,
+    array_at,
+    cgutils,
+    intrinsic,
+    layout_of,
+)
 
 FLOAT, SMALL_FLOAT, BYTE = np.dtype(np.float64), np.dtype(np.float32), np.dtype(np.uint8)
 
@@ -46,13 +54,16 @@ copy_bytes: Any = _interpreted_copy if SETTINGS.DISABLE_JIT else _compiled_copy
 
 
 class ArrayType(NamedTuple):
-    """Element type of an array, and the names of its axes; axes of one name have one length."""
+    """Element type of an array, and the names of its axes; axes of one name have one length.
 
-    dtype: np.dtype[Any]
+    The type None is that of the worlds' records: WORLD or PLAIN_WORLD.
+    """
+
+    dtype: np.dtype[Any] | None
     axes: tuple[str, ...]
 
 
-def _array(dtype: np.dtype[Any], *axes: str) -> ArrayType:
+def _array(dtype: np.dtype[Any] | None, *axes: str) -> ArrayType:
     return ArrayType(dtype, axes)
 
 
@@ -69,7 +80,7 @@ OUTPUTS = {
 
 ARRAYS = {
     **OUTPUTS,
-    "worlds": _array(WORLD, "envs"),
+    "worlds": _array(None, "envs"),
     "boards": _array(BOARD, "boards"),
     "board_of": _array(INT, "envs"),  # the board of each world
     "board_seeds": _array(INT, "boards"),
@@ -80,7 +91,7 @@ ARRAYS = {
     "tallies": _array(INT, "envs", "parts"),  # hits of each part
     "held": _array(BOOL, "one", "envs", "buttons"),  # the buttons for run_worlds
     "episodes": _array(EPISODE, "envs"),
-    "blanks": _array(WORLD, "boards"),  # new worlds
+    "blanks": _array(None, "boards"),  # new worlds
     "layouts": _array(SMALL_FLOAT, "boards", "layout_columns"),  # obstacles, in the form of an observation
     "rules": _array(RULES, "one"),
     "raster": _array(RASTER, "one"),
@@ -130,7 +141,13 @@ def write_addresses(addresses: NDArray[Any], arrays: dict[str, NDArray[Any]]) ->
 def _view(name: str) -> Any:
     """The function that makes an array from an ADDRESSES record, for kernels."""
     address, (dtype, axes) = f"{name}_at", ARRAYS[name]
-    if len(axes) == 1:
+    if dtype is None:
+        (length,) = axes
+
+        def view(ptr: Pointers) -> Any:
+            return array_at(ptr[address], (ptr[length],), layout_of(ptr))
+
+    elif len(axes) == 1:
         (length,) = axes
 
         def view(ptr: Pointers) -> Any:
@@ -159,6 +176,7 @@ worlds, boards, board_of, board_seeds = (
     _view("board_seeds"),
 )
 colliders, grid, places = _view("colliders"), _view("grid"), _view("places")
+blanks = _view("blanks")
 logs, tallies, held = _view("logs"), _view("tallies"), _view("held")
 episodes, rules, raster = _view("episodes"), _view("rules"), _view("raster")
 actions, reset_mask, requested_boards = _view("actions"), _view("reset_mask"), _view("requested_boards")

@@ -1,8 +1,8 @@
 """Records of the compiled step: the state of an episode, the rules, and the contents of pictures.
 
-All fields are eight bytes wide. An environment's state is its WORLD record (see `physics.records`), its
-EPISODE record and the PICTURE_STATE records of its last pictures. RULES and RASTER hold the options as
-numbers.
+All fields are eight bytes wide. An environment's state is its WORLD or PLAIN_WORLD record (see
+`physics.records`), its EPISODE record and the PICTURE_STATE records of its last pictures. RULES and RASTER
+hold the options as numbers.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ COUNTS = (
     "score", "created", "drained", "wall_hits", "slant_wall_hits", "paddle_hits", "triangular_prism_hits",
     "cylinder_hits", "ball_hits", "touches", "jams",
 )  # fmt: skip
-"""The counters of a WORLD record that `info` carries: totals of the episode so far."""
+"""The counters of a world record that `info` carries: totals of the episode so far."""
 
 INFO = (*COUNTS, "board", "stalled")
 """The keys of `info`, in the order of the columns of an engine's counts."""

@@ -8,14 +8,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.physics.records import LOG, WORLD, Device, Motion
+from silverball.physics.records import HEADER, LOG, Device, Motion
 from silverball.world import World
 
 SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
 GUTTER_MARGIN = 0.1  # [u] a ball nearer to the gutter is played tick by tick
 
-_WORDS = {name: int(field[1]) // 8 for name, field in (WORLD.fields or {}).items()}
-_TICK = _WORDS["tick"]  # place in the world record, in words of eight bytes
+_TICK = [name for name, _ in HEADER].index("tick")  # place in the world record, in words of eight bytes
 _LOG_WORDS = {name: int(field[1]) // 8 for name, field in (LOG.fields or {}).items()}
 _COUNT, _CARRIED = _LOG_WORDS["count"], _LOG_WORDS["carried"]  # places in a log
 
@@ -98,6 +97,6 @@ class GameWorld:
 
     def rewind(self, snapshot: NDArray[np.int64]) -> None:
         """Go back to a snapshot; `World.hits` still counts the hits after it."""
-        before = snapshot.view(WORLD)[0]
-        for name in WORLD.names or ():
+        before = snapshot.view(self._record.dtype)[0]
+        for name in before.dtype.names:
             self._record[name] = before[name]

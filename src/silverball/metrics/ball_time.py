@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.metrics.statistics import Estimate, mean, median_life, ratio
-from silverball.physics.records import BALL, Fault, records
+from silverball.physics.records import Fault, records
 from silverball.players.batch_policies import batch_policy, kernel_player
 from silverball.players.planner import BRANCHES
 from silverball.players.simple import PlayerKind, press_all, press_launch
@@ -144,7 +144,7 @@ def update_lives(
     lost = alive & ((state["drained"] > 0) | (state["fault"] != Fault.NONE))
     stalled = alive & ~lost & (lives["ticks"] - lives["scored"] >= stall)
     lives["end"][lost], lives["end"][stalled] = End.DRAINED, End.STALLED
-    state["ball"][stalled] = np.zeros((), BALL)
+    state["ball"][stalled] = np.zeros((), state["ball"].dtype)
     still: NDArray[np.bool_] = alive & ~lost & ~stalled
     return still
 

@@ -96,7 +96,7 @@ class Games(NamedTuple):
     """The traces of many games under one player.
 
     Attributes:
-        state: The worlds at their end, WORLD records [game].
+        state: The worlds at their end, world records [game].
         hits: Hits of each part, [game, part].
         game: GAME records [game].
         heat: Ticks that balls spent in each cell of the board, [x, z].

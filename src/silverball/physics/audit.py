@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from math import atan2, cos, hypot, inf, sin, sqrt
 
+from silverball.physics.for_devices import level_of, switches_off
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.records import (
-    MAX_BALLS,
     BoardRecord,
     ColliderRecord,
     Colliders,
@@ -281,10 +281,10 @@ def depth_in_paddle(c: ColliderRecord, angle: float, x: float, z: float, radius:
 def depth_in_other_ball(world: WorldRecord, radius: float) -> float:
     """Compute how deep any two balls are inside each other [u]; 0 if they are not."""
     depth = 0.0
-    for other in range(1, MAX_BALLS):
+    for other in range(1, len(world.ball)):
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
-            if a.id != 0 and b.id != 0 and a.level == b.level:
+            if a.id != 0 and b.id != 0 and level_of(a) == level_of(b):
                 depth = max(depth, 2.0 * radius - hypot(a.x - b.x, a.z - b.z))
     return depth
 
@@ -292,20 +292,20 @@ def depth_in_other_ball(world: WorldRecord, radius: float) -> float:
 @kernel
 def deepest(world: WorldRecord, board: BoardRecord, colliders: Colliders) -> float:
     """Compute how deep any ball is inside any part, border or other ball [u]; 0 if none is."""
-    depth = depth_in_other_ball(world, board.ball_radius)
+    depth, off = depth_in_other_ball(world, board.ball_radius), switches_off(world)
     paddles = board.collider_first + Part.FIRST_PADDLE
-    for slot in range(MAX_BALLS):
+    for slot in range(len(world.ball)):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
         depth = max(depth, depth_in_borders(board, colliders, ball.x, ball.z))
         if ball.motion == Motion.CAPTURED:  # it lies in a hole, below everything but other balls
             continue
-        depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z, ball.level, world.off))
-        if is_in_solid(board, colliders, ball.x, ball.z, ball.level, world.off):
+        depth = max(depth, depth_in_stationary(board, colliders, ball.x, ball.z, level_of(ball), off))
+        if is_in_solid(board, colliders, ball.x, ball.z, level_of(ball), off):
             depth = max(depth, board.ball_radius)
         for index in range(board.paddles):
-            if not is_met(colliders[paddles + index], ball.level, world.off):
+            if not is_met(colliders[paddles + index], level_of(ball), off):
                 continue
             angle = world.paddle[index].angle
             inside = depth_in_paddle(colliders[paddles + index], angle, ball.x, ball.z, board.ball_radius)

@@ -14,12 +14,12 @@ from silverball.physics.bounce import clamp_speed
 from silverball.physics.contact import is_present
 from silverball.physics.devices import free_plunger
 from silverball.physics.event_log import flight_checksum, log_event, store_checksum
+from silverball.physics.for_devices import for_devices, is_captured, level_of, switches_off
 from silverball.physics.kernel import as_int, internal, kernel
-from silverball.physics.motion import capture, start_flight
+from silverball.physics.motion import capture, set_level, start_flight
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
-    MAX_BALLS,
     NOTHING,
     BallRecord,
     BoardRecord,
@@ -27,7 +27,6 @@ from silverball.physics.records import (
     Contact,
     EventKind,
     LogRecord,
-    Motion,
     Outcome,
     Part,
     Places,
@@ -48,7 +47,7 @@ def clearance(
 
     Sensors and parts that are away do not count, nor do one-way parts, which a ball may overlap.
     """
-    first = board.collider_first
+    first, off = board.collider_first, switches_off(world)
     left, right, top = colliders[first], colliders[first + Part.RIGHT_WALL], colliders[first + Part.TOP_WALL]
     smallest, part = z - left.z, as_int(Part.LEFT_WALL)
     if right.z - z < smallest:
@@ -57,7 +56,7 @@ def clearance(
         smallest, part = top.x - x, as_int(Part.TOP_WALL)
     for index in range(first + Part.FIRST_PADDLE, board.collider_end):
         c = colliders[index]
-        if c.response != Response.BOUNCE or c.one_way != 0 or not is_present(c, level, world.off):
+        if c.response != Response.BOUNCE or c.one_way != 0 or not is_present(c, level, off):
             continue
         if index < first + board.shape_first:
             gap, _, _ = paddle_distance(c, world.paddle[index - first - Part.FIRST_PADDLE].angle, x, z)
@@ -72,9 +71,9 @@ def clearance(
 def clearance_of_balls(world: WorldRecord, board: BoardRecord, x: float, z: float, level: int) -> float:
     """Compute the smallest gap [u] between a ball at (x, z) on a level and the balls on it."""
     smallest = 1e300
-    for index in range(MAX_BALLS):
+    for index in range(len(world.ball)):
         ball = world.ball[index]
-        if ball.id != 0 and ball.level == level:
+        if ball.id != 0 and level_of(ball) == level:
             gap = sqrt((ball.x - x) ** 2 + (ball.z - z) ** 2) - 2.0 * board.ball_radius
             smallest = min(smallest, gap)
     return smallest
@@ -137,11 +136,13 @@ def put_ball(
     ball = world.ball[slot]
     ball.x, ball.z, ball.vx, ball.vz = x, z, vx, vz
     ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0
-    ball.id, ball.level = world.created, 0
+    ball.id = world.created
+    set_level(ball, as_int(0))
     start_flight(ball, board, 0.0)
     if is_known:
         store_checksum(world, board, log)
-    log_event(log, as_int(EventKind.CREATED), ball, world.tick, NOTHING, Contact(0.0, NOTHING, 0.0, 0.0), 0.0)
+    contact = Contact(0.0, as_int(NOTHING), 0.0, 0.0)
+    log_event(log, as_int(EventKind.CREATED), ball, world.tick, NOTHING, contact, 0.0)
 
 
 @kernel
@@ -166,23 +167,7 @@ def create_ball(
     if slot < 0:
         return as_int(Outcome.BOARD_FULL)
     if board.plungers != 0:
-        row = free_plunger(world, board, colliders)
-        if row < 0:
-            return as_int(Outcome.NO_ROOM)
-        c = colliders[board.collider_first + row]
-        level = as_int(0)
-        while c.levels >> level & 1 == 0:
-            level += 1
-        gap, _ = clearance(world, board, colliders, c.x, c.z, level)
-        if gap < -MAX_DEPTH:
-            return as_int(Outcome.NO_ROOM)
-        is_known = flight_checksum(world, board) == log.checksum
-        put_ball(world, board, log, slot, c.x, c.z, 0.0, 0.0)
-        world.ball[slot].level = level
-        capture(world.ball[slot], row, c.x, c.z, 0.0)
-        if is_known:
-            store_checksum(world, board, log)
-        return as_int(Outcome.CREATED)
+        return create_on_plunger(world, board, colliders, log, slot)
     found, x, z, draws = find_free_place(world, board, colliders, places)
     if not found:
         return as_int(Outcome.NO_ROOM)
@@ -191,12 +176,37 @@ def create_ball(
     return as_int(Outcome.CREATED)
 
 
+@for_devices(lambda world, board, colliders, log, slot: as_int(Outcome.NO_ROOM))
+@internal
+def create_on_plunger(
+    world: WorldRecord, board: BoardRecord, colliders: Colliders, log: LogRecord, slot: int
+) -> int:
+    """Create a ball on a plunger, in an empty slot; return an `Outcome`."""
+    row = free_plunger(world, board, colliders)
+    if row < 0:
+        return as_int(Outcome.NO_ROOM)
+    c = colliders[board.collider_first + row]
+    level = as_int(0)
+    while c.levels >> level & 1 == 0:
+        level += 1
+    gap, _ = clearance(world, board, colliders, c.x, c.z, level)
+    if gap < -MAX_DEPTH:
+        return as_int(Outcome.NO_ROOM)
+    is_known = flight_checksum(world, board) == log.checksum
+    put_ball(world, board, log, slot, c.x, c.z, 0.0, 0.0)
+    set_level(world.ball[slot], level)
+    capture(world.ball[slot], row, c.x, c.z, 0.0)
+    if is_known:
+        store_checksum(world, board, log)
+    return as_int(Outcome.CREATED)
+
+
 @internal
 def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
     """Jitter: give every ball on the board an impulse of fixed size in a random direction of its own."""
-    for slot in range(MAX_BALLS):
+    for slot in range(len(world.ball)):
         ball = world.ball[slot]
-        if ball.id == 0 or ball.motion == Motion.CAPTURED:
+        if ball.id == 0 or is_captured(ball):
             continue
         sine, cosine = sine_cosine(TWO_PI * uniform(world.seed, world.draws))
         world.draws += 1
@@ -204,7 +214,7 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
         ball.vz += board.jitter * cosine
         ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
         start_flight(ball, board, 0.0)
-        contact = Contact(0.0, NOTHING, sine, cosine)
+        contact = Contact(0.0, as_int(NOTHING), sine, cosine)
         log_event(log, as_int(EventKind.JITTER), ball, world.tick, NOTHING, contact, board.jitter)
 
 
@@ -227,7 +237,7 @@ def separate_balls(world: WorldRecord, board: BoardRecord, colliders: Colliders)
             a, b = world.ball[one], world.ball[other]
             dx, dz = a.x - b.x, a.z - b.z
             reach = 2.0 * board.ball_radius - FREE_GAP
-            if a.id != 0 and b.id != 0 and a.level == b.level and dx * dx + dz * dz < reach * reach:
+            if a.id != 0 and b.id != 0 and level_of(a) == level_of(b) and dx * dx + dz * dz < reach * reach:
                 return False
     return True
 
@@ -237,7 +247,7 @@ def _separate_pair(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, a: BallRecord, b: BallRecord
 ) -> bool:
     """Move two balls apart if they overlap; return whether they are apart now."""
-    if a.id == 0 or b.id == 0 or a.level != b.level:
+    if a.id == 0 or b.id == 0 or level_of(a) != level_of(b):
         return True
     dx, dz = a.x - b.x, a.z - b.z
     apart = sqrt(dx * dx + dz * dz)
@@ -247,8 +257,8 @@ def _separate_pair(
     nx, nz = (dx / apart, dz / apart) if apart > 0.0 else (0.0, 1.0)
     shift = 0.5 * (overlap + FREE_GAP)
     ax, az, bx, bz = a.x + shift * nx, a.z + shift * nz, b.x - shift * nx, b.z - shift * nz
-    gap_a, _ = clearance(world, board, colliders, ax, az, a.level)
-    gap_b, _ = clearance(world, board, colliders, bx, bz, b.level)
+    gap_a, _ = clearance(world, board, colliders, ax, az, level_of(a))
+    gap_b, _ = clearance(world, board, colliders, bx, bz, level_of(b))
     if gap_a < 0.0 or gap_b < 0.0:
         return False
     a.x, a.z, b.x, b.z = ax, az, bx, bz

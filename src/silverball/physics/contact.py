@@ -15,6 +15,15 @@ from silverball.physics.crossing import disc_entry, line_crossing
 from silverball.physics.devices import cross_sensor, drop_target
 from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
+from silverball.physics.for_devices import (
+    for_devices,
+    is_captured,
+    is_solid,
+    level_of,
+    paddle_count,
+    shares_level,
+    switches_off,
+)
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, clear_ball, start_flight, start_rolling
 from silverball.physics.one_way import time_to_one_way
@@ -59,7 +68,14 @@ def find_contact(geometry: BoardGeometry, ball: BallRecord, off: int, tick: floa
     """
     if geometry.board.sensors == 0:
         ball.contact_age, ball.contact_row = next_solid(geometry, ball, off, ball.contact_age, tick)
-        return
+    else:
+        _find_with_sensors(geometry, ball, off, tick)
+
+
+@for_devices(lambda geometry, ball, off, tick: None)
+@internal
+def _find_with_sensors(geometry: BoardGeometry, ball: BallRecord, off: int, tick: float) -> None:
+    """Do what `find_contact` does on a board with sensors."""
     start = ball.contact_age
     if ball.solid_row == NOTHING and ball.solid_age <= start:
         ball.solid_age, ball.solid_row = next_solid(geometry, ball, off, start, tick)
@@ -154,17 +170,25 @@ def next_solid(
     cell = cell_of(board, state.x, state.z)
     for entry in range(grid[cell], grid[cell + 1]):
         index = board.collider_first + grid[entry]
-        if not is_present(colliders[index], ball.level, off) or colliders[index].response != Response.BOUNCE:
+        if not is_solid(colliders[index], ball, off):
             continue
         if is_culled(colliders[index], state, speed, reach + travel, reach + sagitta):
             continue
-        if colliders[index].one_way != 0:
-            at, is_hit = time_to_one_way(colliders[index], ball, board.ball_radius, start, time)
-        else:
-            at, is_hit = time_to_shape(colliders[index], ball, board.ball_radius, start, time)
+        at, is_hit = time_to_collider(colliders[index], ball, board.ball_radius, start, time)
         if at < time:
             time, row = at, index - board.collider_first if is_hit else NOTHING
     return time, row
+
+
+@for_devices(lambda c, ball, radius, start, limit: time_to_shape(c, ball, radius, start, limit))  # noqa: PLW0108
+@inlined
+def time_to_collider(
+    c: ColliderRecord, ball: BallRecord, radius: float, start: float, limit: float
+) -> tuple[float, bool]:
+    """Find when a ball meets a collider, as `time_to_shape` does; no plain board has one-way colliders."""
+    if c.one_way != 0:
+        return time_to_one_way(c, ball, radius, start, limit)
+    return time_to_shape(c, ball, radius, start, limit)
 
 
 @internal
@@ -176,13 +200,13 @@ def first_contact(
     At equal times a stationary part comes before a paddle, and paddles follow each other in their order. The
     normal is set for paddles only; that of a stationary part is computed in `resolve`.
     """
-    if ball.id == 0 or ball.motion == Motion.CAPTURED:
+    if ball.id == 0 or is_captured(ball):
         return Contact(limit, NOTHING, 0.0, 0.0)
     searches = 0
     while ball.contact_row == NOTHING and ball.contact_age < ball.age + limit:
         if searches == FLIGHT_STEPS:
             return Contact(start, NULL_EVENT, 0.0, 0.0)
-        find_contact(geometry, ball, lane.world.off, tick)
+        find_contact(geometry, ball, switches_off(lane.world), tick)
         searches += 1
     board, colliders = geometry.board, geometry.colliders
     best = Contact(limit, NOTHING, 0.0, 0.0)
@@ -196,12 +220,13 @@ def first_contact(
         return best
     speed = sqrt(state.vx * state.vx + state.vz * state.vz)
     travel = span * (speed + board.max_accel * span)
-    for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
+    for number in range(paddle_count(ball, board)):
+        row = number + Part.FIRST_PADDLE
         c = colliders[board.collider_first + row]
-        if c.levels >> ball.level & 1 == 0:
+        if not shares_level(c, ball):
             continue
         if is_near(state.x, state.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
-            sweep = read_sweep(lane.scratch.sweep[row - Part.FIRST_PADDLE])
+            sweep = read_sweep(lane.scratch.sweep[number])
             best = contact_with_paddle(c, row, sweep, ball, board.ball_radius, speed, start, best)
     return best
 
@@ -215,19 +240,19 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     if contact.row == ROLL_START:
         start_rolling(ball, board)
         return
-    if contact.row >= 0 and is_sensor(geometry, contact.row):
+    if contact.row >= 0 and is_sensor(geometry, ball, contact.row):
         cross_sensor(lane, geometry, ball, contact.row, tick)
         return
     advance_to(ball, board, ball.age + time)
     if contact.row == GUTTER:
         world.drained += 1
-        contact = Contact(time, GUTTER, 1.0, 0.0)
+        contact = Contact(time, as_int(GUTTER), 1.0, 0.0)
         log_event(lane.log, as_int(EventKind.GUTTER), ball, world.tick, GUTTER, contact, -ball.vx)
         clear_ball(ball)
         return
     c = geometry.colliders[board.collider_first + contact.row]
     nx, nz, ux, uz = contact.nx, contact.nz, 0.0, 0.0
-    acceleration = board.level_size[ball.level]
+    acceleration = board.level_size[level_of(ball)]
     if contact.row < Part.FIRST_PADDLE:
         nx, nz = c.inward_x, c.inward_z
     elif contact.row >= board.shape_first:
@@ -254,8 +279,9 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
         drop_target(lane, geometry, c, time, tick)
 
 
+@for_devices(lambda geometry, ball, row: False)
 @inlined
-def is_sensor(geometry: BoardGeometry, row: int) -> bool:
+def is_sensor(geometry: BoardGeometry, ball: BallRecord, row: int) -> bool:
     """Whether balls pass a row instead of bouncing off it."""
     board = geometry.board
     return board.sensors != 0 and geometry.colliders[board.collider_first + row].response != Response.BOUNCE

@@ -21,6 +21,7 @@ from math import floor, sqrt
 from silverball.physics.bounce import clamp_speed
 from silverball.physics.event_log import log_event, log_part_event
 from silverball.physics.flight import state_at
+from silverball.physics.for_devices import for_devices
 from silverball.physics.holes import exit_velocity, is_captured, launch_speed
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import (
@@ -57,6 +58,7 @@ from silverball.physics.spinner import blade_angle, slowed_by_blade, time_of_tur
 from silverball.physics.tolerances import FREE_GAP, MAX_DEPTH, NEVER
 
 
+@for_devices(lambda lane, geometry, ball, row, tick: None)
 @internal
 def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int, tick: float) -> None:
     """Let a ball cross the sensor in a row, at its `contact_age`."""
@@ -215,6 +217,21 @@ def _time_of_next_turn(spinner: SpinnerRecord, c: ColliderRecord, now: int, tick
     return spinner.offset + turn - (now - spinner.tick) * tick if turn < NEVER else NEVER
 
 
+@for_devices(lambda world, board: False)
+@inlined
+def has_devices(world: WorldRecord, board: BoardRecord) -> bool:
+    """Whether anything on a board can act or be away."""
+    return bool(board.sensors != 0 or board.switches != 0)
+
+
+@for_devices(lambda world: NO_CLOCK)
+@inlined
+def ticks_to_clock(world: WorldRecord) -> int:
+    """Ticks before the one in which a device acts by itself next; 0 or less: the present one."""
+    return int(world.next_clock - world.tick)
+
+
+@for_devices(lambda world, geometry, tick: NEVER)
 @internal
 def clock_time(world: WorldRecord, geometry: BoardGeometry, tick: float) -> float:
     """Compute the time of the present tick at which a device acts by itself next [s]; NEVER for none."""
@@ -243,6 +260,7 @@ def is_held_for_a_time(ball: BallRecord, board: BoardRecord, colliders: Collider
     return bool(colliders[board.collider_first + ball.holder].role == Device.HOLE)
 
 
+@for_devices(lambda world, geometry, tick: None)
 @internal
 def set_next_clock(world: WorldRecord, geometry: BoardGeometry, tick: float) -> None:
     """Store the next tick in which a device acts by itself."""
@@ -265,6 +283,7 @@ def set_next_clock(world: WorldRecord, geometry: BoardGeometry, tick: float) -> 
     world.next_clock = first
 
 
+@for_devices(lambda lane, geometry, time, tick: None)
 @internal
 def run_clocks(lane: Lane, geometry: BoardGeometry, time: float, tick: float) -> None:
     """Let all devices act whose time in the present tick has come."""
@@ -317,10 +336,11 @@ def _send_off(
     set_free(ball, board, time)
     speed = sqrt(ball.vx * ball.vx + ball.vz * ball.vz)
     nx, nz = (ball.vx / speed, ball.vz / speed) if speed > 0.0 else (0.0, 0.0)
-    contact = Contact(time, NOTHING, nx, nz)
+    contact = Contact(time, as_int(NOTHING), nx, nz)
     log_event(lane.log, as_int(EventKind.RELEASED), ball, lane.world.tick, c.part, contact, speed)
 
 
+@for_devices(lambda lane, geometry, buttons, tick: None)
 @internal
 def work_plungers(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
     """Launch the balls on the plungers at the start of a tick, if the button has been released.
@@ -341,19 +361,22 @@ def work_plungers(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float
                 _send_off(lane, board, ball, c, speed * c.launch_x, speed * c.launch_z, 0.0)
 
 
+@for_devices(lambda world, board, buttons: False)
 @inlined
 def is_launching(world: WorldRecord, board: BoardRecord, buttons: int) -> bool:
     """Whether the launch button was held up to now and is not any more."""
     return board.plungers != 0 and world.launch_held != 0 and buttons & LAUNCH == 0
 
 
+@for_devices(lambda world, board, buttons, count: None)
 @inlined
-def count_launch_tick(world: WorldRecord, board: BoardRecord, buttons: int) -> None:
-    """Count how long the launch button has been held, at the end of a tick."""
+def count_launch_ticks(world: WorldRecord, board: BoardRecord, buttons: int, count: int) -> None:
+    """Count how long the launch button has been held, at the end of `count` ticks."""
     if board.plungers != 0:
-        world.launch_held = world.launch_held + 1 if buttons & LAUNCH != 0 else 0
+        world.launch_held = world.launch_held + count if buttons & LAUNCH != 0 else 0
 
 
+@for_devices(lambda lane, geometry, c, time, tick: None)
 @internal
 def drop_target(lane: Lane, geometry: BoardGeometry, c: ColliderRecord, time: float, tick: float) -> None:
     """Let a drop target fall, and set the clock of its bank if it was the last one."""
@@ -410,6 +433,7 @@ def is_free_of_balls(world: WorldRecord, geometry: BoardGeometry, switches: int,
     return True
 
 
+@for_devices(lambda world, geometry, switches, is_away: False)
 @kernel
 def set_switch(world: WorldRecord, geometry: BoardGeometry, switches: int, is_away: bool) -> bool:
     """Open or close gates between two ticks.
@@ -426,6 +450,7 @@ def set_switch(world: WorldRecord, geometry: BoardGeometry, switches: int, is_aw
     return True
 
 
+@for_devices(lambda world, geometry, tick: None)
 @internal
 def validate_devices(world: WorldRecord, geometry: BoardGeometry, tick: float) -> None:
     """Make the state of the devices in a world from outside a possible one."""
@@ -463,6 +488,7 @@ def _is_possible_spinner(
     return spinner.speed == 0.0 or _time_of_next_turn(spinner, c, now, tick) > -tick
 
 
+@for_devices(lambda ball, board, colliders, tick: False)
 @internal
 def is_possible_capture(ball: BallRecord, board: BoardRecord, colliders: Colliders, tick: float) -> bool:
     """Whether a device can hold a captured ball as its record says."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from silverball.physics.kernel import as_int, inlined, internal
+from silverball.physics.for_devices import ball_slots, for_devices, paddle_count
+from silverball.physics.kernel import as_int, inlined, internal, mixed_bits, wrapped
 from silverball.physics.records import (
     LOG_LENGTH,
     LOG_RESERVE,
@@ -16,8 +17,6 @@ from silverball.physics.records import (
     LogRecord,
     WorldRecord,
 )
-
-LOW_BITS = 1023
 
 
 @internal
@@ -79,40 +78,65 @@ def store_checksum(world: WorldRecord, board: BoardRecord, log: LogRecord) -> No
 
 
 @inlined
-def flight_checksum(world: WorldRecord, board: BoardRecord) -> float:
+def flight_checksum(world: WorldRecord, board: BoardRecord) -> int:
     """Compute a number that identifies the flights, the next contacts and the paddles' angles.
 
-    It detects changed states, but does not protect against deliberate collisions.
+    It is a sum of the bits of fields: it detects changed states, but does not protect against deliberate
+    collisions.
     """
-    checksum = 0.0
+    checksum = as_int(0)
     if board.switches != 0 or board.sensors != 0:
         checksum += _device_checksum(world, board)
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         checksum += _ball_checksum(world.ball[slot])
-    for index in range(board.paddles):
-        checksum += (3.0 + 2.0 * index) * world.paddle[index].angle
-    return checksum
+    for index in range(paddle_count(world, board)):
+        checksum += (3 + 2 * index) * mixed_bits(world.paddle[index].angle)
+    return wrapped(checksum)
 
 
+@for_devices(lambda world, board: as_int(0))
 @internal
-def _device_checksum(world: WorldRecord, board: BoardRecord) -> float:
-    """Compute the share of the devices. Few bits of an integer count, so that no other digits are lost."""
-    checksum = 3.0 * (world.off % 1021) + (world.next_clock & LOW_BITS)
-    checksum += 5.0 * (world.launch_held & LOW_BITS) + 7.0 * (world.banks_due & LOW_BITS)
+def _device_checksum(world: WorldRecord, board: BoardRecord) -> int:
+    """Compute the share of the devices."""
+    checksum = 3 * mixed_bits(world.off) + mixed_bits(world.next_clock)
+    checksum += 5 * mixed_bits(world.launch_held) + 7 * mixed_bits(world.banks_due)
     for number in range(board.spinners):
         spinner = world.spinner[number]
-        checksum += (spinner.angle + spinner.speed) + (spinner.tick & LOW_BITS) + spinner.offset
-        checksum += spinner.turns & LOW_BITS
+        checksum += mixed_bits(spinner.angle) + mixed_bits(spinner.speed) + mixed_bits(spinner.turns)
+        checksum += mixed_bits(spinner.tick) + mixed_bits(spinner.offset)
     for number in range(board.banks):
-        checksum += (world.bank_tick[number] & LOW_BITS) + world.bank_offset[number]
-    return checksum
+        checksum += mixed_bits(world.bank_tick[number]) + mixed_bits(world.bank_offset[number])
+    return wrapped(checksum)
 
 
 @inlined
-def _ball_checksum(ball: BallRecord) -> float:
+def _ball_checksum(ball: BallRecord) -> int:
     """Compute the share of one ball."""
-    start = (ball.start_x + ball.start_z) + (ball.start_vx + ball.start_vz)
-    motion = (ball.accel_x + ball.accel_z) + (ball.offset + ball.motion)
-    place = (ball.level + ball.holder) + ((ball.due_tick & LOW_BITS) + ball.due_offset)
-    search = (ball.search_age + ball.passed_age) + (ball.passed_row + ball.solid_row)
-    return start + motion + (ball.contact_age + ball.contact_row) + (place + search)
+    start = (
+        mixed_bits(ball.start_x)
+        + mixed_bits(ball.start_z)
+        + mixed_bits(ball.start_vx)
+        + mixed_bits(ball.start_vz)
+    )
+    motion = (
+        mixed_bits(ball.accel_x)
+        + mixed_bits(ball.accel_z)
+        + mixed_bits(ball.offset)
+        + mixed_bits(ball.motion)
+    )
+    contact = mixed_bits(ball.contact_age) + mixed_bits(ball.contact_row)
+    return start + motion + contact + _place_checksum(ball)
+
+
+@for_devices(lambda ball: as_int(0))
+@inlined
+def _place_checksum(ball: BallRecord) -> int:
+    """Compute the share of the fields that balls of plain worlds do not have."""
+    place = (
+        mixed_bits(ball.level)
+        + mixed_bits(ball.holder)
+        + mixed_bits(ball.due_tick)
+        + mixed_bits(ball.due_offset)
+    )
+    passed = mixed_bits(ball.passed_age) + mixed_bits(ball.passed_row)
+    return place + passed + mixed_bits(ball.search_age) + mixed_bits(ball.solid_row)

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 from math import sqrt
 
+from silverball.physics.for_devices import for_devices
 from silverball.physics.kernel import inlined, internal, kernel
 from silverball.physics.records import (
     NOTHING,
@@ -142,11 +143,15 @@ def time_to_shape(
     return time, False
 
 
+@for_devices(lambda c, ball, radius, start, limit: (limit, False))
 @internal
 def _time_to_arc(
     c: ColliderRecord, ball: BallRecord, radius: float, start: float, limit: float
 ) -> tuple[float, bool]:
-    """Find when a ball first touches an arc; arguments and result are those of `time_to_shape`."""
+    """Find when a ball first touches an arc; arguments and result are those of `time_to_shape`.
+
+    No plain board has an arc.
+    """
     accel = sqrt(ball.accel_x * ball.accel_x + ball.accel_z * ball.accel_z)
     state = state_at(ball, start)
     max_speed = sqrt(state.vx * state.vx + state.vz * state.vz) + accel * (limit - start)

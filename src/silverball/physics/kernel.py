@@ -35,6 +35,7 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numba.core.config
+import numpy as np
 from llvmlite import ir
 from numba import extending, types
 from numba.core import cgutils as untyped_cgutils
@@ -43,7 +44,7 @@ from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
-from silverball.physics.linkage import HelperCompiler, KernelCompiler, WrapperCompiler, can_link
+from silverball.physics.linkage import HelperCompiler, KernelCompiler, can_link
 
 SETTINGS: Any = numba.core.config
 cgutils: Any = untyped_cgutils
@@ -85,11 +86,6 @@ F = TypeVar("F", bound=Callable[..., Any])
 def kernel(function: F) -> F:
     """Compile a function on its first call and cache the machine code for the next start."""
     return _compile(function)
-
-
-def wrapper(function: F) -> F:
-    """Compile a kernel that does little but call another one, without optimizing that one again."""
-    return _compile(function, **({"pipeline_class": WrapperCompiler} if can_link else {}))
 
 
 def internal(function: F) -> F:
@@ -142,6 +138,38 @@ as_int: Any = int if SETTINGS.DISABLE_JIT else _compiled_as_int
 To Numba each enum, and each literal argument, has a type of its own. A kernel that is called with several of
 them would be compiled once for each.
 """
+
+
+@extending.intrinsic
+def _compiled_mixed_bits(typing_context: Any, value: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        word = context.get_value_type(types.int64)
+        bits = builder.bitcast(arguments[0], word)
+        return builder.add(bits, builder.lshr(bits, word(32)))
+
+    return types.int64(value), generate
+
+
+def _interpreted_mixed_bits(value: float) -> int:
+    bits = int(np.asarray(value).view(np.uint64))
+    return bits + (bits >> 32)
+
+
+mixed_bits: Any = _interpreted_mixed_bits if SETTINGS.DISABLE_JIT else _compiled_mixed_bits
+"""The bits of a 64-bit number as an integer for sums: as the upper half is added, two signs do not cancel."""
+
+
+@extending.intrinsic
+def _compiled_wrapped(typing_context: Any, value: Any) -> Any:
+    return types.int64(types.int64), lambda context, builder, signature, arguments: arguments[0]
+
+
+def _interpreted_wrapped(value: int) -> int:
+    return (value + 2**63) % 2**64 - 2**63
+
+
+wrapped: Any = _interpreted_wrapped if SETTINGS.DISABLE_JIT else _compiled_wrapped
+"""A sum as it is when integers of 64 bits overflow; Python's do not."""
 
 
 @extending.intrinsic
@@ -202,7 +230,7 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     return folder if os.access(folder, os.W_OK) else None
 
 
-def is_compiled(name: str = "run_worlds", packages: tuple[str, ...] = PLAY) -> bool:
+def is_compiled(name: str = "step_single_world", packages: tuple[str, ...] = PLAY) -> bool:
     """Whether a kernel's compiled code is on disk; otherwise a first start compiles it and all it calls.
 
     The first call for a folder checks its files. If one is damaged, it is discarded together with the code of

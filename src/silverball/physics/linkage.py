@@ -76,13 +76,6 @@ class HelperLibrary(Library):  # type: ignore[misc,valid-type]
         super()._finalize_final_module()
 
 
-class WrapperLibrary(KernelLibrary):
-    """The code of a kernel that does little but call another one, which is optimized already."""
-
-    def _optimize_final_module(self) -> None:
-        make_internal(self._final_module)
-
-
 class KernelCompiler(Pipeline):  # type: ignore[misc,valid-type]
     """Compiles kernels that Python may call."""
 
@@ -99,9 +92,3 @@ class HelperCompiler(KernelCompiler):
     """Compiles functions that only kernels call."""
 
     library = HelperLibrary
-
-
-class WrapperCompiler(KernelCompiler):
-    """Compiles kernels that do little but call another one."""
-
-    library = WrapperLibrary

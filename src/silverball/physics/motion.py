@@ -56,6 +56,7 @@ from math import sqrt
 
 from silverball.physics.bounce import clamp_speed
 from silverball.physics.flight import state_at
+from silverball.physics.for_devices import for_devices, level_of
 from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.records import NOTHING, BallMotion, BallRecord, BoardRecord, Motion
 from silverball.physics.tolerances import MIN_SLIP_SPEED, NEVER
@@ -80,17 +81,31 @@ def clear_ball(ball: BallRecord) -> None:
     ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = 0.0, 0.0, 0.0, 0.0
     ball.accel_x, ball.accel_z, ball.motion, ball.roll_age = 0.0, 0.0, 0, 0.0
     ball.ticks, ball.offset, ball.age, ball.contact_age, ball.contact_row = 0, 0.0, 0.0, 0.0, 0
+    _clear_device_fields(ball)
+
+
+@for_devices(lambda ball: None)
+@inlined
+def _clear_device_fields(ball: BallRecord) -> None:
     ball.level, ball.holder, ball.due_tick, ball.due_offset = 0, 0, 0, 0.0
     ball.search_age, ball.passed_age, ball.passed_row = 0.0, 0.0, 0
     ball.solid_age, ball.solid_row = 0.0, 0
+
+
+@for_devices(lambda ball, level: None)
+@inlined
+def set_level(ball: BallRecord, level: int) -> None:
+    """Put a ball on a level."""
+    ball.level = level
 
 
 @inlined
 def start_flight(ball: BallRecord, board: BoardRecord, offset: float) -> None:
     """Start a new flight from the state in the ball's record, `offset` [s] into the tick."""
     _set_start(ball, offset)
-    if board.level_normal[ball.level] == 0.0:
-        ball.accel_x, ball.accel_z = board.level_x[ball.level], board.level_z[ball.level]
+    level = level_of(ball)
+    if board.level_normal[level] == 0.0:
+        ball.accel_x, ball.accel_z = board.level_x[level], board.level_z[level]
         ball.motion, ball.roll_age = as_int(Motion.SLIDING), NEVER
     else:
         choose_motion(ball, board)
@@ -117,8 +132,14 @@ def capture(ball: BallRecord, row: int, x: float, z: float, offset: float) -> No
 @internal
 def set_free(ball: BallRecord, board: BoardRecord, offset: float) -> None:
     """Let a captured ball fly from the state in its record, from `offset` [s] into the tick on."""
-    ball.holder, ball.due_tick, ball.due_offset = 0, 0, 0.0
+    _leave_holder(ball)
     start_flight(ball, board, offset)
+
+
+@for_devices(lambda ball: None)
+@inlined
+def _leave_holder(ball: BallRecord) -> None:
+    ball.holder, ball.due_tick, ball.due_offset = 0, 0, 0.0
 
 
 @inlined
@@ -141,15 +162,28 @@ def _set_start(ball: BallRecord, offset: float) -> None:
     """Make the state in the ball's record the start of a flight, `offset` [s] into the tick."""
     ball.start_x, ball.start_z, ball.start_vx, ball.start_vz = ball.x, ball.z, ball.vx, ball.vz
     ball.ticks, ball.offset, ball.age = 0, offset, -offset
-    ball.search_age, ball.passed_age, ball.passed_row = 0.0, 0.0, NOTHING
+    _search_from_start(ball)
     reset_search(ball)
+
+
+@for_devices(lambda ball: None)
+@inlined
+def _search_from_start(ball: BallRecord) -> None:
+    ball.search_age, ball.passed_age, ball.passed_row = 0.0, 0.0, NOTHING
 
 
 @inlined
 def reset_search(ball: BallRecord) -> None:
     """Discard the known next contact: the flight is searched again from its `search_age`."""
-    ball.contact_age, ball.contact_row = ball.search_age, NOTHING
+    ball.contact_age, ball.contact_row = _reset_solid(ball), NOTHING
+
+
+@for_devices(lambda ball: 0.0)
+@inlined
+def _reset_solid(ball: BallRecord) -> float:
+    """Discard the next contact that is no crossing; return the age from which the flight is searched."""
     ball.solid_age, ball.solid_row = ball.search_age, NOTHING
+    return float(ball.search_age)
 
 
 @inlined
@@ -171,10 +205,11 @@ def choose_motion_inlined(ball: BallRecord, board: BoardRecord) -> None:
 
     Along its direction the slip decreases from |u| at the rate  7/2·μ·p − g·u/|u|.
     """
-    pull_x, pull_z, pull = board.level_x[ball.level], board.level_z[ball.level], board.level_size[ball.level]
+    level = level_of(ball)
+    pull_x, pull_z, pull = board.level_x[level], board.level_z[level], board.level_size[level]
     slip_x, slip_z = slip(ball, board)
     speed = sqrt(slip_x * slip_x + slip_z * slip_z)
-    grip = board.friction * board.level_normal[ball.level]
+    grip = board.friction * board.level_normal[level]
     ball.roll_age = NEVER
     if speed <= MIN_SLIP_SPEED:
         if pull <= SLIP_DECAY_FACTOR * grip:
@@ -221,8 +256,9 @@ def _advance_spin(ball: BallRecord, board: BoardRecord, age: float) -> None:
         _set_rolling_spin(ball, board)
     elif ball.motion == Motion.SLIPPING:
         gain = 2.5 * age * board.curvature
-        ball.spin_x -= gain * (ball.accel_z - board.level_z[ball.level])
-        ball.spin_z += gain * (ball.accel_x - board.level_x[ball.level])
+        level = level_of(ball)
+        ball.spin_x -= gain * (ball.accel_z - board.level_z[level])
+        ball.spin_z += gain * (ball.accel_x - board.level_x[level])
 
 
 @internal
@@ -268,21 +304,29 @@ def has_valid_motion(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball moves as its board allows, on a flight that began before this tick."""
     if not (0.0 <= ball.offset <= tick * TIME_TOLERANCE and ball.age >= tick - tick * TIME_TOLERANCE):
         return False
-    if not (0.0 <= ball.search_age <= ball.age and 0.0 <= ball.passed_age <= ball.age):
+    if not _has_valid_search(ball):
         return False
-    has_friction = board.level_normal[ball.level] != 0.0
+    level = level_of(ball)
+    has_friction = board.level_normal[level] != 0.0
     if ball.motion == Motion.SLIPPING:
         return has_friction
     share = ROLLING_SHARE if ball.motion == Motion.ROLLING else 1.0
     if (
-        ball.accel_x != share * board.level_x[ball.level]
-        or ball.accel_z != share * board.level_z[ball.level]
+        ball.accel_x != share * board.level_x[level]
+        or ball.accel_z != share * board.level_z[level]
         or ball.roll_age != NEVER
     ):
         return False
     if ball.motion == Motion.ROLLING:
         return has_friction and not is_slipping(ball, board)
     return ball.motion == Motion.SLIDING and not has_friction
+
+
+@for_devices(lambda ball: True)
+@inlined
+def _has_valid_search(ball: BallRecord) -> bool:
+    """Whether the searches along a flight began when it lasted already."""
+    return bool(0.0 <= ball.search_age <= ball.age and 0.0 <= ball.passed_age <= ball.age)
 
 
 @internal

@@ -20,10 +20,13 @@ from silverball.physics.forms import Response as Response, Shape as Shape  # noq
 from silverball.physics.kernel import SETTINGS
 
 MAX_BALLS = 8
-"""Balls in a world record; a board uses the first `max_balls` of them."""
+"""Balls in a WORLD record; a board uses the first `max_balls` of them."""
 
 MAX_PADDLES = 8
-"""Paddles in a world record; a board uses the first `paddles` of them."""
+"""Paddles in a WORLD record; a board uses the first `paddles` of them."""
+
+PLAIN_BALLS = PLAIN_PADDLES = 2
+"""The same in a PLAIN_WORLD record."""
 
 MAX_PAIRS = MAX_BALLS * (MAX_BALLS - 1) // 2
 """Pairs of balls, in the order (0, 1), (0, 2), (1, 2), (0, 3), …: those of the first n balls come first."""
@@ -159,7 +162,12 @@ class Outcome(IntEnum):
     NO_ROOM = 2
 
 
-BALL = np.dtype(
+def _fields(record: np.dtype[Any]) -> list[tuple[str, np.dtype[Any]]]:
+    """The fields of a record."""
+    return [(name, record[name]) for name in record.names or ()]
+
+
+PLAIN_BALL = np.dtype(
     [
         ("x", "f8"), ("z", "f8"),  # centre [u]
         ("vx", "f8"), ("vz", "f8"),  # velocity [u/s]
@@ -175,7 +183,19 @@ BALL = np.dtype(
         ("age", "f8"),  # at the start of the next tick [s]
         # The next contact with a stationary part; with NOTHING: there is none up to this age [s].
         ("contact_age", "f8"), ("contact_row", "i8"),
+    ],
+    align=True,
+)  # fmt: skip
+"""A ball of a plain world.
+
+Numba takes a record for another one if it begins with all fields of that. BALL must not begin with these.
+"""
+
+BALL = np.dtype(
+    [
+        *_fields(PLAIN_BALL)[:8],
         ("level", "i8"),
+        *_fields(PLAIN_BALL)[8:],
         # A captured ball: the row that holds it, and when that lets it go: the tick and the time in it [s].
         ("holder", "i8"), ("due_tick", "i8"), ("due_offset", "f8"),
         # The searches: the age from which the flight is searched for contacts; the last crossing; and, on
@@ -204,17 +224,37 @@ SPINNER = np.dtype(
     align=True,
 )  # fmt: skip
 
+HEADER = (
+    ("tick", "i8"),
+    ("seed", "i8"), ("draws", "i8"),  # the random generator: key and counter
+    ("score", "i8"),
+    ("created", "i8"), ("drained", "i8"),  # balls
+    ("wall_hits", "i8"), ("slant_wall_hits", "i8"), ("paddle_hits", "i8"),
+    ("triangular_prism_hits", "i8"), ("cylinder_hits", "i8"), ("ball_hits", "i8"),
+    ("touches", "i8"),
+    ("jams", "i8"),
+    ("fault", "i8"),  # Fault
+)  # fmt: skip
+"""The first fields of every world record."""
+
+PLAIN_WORLD = np.dtype(
+    [
+        *HEADER,
+        ("paddle", PADDLE, (PLAIN_PADDLES,)),
+        ("ball", PLAIN_BALL, (PLAIN_BALLS,)),
+    ],
+    align=True,
+)  # fmt: skip
+"""The record of a world on a *plain* board: two paddles, at most two balls, one
+level, no devices, nothing one-way, no arcs.
+
+It is a seventh as long as WORLD. Kernels are compiled for either type of record when they first meet it; see
+`for_devices.py` for what they leave out.
+"""
+
 WORLD = np.dtype(
     [
-        ("tick", "i8"),
-        ("seed", "i8"), ("draws", "i8"),  # the random generator: key and counter
-        ("score", "i8"),
-        ("created", "i8"), ("drained", "i8"),  # balls
-        ("wall_hits", "i8"), ("slant_wall_hits", "i8"), ("paddle_hits", "i8"),
-        ("triangular_prism_hits", "i8"), ("cylinder_hits", "i8"), ("ball_hits", "i8"),
-        ("touches", "i8"),
-        ("jams", "i8"),
-        ("fault", "i8"),  # Fault
+        *HEADER,
         ("off", "i8"),  # a bit for each switch: the collider is away
         ("next_clock", "i8"),  # the tick in which a device acts by itself next, or NO_CLOCK
         ("launch_held", "i8"),  # ticks for which the launch button has been held
@@ -265,6 +305,12 @@ BOARD = np.dtype(
 
 COLLIDER = np.dtype(
     [
+        # Motion, paddles only: angles [rad], speeds [rad/s], the bit of the button, angular accelerations
+        # [rad/s²] (0: constant speed); a circle in which a ball's centre must be to touch the paddle, at any
+        # angle.
+        ("angle_rest", "f8"), ("angle_up", "f8"), ("lift_speed", "f8"), ("return_speed", "f8"),
+        ("button", "i8"), ("lift_accel", "f8"), ("return_accel", "f8"),
+        ("sweep_x", "f8"), ("sweep_z", "f8"), ("sweep_reach", "f8"),
         ("kind", "i8"),
         # Shape, Response, the levels (bit n: level n), the switch (a bit of WORLD.off; 0: always there).
         ("form", "i8"), ("response", "i8"), ("levels", "i8"), ("switch", "i8"),
@@ -283,12 +329,8 @@ COLLIDER = np.dtype(
         ("role", "i8"), ("number", "i8"),  # Device, and which spinner or bank of the board
         # Surface
         ("restitution", "f8"), ("restitution_falloff", "f8"), ("speed_factor", "f8"), ("points", "i8"),
-        # Motion, paddles only: the side is +1 left, −1 right; angles [rad], speeds [rad/s]; the bit of the
-        # button; a circle in which a ball's centre must be to touch the paddle, at any angle.
-        ("side", "f8"), ("angle_rest", "f8"), ("angle_up", "f8"),
-        ("lift_speed", "f8"), ("return_speed", "f8"), ("button", "i8"),
-        ("sweep_x", "f8"), ("sweep_z", "f8"), ("sweep_reach", "f8"),
-        ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
+        # Paddles: the side is +1 left, −1 right; sine and cosine of the angles at the stops
+        ("side", "f8"), ("sine_rest", "f8"), ("cosine_rest", "f8"), ("sine_up", "f8"), ("cosine_up", "f8"),
         # Tapered capsules: `radius` is that of the base, length0 leads to the tip (see shapes.py).
         ("tip_radius", "f8"), ("taper_sine", "f8"), ("taper_cosine", "f8"),
         # Arcs: ends 0 and 1, where along_* are the tangents towards the middle; centre 2, from which the
@@ -297,8 +339,7 @@ COLLIDER = np.dtype(
         # Surface: coefficient of friction, [u/s] a contact above it is a hit, [u/s] kick, KickProfile
         ("friction", "f8"), ("hit_speed", "f8"), ("kick", "f8"), ("kick_profile", "i8"),
         ("one_way", "i8"),  # 1: only a ball that comes from the side of `inward` meets it
-        # Paddles: angular accelerations [rad/s²], 0 for constant speed; how far it gives way (see bounce.py)
-        ("lift_accel", "f8"), ("return_accel", "f8"), ("recoil", "f8"),
+        ("recoil", "f8"),  # paddles: how far it gives way (see bounce.py)
         # Passages: the levels to the right and to the left of corner 0 → corner 1.
         ("level_right", "i8"), ("level_left", "i8"),
         # Spinners: damping [1/s], speed that it takes [u/s], half of the blade's height [u]
@@ -340,7 +381,7 @@ LOG = np.dtype(
         ("count", "i8"), ("lost", "i8"),
         ("carried", "i8"),  # the first events: balls created before the last step
         ("done", "i8"),  # events at the end of the last step; later ones are balls created since
-        ("checksum", "f8"),  # of the flights and angles that the last call left
+        ("checksum", "i8"),  # of the flights and angles that the last call left
         ("event", EVENT, (LOG_LENGTH,)),
         # Scratch of a tick: the paddles' motion; for each ball its events since its last jam and its jams;
         # for each pair of balls the contacts between them since a jam of either.
@@ -353,8 +394,8 @@ LOG = np.dtype(
 
 
 # The arguments of kernels: rows of arrays of these types, and whole arrays. mypy cannot know them.
-WorldRecord: TypeAlias = Any  # a WORLD record
-BallRecord: TypeAlias = Any  # a BALL record
+WorldRecord: TypeAlias = Any  # a WORLD or PLAIN_WORLD record
+BallRecord: TypeAlias = Any  # a BALL or PLAIN_BALL record
 PaddleRecord: TypeAlias = Any  # a PADDLE record
 BoardRecord: TypeAlias = Any  # a BOARD record
 ColliderRecord: TypeAlias = Any  # a COLLIDER record

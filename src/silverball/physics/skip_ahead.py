@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from silverball.physics.broad_phase import is_near, max_travel
 from silverball.physics.contact import find_contact
+from silverball.physics.devices import ticks_to_clock
 from silverball.physics.flight import contact_with_ball, state_at, time_to_line
-from silverball.physics.kernel import as_int, inlined, internal
+from silverball.physics.for_devices import ball_slots, is_captured, paddle_count, switches_off
+from silverball.physics.kernel import inlined, internal
 from silverball.physics.motion import restart_slip, start_rolling
 from silverball.physics.records import (
     NOTHING,
@@ -36,7 +38,7 @@ def starts_rolling_next(ball: BallRecord, tick: float) -> bool:
 @inlined
 def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, off: int, tick: float) -> bool:
     """Whether a ball meets nothing in the next tick, apart from other balls."""
-    if ball.id == 0 or ball.motion == Motion.CAPTURED:
+    if ball.id == 0 or is_captured(ball):
         return True
     end = ball.age + tick
     if ball.contact_age < end and ball.contact_row == NOTHING:
@@ -48,8 +50,9 @@ def is_undisturbed(geometry: BoardGeometry, ball: BallRecord, off: int, tick: fl
     if ball.x + margin * tick * (min(ball.vx, 0.0) - board.max_accel * tick) > board.paddle_top:
         return True
     travel = margin * tick * (abs(ball.vx) + abs(ball.vz) + board.max_accel * tick)
-    for row in range(as_int(Part.FIRST_PADDLE), board.shape_first):
-        c = geometry.colliders[board.collider_first + row]
+    first = board.collider_first + Part.FIRST_PADDLE
+    for number in range(paddle_count(ball, board)):
+        c = geometry.colliders[first + number]
         if is_near(ball.x, ball.z, c.sweep_x, c.sweep_z, c.sweep_reach + travel):
             return False
     return True
@@ -80,7 +83,7 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: 
     The ball must be undisturbed in the next tick. The bound is the first time at which its contact is due, a
     paddle can be in reach, or its speed reaches the cap. Other balls are ignored.
     """
-    if ball.id == 0 or limit == 1 or ball.motion == Motion.CAPTURED:
+    if ball.id == 0 or limit == 1 or is_captured(ball):
         return limit
     if ball.motion == Motion.SLIPPING:
         return 1
@@ -102,15 +105,16 @@ def undisturbed_ticks(board: BoardRecord, ball: BallRecord, tick: float, limit: 
 def event_free_ticks(geometry: BoardGeometry, world: WorldRecord, tick: float, limit: int) -> int:
     """Compute how many of the next ticks, at most `limit`, are free of events."""
     board = geometry.board
-    slots = board.max_balls
-    if world.next_clock <= world.tick:
+    slots = ball_slots(world, board)
+    limit = min(limit, ticks_to_clock(world))
+    if limit <= 0:
         return 0
-    limit = min(limit, world.next_clock - world.tick)
+    off = switches_off(world)
     changes = False
     for slot in range(slots):
         restart_slip(world.ball[slot], board)
     for slot in range(slots):
-        if not is_undisturbed(geometry, world.ball[slot], world.off, tick):
+        if not is_undisturbed(geometry, world.ball[slot], off, tick):
             return 0
         changes = changes or starts_rolling_next(world.ball[slot], tick)
     # Twice the distance: if one ball does not roll undisturbed although another one already rolls, the tick
@@ -123,7 +127,7 @@ def event_free_ticks(geometry: BoardGeometry, world: WorldRecord, tick: float, l
     if changes:
         for slot in range(slots):
             ball = world.ball[slot]
-            if starts_rolling_next(ball, tick) and not rolls_undisturbed(geometry, ball, world.off, tick):
+            if starts_rolling_next(ball, tick) and not rolls_undisturbed(geometry, ball, off, tick):
                 return 0
     count = limit
     for slot in range(slots):

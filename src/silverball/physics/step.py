@@ -20,14 +20,17 @@ from silverball.physics.broad_phase import is_near
 from silverball.physics.contact import first_contact, resolve
 from silverball.physics.devices import (
     clock_time,
-    count_launch_tick,
+    count_launch_ticks,
+    has_devices,
     is_launching,
     run_clocks,
     set_next_clock,
+    ticks_to_clock,
     work_plungers,
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at
+from silverball.physics.for_devices import are_on_one_level, ball_slots, for_devices, paddle_count
 from silverball.physics.kernel import as_int, inlined, internal, kernel, prefetch
 from silverball.physics.motion import advance_ticks, advance_to, hold_still, release, start_flight
 from silverball.physics.paddle import (
@@ -50,6 +53,7 @@ from silverball.physics.records import (
     LEFT,
     NOTHING,
     NULL_EVENT,
+    PLAIN_WORLD,
     RIGHT,
     WORLD,
     BallRecord,
@@ -77,7 +81,7 @@ from silverball.physics.validation import admit_state, is_unchanged, validate_wo
 JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
 LINE = 64  # bytes of a line of the cache
 HOT_BYTES = cast(Any, WORLD.fields)["ball"][1] + 2 * BALL.itemsize  # of a world, up to its second ball
-HOT_LINES = -(-HOT_BYTES // LINE)
+HOT_LINES, PLAIN_LINES = -(-HOT_BYTES // LINE), -(-PLAIN_WORLD.itemsize // LINE)
 
 
 @inlined
@@ -114,7 +118,9 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
         play_tick(lane, geometry, buttons, tick)
         return 1
     for _ in range(free):
-        turn_paddles(world, board, geometry.colliders, buttons, tick)
+        if turn_paddles(world, board, geometry.colliders, buttons, tick):
+            break
+    count_launch_ticks(world, board, buttons, free)
     finish_ticks(world, board, tick, free)
     return free
 
@@ -122,19 +128,24 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
 @inlined
 def turn_paddles(
     world: WorldRecord, board: BoardRecord, colliders: Colliders, buttons: int, tick: float
-) -> None:
-    """Turn the paddles, and pull the plungers, through a tick in which they meet nothing."""
-    first = board.collider_first + Part.FIRST_PADDLE
-    for index in range(board.paddles):
+) -> bool:
+    """Turn the paddles through a tick in which they meet nothing; return whether all stood still.
+
+    Then they stand still as long as the buttons are the same.
+    """
+    first, stand = board.collider_first + Part.FIRST_PADDLE, True
+    for index in range(paddle_count(world, board)):
         c, paddle = colliders[first + index], world.paddle[index]
-        store_paddle(paddle, start_sweep(c, paddle, buttons & c.button != 0), tick)
-    count_launch_tick(world, board, buttons)
+        sweep = start_sweep(c, paddle, buttons & c.button != 0)
+        store_paddle(paddle, sweep, tick)
+        stand = stand and not is_turning(sweep)
+    return stand
 
 
 @inlined
 def finish_ticks(world: WorldRecord, board: BoardRecord, tick: float, count: int) -> None:
     """Advance the balls to the end of a tick, or of several event-free ones, and count the ticks."""
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         advance_ticks(world.ball[slot], board, tick, count)
     world.tick += count
 
@@ -147,19 +158,18 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
     each other in the order of their slots.
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
-    has_devices = board.sensors != 0 or board.switches != 0
     start_tick(lane, geometry, buttons, tick)
     work_plungers(lane, geometry, buttons, tick)
     near = near_pairs(world, board, tick)
-    clock = clock_time(world, geometry, tick) if world.next_clock <= world.tick else NEVER
+    clock = clock_time(world, geometry, tick) if ticks_to_clock(world) <= 0 else NEVER
     jam_limit = JAM_EVENTS + int(JAM_EVENT_RATE * tick)
     time = 0.0
     while True:
         limit = min(tick, clock)
-        for index in range(board.paddles):
+        for index in range(paddle_count(world, board)):
             limit = min(limit, scratch.sweep[index].stop_time)
-        slot, other, contact = -1, -1, Contact(limit, NOTHING, 0.0, 0.0)
-        for index in range(board.max_balls):
+        slot, other, contact = -1, -1, Contact(limit, as_int(NOTHING), 0.0, 0.0)
+        for index in range(ball_slots(world, board)):
             found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
                 slot, contact = index, found
@@ -176,13 +186,13 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
         elif slot >= 0:
             resolve(lane, geometry, world.ball[slot], contact, tick)
             scratch.ball_events[slot] += 1
-        for index in range(board.paddles):
+        for index in range(paddle_count(world, board)):
             sweep = scratch.sweep[index]
             if time >= sweep.stop_time:
                 write_sweep(sweep, end_at_stop(read_sweep(sweep)), NEVER)
         if time >= clock:
             run_clocks(lane, geometry, time, tick)
-        if has_devices:
+        if has_devices(world, board):
             clock = clock_time(world, geometry, tick)
             near = near_pairs(world, board, tick)  # a ball may have been let go, or have left
 
@@ -190,27 +200,27 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
             scratch.ball_events[slot] >= jam_limit or (other >= 0 and scratch.ball_events[other] >= jam_limit)
         ):
             stop_jammed_balls(lane, geometry, time, jam_limit)
-    for index in range(board.max_balls):
+    for index in range(ball_slots(world, board)):
         release(world.ball[index], board, tick)
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         store_paddle(world.paddle[index], read_sweep(scratch.sweep[index]), tick)
-    count_launch_tick(world, board, buttons)
+    count_launch_ticks(world, board, buttons, as_int(1))
     finish_ticks(world, board, tick, as_int(1))
-    if has_devices:
+    if has_devices(world, board):
         set_next_clock(world, geometry, tick)
 
 
 @inlined
 def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -> None:
     """Set the paddles' motion in a tick, and empty the counters that detect jams."""
-    board, scratch = geometry.board, lane.scratch
+    world, board, scratch = lane.world, geometry.board, lane.scratch
     first = board.collider_first + Part.FIRST_PADDLE
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c = geometry.colliders[first + index]
-        sweep = start_sweep(c, lane.world.paddle[index], buttons & c.button != 0)
+        sweep = start_sweep(c, world.paddle[index], buttons & c.button != 0)
         write_sweep(scratch.sweep[index], sweep, time_to_stop(sweep, tick))
     pair = 0
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         scratch.ball_events[slot], scratch.ball_jams[slot] = 0, 0
         for _ in range(slot):
             scratch.pair_events[pair] = 0
@@ -221,7 +231,7 @@ def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
 def near_pairs(world: WorldRecord, board: BoardRecord, tick: float) -> int:
     """Compute which pairs of balls may meet in a tick: bit n stands for the n-th pair (see `MAX_PAIRS`)."""
     near, bit = 0, 1
-    for other in range(1, board.max_balls):
+    for other in range(1, ball_slots(world, board)):
         for one in range(other):
             if not cannot_meet(board, world.ball[one], world.ball[other], tick, 1.0):
                 near |= bit
@@ -248,10 +258,10 @@ def first_ball_contact(
         start + (end − start), rounded; it is part of the bits of a replay.
     """
     pair, partner, end = 0, -1, best.time
-    for other in range(1, board.max_balls):
+    for other in range(1, ball_slots(world, board)):
         for one in range(other):
             a, b = world.ball[one], world.ball[other]
-            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0 and a.level == b.level:
+            if near >> pair & 1 != 0 and a.id != 0 and b.id != 0 and are_on_one_level(a, b):
                 accel_x, accel_z = a.accel_x - b.accel_x, a.accel_z - b.accel_z
                 at_a, at_b = state_at(a, a.age + start), state_at(b, b.age + start)
                 limit = best.time - start
@@ -309,10 +319,10 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
     """
     world, board, scratch = lane.world, geometry.board, lane.scratch
     jammed, partners, pair = 0, 0, 0
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         if scratch.ball_events[slot] >= limit:
             jammed |= 1 << slot
-    for other in range(1, board.max_balls):
+    for other in range(1, ball_slots(world, board)):
         for one in range(other):
             both = 1 << one | 1 << other
             if jammed & both != 0 and JAM_SHARE * scratch.pair_events[pair] >= limit:
@@ -320,7 +330,7 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
             pair += 1
     jammed |= partners
     pair = 0
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         is_jammed = jammed >> slot & 1 != 0
         if is_jammed:
             stop_jammed_ball(lane, geometry, world.ball[slot], time, scratch.ball_jams[slot] > 0)
@@ -348,11 +358,11 @@ def stop_jammed_ball(
     near = board.ball_radius + JAM_GAP
     first = board.collider_first + Part.FIRST_PADDLE
     is_held = is_repeat
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         is_held |= is_leaving(
             read_sweep(lane.scratch.sweep[index]), colliders[first + index], ball, near, time
         )
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c = colliders[first + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_held):
@@ -360,7 +370,7 @@ def stop_jammed_ball(
             write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
-    contact = Contact(time, NOTHING, 0.0, 0.0)
+    contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
     log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, NOTHING, contact, 0.0)
     if is_held:
         hold_still(ball, time)
@@ -433,7 +443,7 @@ def can_step(world: WorldRecord, geometry: BoardGeometry, log: LogRecord, tick: 
 def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
     """Whether the balls are within the borders: the only condition that a step itself can violate."""
     x, z = board.half_length, board.half_width
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         ball = world.ball[slot]
         if ball.id != 0 and not (abs(ball.x) <= x and abs(ball.z) <= z):
             return False
@@ -447,6 +457,41 @@ def held_buttons(actions: Any, row: int, index: int) -> int:
     if actions.shape[2] > LAUNCH_COLUMN and actions[row, index, LAUNCH_COLUMN]:
         buttons |= LAUNCH
     return buttons
+
+
+@for_devices(lambda world: PLAIN_LINES)
+@inlined
+def hot_lines(world: WorldRecord) -> int:
+    """The lines of the cache at the start of a world's record that every tick reads."""
+    return HOT_LINES
+
+
+@inlined
+def run_held(lane: Lane, geometry: BoardGeometry, buttons: int, ticks: int, tick: float) -> None:
+    """Advance a world by a number of ticks, with these bits of buttons held and the jitter on the first.
+
+    A negative number continues the previous call by −ticks, as for `run_worlds`.
+    """
+    world, board, log = lane.world, geometry.board, lane.log
+    if ticks >= 0:
+        begin_step(log)
+    if ticks == 0 or not can_step(world, geometry, log, tick):
+        return
+    if buttons & JITTER != 0 and ticks > 0 and are_balls_on_board(world, board):
+        shove_balls(world, board, log)
+    left = abs(ticks)
+    while left > 0 and are_balls_on_board(world, board):
+        left -= advance(lane, geometry, buttons & ~JITTER, tick, left)
+    end_step(world, board, log)
+
+
+@inlined
+def end_step(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
+    """Set the fault of a world after its last tick, and what its log says about it."""
+    if not are_balls_on_board(world, board):
+        validate_world(world, board)  # sets the fault
+    store_checksum(world, board, log)
+    log.done = log.count
 
 
 @kernel
@@ -473,25 +518,27 @@ def run_worlds(
         lane = Lane(lanes.worlds[index], lanes.logs[index], lanes.tallies[index], lanes.logs[first])
         if index + 1 < end:
             next_world = lanes.worlds[index + 1]
-            for line in range(HOT_LINES):
+            for line in range(hot_lines(next_world)):
                 prefetch(next_world, line * LINE)
             prefetch(lanes.logs[index + 1], 0)
         world, log, board = lane.world, lane.log, geometries.boards[lanes.board_of[index]]
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)
+        if is_held:
+            buttons = held_buttons(actions, as_int(0), index)
+            if actions[0, index, JITTER_COLUMN]:
+                buttons |= JITTER
+            run_held(lane, geometry, buttons, -ticks if is_continued else ticks, tick)
+            continue
         if not is_continued:
             begin_step(log)
         if ticks == 0 or not can_step(world, geometry, log, tick):
             continue
         tick_index = 0
         while tick_index < ticks and are_balls_on_board(world, board):
-            row = 0 if is_held else tick_index
-            if actions[row, index, JITTER_COLUMN] and (not is_held or (tick_index == 0 and not is_continued)):
+            if actions[tick_index, index, JITTER_COLUMN]:
                 shove_balls(world, board, log)
-            buttons = held_buttons(actions, row, index)
-            if is_held:
-                tick_index += advance(lane, geometry, buttons, tick, ticks - tick_index)
-                continue
+            buttons = held_buttons(actions, tick_index, index)
             free = 0
             if not is_launching(world, board, buttons):
                 free = event_free_ticks(geometry, world, tick, ticks - tick_index)
@@ -499,17 +546,16 @@ def run_worlds(
                 play_tick(lane, geometry, buttons, tick)
                 tick_index += 1
                 continue
-            count = 0
+            count, standing = 0, -1  # the buttons with which the paddles stand
             while count < free:
                 row = tick_index + count
                 buttons = held_buttons(actions, row, index)
                 if count > 0 and (actions[row, index, JITTER_COLUMN] or is_launching(world, board, buttons)):
                     break
-                turn_paddles(world, board, colliders, buttons, tick)
+                if buttons != standing:
+                    standing = buttons if turn_paddles(world, board, colliders, buttons, tick) else -1
+                count_launch_ticks(world, board, buttons, as_int(1))
                 count += 1
             finish_ticks(world, board, tick, count)
             tick_index += count
-        if not are_balls_on_board(world, board):
-            validate_world(world, board)  # sets the fault
-        store_checksum(world, board, log)
-        log.done = log.count
+        end_step(world, board, log)

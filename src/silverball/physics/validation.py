@@ -11,9 +11,17 @@ from __future__ import annotations
 
 from silverball.physics.balls import separate_balls
 from silverball.physics.broad_phase import cell_of, is_near
-from silverball.physics.contact import is_present
 from silverball.physics.devices import is_possible_capture, validate_devices
 from silverball.physics.event_log import flight_checksum
+from silverball.physics.for_devices import (
+    ball_slots,
+    is_captured,
+    is_solid,
+    level_of,
+    paddle_count,
+    shares_level,
+    switches_off,
+)
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import (
     has_valid_motion,
@@ -24,16 +32,13 @@ from silverball.physics.motion import (
 )
 from silverball.physics.paddle import paddle_distance
 from silverball.physics.records import (
-    MAX_BALLS,
     MAX_LEVELS,
     BallRecord,
     BoardGeometry,
     BoardRecord,
     Fault,
     LogRecord,
-    Motion,
     Part,
-    Response,
     WorldRecord,
 )
 from silverball.physics.shapes import distance
@@ -46,7 +51,7 @@ def is_unchanged(world: WorldRecord, board: BoardRecord, log: LogRecord, tick: f
     if flight_checksum(world, board) != log.checksum:
         return False
     is_known = True
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         is_known = is_known and continues_flight(world.ball[slot], board, tick)
     return bool(is_known)
 
@@ -54,7 +59,7 @@ def is_unchanged(world: WorldRecord, board: BoardRecord, log: LogRecord, tick: f
 @inlined
 def continues_flight(ball: BallRecord, board: BoardRecord, tick: float) -> bool:
     """Whether a ball is on a flight that has not ended; true of an empty slot."""
-    if ball.motion == Motion.CAPTURED:
+    if is_captured(ball):
         return bool(ball.id == 0 or is_on_flight(ball, tick))
     return ball.id == 0 or (
         ball.age <= ball.contact_age
@@ -71,19 +76,19 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
     board = geometry.board
     if not validate_world(world, board):
         return False
-    for slot in range(board.max_balls):
+    for slot in range(ball_slots(world, board)):
         ball = world.ball[slot]
-        is_captured = ball.id != 0 and ball.motion == Motion.CAPTURED
-        if is_captured and not is_possible_capture(ball, board, geometry.colliders, tick):
+        has_holder = ball.id != 0 and is_captured(ball)
+        if has_holder and not is_possible_capture(ball, board, geometry.colliders, tick):
             set_free(ball, board, 0.0)
     validate_devices(world, geometry, tick)
     if not validate_positions(world, geometry):
         return False
-    for slot in range(MAX_BALLS):
+    for slot in range(len(world.ball)):
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        if ball.motion == Motion.CAPTURED and is_on_flight(ball, tick):
+        if is_captured(ball) and is_on_flight(ball, tick):
             continue
         if is_on_flight(ball, tick) and has_valid_motion(ball, board, tick):
             reset_search(ball)
@@ -99,13 +104,13 @@ def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
     Overlapping balls are moved apart first, if that is possible.
     """
     board, colliders = geometry.board, geometry.colliders
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c, angle = colliders[board.collider_first + Part.FIRST_PADDLE + index], world.paddle[index].angle
         if not min(c.angle_rest, c.angle_up) <= angle <= max(c.angle_rest, c.angle_up):
             world.fault = as_int(Fault.BEYOND_STOP)
             return False
     is_free = separate_balls(world, board, colliders)
-    for slot in range(MAX_BALLS):
+    for slot in range(len(world.ball)):
         ball = world.ball[slot]
         if ball.id != 0:
             is_free = is_free and is_clear_of_parts(world, geometry, ball)
@@ -118,23 +123,23 @@ def validate_positions(world: WorldRecord, geometry: BoardGeometry) -> bool:
 def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, ball: BallRecord) -> bool:
     """Whether a ball is inside no part, with the paddles at their present angles; a captured one never is."""
     x, z = ball.x, ball.z
-    if ball.motion == Motion.CAPTURED:
+    if is_captured(ball):
         return True
     board, colliders, grid = geometry.board, geometry.colliders, geometry.grid
     if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
         return False
-    min_gap = board.ball_radius - MAX_DEPTH
+    min_gap, off = board.ball_radius - MAX_DEPTH, switches_off(world)
     cell = cell_of(board, x, z)
     for entry in range(grid[cell], grid[cell + 1]):
         c = colliders[board.collider_first + grid[entry]]
-        if c.response != Response.BOUNCE or c.one_way != 0 or not is_present(c, ball.level, world.off):
+        if c.one_way != 0 or not is_solid(c, ball, off):
             continue
         gap, _, _ = distance(c, x, z)
         if gap < min_gap:
             return False
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         c = colliders[board.collider_first + Part.FIRST_PADDLE + index]
-        if c.levels >> ball.level & 1 == 0:
+        if not shares_level(c, ball):
             continue
         if is_near(x, z, c.x, c.z, c.reach + board.ball_radius):
             gap, _, _ = paddle_distance(c, world.paddle[index].angle, x, z)
@@ -146,7 +151,7 @@ def is_clear_of_parts(world: WorldRecord, geometry: BoardGeometry, ball: BallRec
 @kernel
 def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
     """Check that positions and speeds of the balls are possible; if not, set the fault and return False."""
-    for slot in range(MAX_BALLS):
+    for slot in range(len(world.ball)):
         ball = world.ball[slot]
         if ball.id == 0 or is_valid_ball(ball, board):
             continue
@@ -156,13 +161,13 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
         elif not (
             abs(ball.x) <= board.half_length
             and abs(ball.z) <= board.half_width
-            and 0 <= ball.level < MAX_LEVELS
+            and 0 <= level_of(ball) < MAX_LEVELS
         ):
             world.fault = as_int(Fault.OUTSIDE)
         else:
             world.fault = as_int(Fault.TOO_FAST)
         return False
-    for index in range(board.paddles):
+    for index in range(paddle_count(world, board)):
         if not is_finite(world.paddle[index].angle):
             world.fault = as_int(Fault.NOT_FINITE)
             return False
@@ -173,7 +178,7 @@ def validate_world(world: WorldRecord, board: BoardRecord) -> bool:
 def is_valid_ball(ball: BallRecord, board: BoardRecord) -> bool:
     """Whether a ball's position, speed and spin are possible."""
     inside = abs(ball.x) <= board.half_length and abs(ball.z) <= board.half_width
-    inside = inside and 0 <= ball.level < MAX_LEVELS
+    inside = inside and 0 <= level_of(ball) < MAX_LEVELS
     max_speed = board.speed_cap * SPEED_MARGIN
     slow = ball.vx * ball.vx + ball.vz * ball.vz <= max_speed * max_speed
     return inside and slow and is_finite(ball.spin_x + ball.spin_y + ball.spin_z)

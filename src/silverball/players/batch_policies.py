@@ -16,6 +16,7 @@ from silverball.players.registry import BUILT_IN, CheckedPlayer, check_name
 from silverball.players.simple import PlayerKind
 from silverball.players.trained import press_batch, ticks_per_decision as trained_ticks
 from silverball.world import World, WorldBatch
+from silverball.world.saved_world import in_layout
 
 
 class BatchPolicy(Protocol):
@@ -38,7 +39,7 @@ class PlannerPolicy:
 
     def __init__(self, batch: WorldBatch, branches: int) -> None:
         self._batch, self.every = batch, planner_ticks(batch.tick_rate)
-        self._state = PlannerState.of(batch.count, batch.tallies.shape[1], branches)
+        self._state = PlannerState.of(batch.state, batch.tallies.shape[1], branches)
         self.buttons = self._state.buttons
 
     def decide(self) -> None:
@@ -106,7 +107,8 @@ class WorldView:
     def world(self) -> World:
         """The world as it is now, with the events of its last step and its hits; always the same object."""
         copy, index = self._world._batch, self._index
-        copy.state[0], copy.logs[0] = self._batch.state[index], self._batch.logs[index]
+        copy.state[:] = in_layout(self._batch.state[index : index + 1], copy.state.dtype)
+        copy.logs[0] = self._batch.logs[index]
         copy.tallies[0] = self._batch.tallies[index, : copy.tallies.shape[1]]
         return self._world
 

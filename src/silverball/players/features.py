@@ -50,7 +50,7 @@ def raw_features(state: Any, boards: Any, colliders: Colliders) -> Rows:
     """The raw features of some worlds, of the first paddle of each button; those of a missing one are 0.
 
     Args:
-        state: WORLD records [world].
+        state: World records [world].
         boards: The BOARD record of each [world].
         colliders: COLLIDER records of all boards.
 

@@ -25,7 +25,6 @@ from silverball.physics.records import (
     LOG,
     LOG_SIZE,
     RIGHT,
-    WORLD,
     BatchGeometry,
     BoardGeometry,
     BoardRecord,
@@ -104,7 +103,7 @@ class PlannerState(NamedTuple):
     Attributes:
         memories: MEMORY records [world].
         plans: PLAN records [world, BEST or TRIAL].
-        copies: WORLD records [world, ROOT or BRANCH].
+        copies: World records [world, ROOT or BRANCH].
         logs: LOG records [world]; scratch.
         tallies: Hits [world, part]; scratch.
         buttons: The buttons to hold, bool [world, 2]: left, right.
@@ -118,14 +117,15 @@ class PlannerState(NamedTuple):
     buttons: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, count: int, parts: int, branches: int = BRANCHES) -> PlannerState:
+    def of(cls, worlds: NDArray[Any], parts: int, branches: int = BRANCHES) -> PlannerState:
         """The state of planners that have not decided yet.
 
         Args:
-            count: Worlds.
+            worlds: The worlds in which they will play.
             parts: Parts of the largest board.
             branches: Branches to try at a decision.
         """
+        count = len(worlds)
         memories = records(count, MEMORY)
         memories["step"] = NEVER_DECIDED
         memories["branches"] = branches
@@ -133,7 +133,7 @@ class PlannerState(NamedTuple):
         return cls(
             memories,
             records(2 * count, PLAN).reshape(count, 2),
-            records(2 * count, WORLD).reshape(count, 2),
+            records(2 * count, worlds.dtype).reshape(count, 2),
             records(count, LOG),
             np.zeros((count, parts), np.int64),
             np.zeros((count, 2), np.bool_),
@@ -189,9 +189,9 @@ class Planner:
     def _begin(self, world: World) -> None:
         """Begin with a world that has not been seen before."""
         self._world = world
-        _, board, colliders = world.records
-        self.state = PlannerState.of(1, len(colliders), self._branches)
-        self._copy, self._board = records(1, WORLD), records(1, BOARD)
+        record, board, colliders = world.records
+        self._copy, self._board = records(1, record.dtype), records(1, BOARD)
+        self.state = PlannerState.of(self._copy, len(colliders), self._branches)
         self._board[0], self._board_of = board, np.zeros(1, np.int64)
 
 
@@ -216,7 +216,7 @@ def plan_worlds(
     """Decide what to press in the worlds first … end − 1 for a step.
 
     Args:
-        worlds: WORLD records [world]; not changed.
+        worlds: World records [world]; not changed.
         board_of: The board of each world [world].
         geometries: The boards.
         state: Memories and scratch of the planners; its buttons are written.

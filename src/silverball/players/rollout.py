@@ -18,7 +18,6 @@ from silverball.physics.balls import create_ball
 from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import kernel
 from silverball.physics.records import (
-    MAX_BALLS,
     BatchGeometry,
     BoardGeometry,
     Fault,
@@ -188,7 +187,7 @@ def play_worlds(
 def ball_count(world: WorldRecord) -> int:
     """The number of balls on the board."""
     count = 0
-    for slot in range(MAX_BALLS):
+    for slot in range(len(world.ball)):
         if world.ball[slot].id != 0:
             count += 1
     return count

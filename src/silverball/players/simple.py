@@ -8,6 +8,7 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any
 
+from silverball.physics.for_devices import is_captured, shares_level
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
@@ -17,7 +18,6 @@ from silverball.physics.records import (
     BoardRecord,
     ColliderRecord,
     Colliders,
-    Motion,
     Part,
     WorldRecord,
 )
@@ -148,7 +148,7 @@ def strikes(world: WorldRecord, board: BoardRecord, c: ColliderRecord, ahead: fl
     sine, cosine = sine_cosine(c.angle_rest)
     for slot in range(board.max_balls):
         ball = world.ball[slot]
-        if ball.id == 0 or ball.motion == Motion.CAPTURED or c.levels >> ball.level & 1 == 0:
+        if ball.id == 0 or is_captured(ball) or not shares_level(c, ball):
             continue
         dx = ball.x + (ball.vx + 0.5 * ball.accel_x * ahead) * ahead - c.x
         dz = (ball.z + (ball.vz + 0.5 * ball.accel_z * ahead) * ahead - c.z) * c.side

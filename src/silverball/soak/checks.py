@@ -24,6 +24,7 @@ from silverball.physics.audit import (
     is_met,
     is_out_of_reach,
 )
+from silverball.physics.for_devices import are_on_one_level, level_of, switches_off
 from silverball.physics.kernel import as_int, inlined, kernel
 from silverball.physics.records import (
     JITTER,
@@ -173,7 +174,7 @@ def register_new_balls(world: WorldRecord, truth: ReferenceBoard, watch: WatchRe
             tracker.since, tracker.jams = world.tick, world.jams
             tracker.region = MAIN_REGION
             if truth.hostile or truth.board.sensors != 0:
-                label = label_at(truth.header, truth.labels, ball.level, ball.x, ball.z)
+                label = label_at(truth.header, truth.labels, level_of(ball), ball.x, ball.z)
                 tracker.region = region_of(label)
 
 
@@ -185,13 +186,13 @@ def follow_transfers(lane: Lane, truth: ReferenceBoard, watch: WatchRecord) -> N
         ball, tracker = world.ball[slot], watch.tracker[slot]
         if ball.id == 0 or ball.id != tracker.id:
             continue
-        is_moved = ball.level != watch.level_before[slot] or log.lost > 0
+        is_moved = level_of(ball) != watch.level_before[slot] or log.lost > 0
         for number in range(log.count):
             event = log.event[number]
             is_hole = event.kind in (EventKind.CAPTURED, EventKind.RELEASED)
             is_moved = is_moved or (is_hole and event.ball == ball.id)
         if is_moved:
-            tracker.region = region_of(label_at(truth.header, truth.labels, ball.level, ball.x, ball.z))
+            tracker.region = region_of(label_at(truth.header, truth.labels, level_of(ball), ball.x, ball.z))
 
 
 @kernel
@@ -210,7 +211,7 @@ def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) 
         ball = world.ball[slot]
         if ball.id == 0:
             continue
-        label = label_at(truth.header, truth.labels, ball.level, ball.x, ball.z)
+        label = label_at(truth.header, truth.labels, level_of(ball), ball.x, ball.z)
         region = region_of(label)
         if label == OFF_BOARD or ball.x < board.gutter - GUTTER_MARGIN:
             report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
@@ -221,11 +222,13 @@ def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) 
             report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
         depth = depth_in_borders(board, colliders, ball.x, ball.z)
         if is_narrow(label) and ball.motion != Motion.CAPTURED:
-            inside = depth_in_stationary(board, colliders, ball.x, ball.z, ball.level, world.off)
+            inside = depth_in_stationary(
+                board, colliders, ball.x, ball.z, level_of(ball), switches_off(world)
+            )
             depth = max(depth, inside)
         for number in range(board.paddles if ball.motion != Motion.CAPTURED else 0):
             c = colliders[board.collider_first + Part.FIRST_PADDLE + number]
-            if is_met(c, ball.level, world.off):
+            if is_met(c, level_of(ball), switches_off(world)):
                 inside = depth_in_paddle(c, world.paddle[number].angle, ball.x, ball.z, board.ball_radius)
                 depth = max(depth, inside)
         if not has_checked_pairs:
@@ -336,7 +339,7 @@ def depth_along_path(
     swept, at_paddle = path, False
     for paddle in range(board.paddles):
         c = colliders[paddles + paddle]
-        if is_met(c, ball.level, 0) and not is_out_of_reach(c, ball.x, ball.z, radius + path):
+        if is_met(c, level_of(ball), 0) and not is_out_of_reach(c, ball.x, ball.z, radius + path):
             at_paddle = True
             turned = abs(world.paddle[paddle].angle - watch.angle_before[paddle])
             swept = max(swept, path + turned * hypot(ball.x - c.x, ball.z - c.z))
@@ -345,13 +348,15 @@ def depth_along_path(
     for number in range(1, count):
         share = number / count
         x, z = start_x + share * dx, start_z + share * dz
-        if is_narrow(label_at(truth.header, truth.labels, ball.level, x, z)):
-            inside = depth_in_stationary(board, colliders, x, z, ball.level, world.off | watch.off_before)
+        if is_narrow(label_at(truth.header, truth.labels, level_of(ball), x, z)):
+            inside = depth_in_stationary(
+                board, colliders, x, z, level_of(ball), switches_off(world) | watch.off_before
+            )
             depth = max(depth, inside)
         if at_paddle:
             for paddle in range(board.paddles):
                 c = colliders[paddles + paddle]
-                if not is_met(c, ball.level, 0):
+                if not is_met(c, level_of(ball), 0):
                     continue
                 angle = angle_after(
                     c, watch.angle_before[paddle], world.paddle[paddle].angle, share * tick,
@@ -377,7 +382,7 @@ def depth_of_meeting(
 def is_free(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, slot: int, tick: float) -> bool:
     """Whether the ball in a slot was there before the tick, on the same level, and met nothing in it."""
     ball = lane.world.ball[slot]
-    if ball.id == 0 or ball.id != watch.id_before[slot] or ball.level != watch.level_before[slot]:
+    if ball.id == 0 or ball.id != watch.id_before[slot] or level_of(ball) != watch.level_before[slot]:
         return False
     if Motion.CAPTURED in (ball.motion, watch.motion_before[slot]):
         return False
@@ -405,7 +410,7 @@ def check_tunnelling(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick
         if depth > allowed:
             report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
         for other in range(slot + 1, board.max_balls):
-            is_same = world.ball[other].level == world.ball[slot].level
+            is_same = are_on_one_level(world.ball[other], world.ball[slot])
             if is_same and is_free(lane, truth, watch, other, tick):
                 depth = depth_of_meeting(
                     previous_ball(watch, slot), world.ball[slot],
@@ -452,8 +457,8 @@ def remember_state(world: WorldRecord, board: BoardRecord, watch: WatchRecord) -
         ball = world.ball[slot]
         watch.id_before[slot], watch.x_before[slot], watch.z_before[slot] = ball.id, ball.x, ball.z
         watch.vx_before[slot], watch.vz_before[slot] = ball.vx, ball.vz
-        watch.level_before[slot], watch.motion_before[slot] = ball.level, ball.motion
-    watch.off_before = world.off
+        watch.level_before[slot], watch.motion_before[slot] = level_of(ball), ball.motion
+    watch.off_before = switches_off(world)
     for paddle in range(board.paddles):
         watch.angle_before[paddle] = world.paddle[paddle].angle
         watch.omega_before[paddle] = world.paddle[paddle].angular_velocity

@@ -11,6 +11,7 @@ from math import hypot, inf
 from typing import Any
 
 from silverball.physics.audit import side_gap
+from silverball.physics.for_devices import level_of
 from silverball.physics.kernel import inlined, kernel
 from silverball.physics.records import (
     BallRecord,
@@ -53,7 +54,7 @@ def line_crossings(c: ColliderRecord, ball: BallRecord, x: float, z: float, marg
         return 0
     if along < slack or along > length - slack:
         return UNKNOWN
-    if c.role == Device.PASSAGE and ball.level != (c.level_right if after > 0.0 else c.level_left):
+    if c.role == Device.PASSAGE and level_of(ball) != (c.level_right if after > 0.0 else c.level_left):
         return 0
     return 1
 
@@ -90,7 +91,7 @@ def is_crossing_wrong(
     x, z = watch.x_before[slot], watch.z_before[slot]
     for index in range(board.collider_first + board.shape_first, board.collider_end):
         c = colliders[index]
-        if not is_sensor(c) or c.levels >> ball.level & 1 == 0:
+        if not is_sensor(c) or c.levels >> level_of(ball) & 1 == 0:
             continue
         if c.form == Shape.LINE:
             expected = line_crossings(c, ball, x, z, margin)
@@ -151,7 +152,7 @@ def depth_in_one_way(
     x, z, depth = watch.x_before[slot], watch.z_before[slot], 0.0
     for index in range(board.collider_first + board.shape_first, board.collider_end):
         c = colliders[index]
-        if c.one_way == 0 or c.levels >> ball.level & 1 == 0:
+        if c.one_way == 0 or c.levels >> level_of(ball) & 1 == 0:
             continue
         dx, dz, thick = c.x1 - c.x0, c.z1 - c.z0, c.radius + board.ball_radius
         square = dx * dx + dz * dz

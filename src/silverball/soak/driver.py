@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from silverball.physics.balls import create_ball
 from silverball.physics.devices import set_switch
 from silverball.physics.event_log import clear_log
+from silverball.physics.for_devices import switches_off
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
@@ -184,7 +185,7 @@ def move_gates(world: WorldRecord, geometry: BoardGeometry, action: ActionRecord
     """Open all held gates, or close them if one is open, if the action says so."""
     if action.gates != 0:
         gates = gate_switches(geometry.board)
-        set_switch(world, geometry, gates, world.off & gates == 0)
+        set_switch(world, geometry, gates, switches_off(world) & gates == 0)
 
 
 @kernel

@@ -200,8 +200,9 @@ def reproduce(finding: Finding) -> Found:
         StateError: The state was changed, or is of another version of the physics.
     """
     soaked = SoakBatch([finding.table()], [0], finding.tick_rate, finding.hostile)
-    record = unpack(bytes.fromhex(finding.state), finding.table_digest, finding.tick_rate)
     batch, drivers = soaked.batch, soaked.drivers
+    state, layout = bytes.fromhex(finding.state), batch.boards.layout
+    record = unpack(state, finding.table_digest, finding.tick_rate, layout)
     batch.state[0] = record
     if not _is_possible(soaked):
         raise StateError("the state of this finding is impossible; it was changed")

@@ -39,8 +39,9 @@ class WorldBatch:
         count: The number of worlds.
         tick_rate: Ticks per second.
         threads: The number of threads that `step` may use.
-        state: WORLD records, shape [world]: everything that changes. A copied row, stepped
-            with the same actions, has exactly the same future.
+        state: WORLD records, shape [world], or PLAIN_WORLD records if all boards are plain (two paddles, at
+            most two balls, one level, no devices): everything that changes. A copied row, stepped with the
+            same actions, has exactly the same future.
         tables: The concrete tables (random parts already generated); worlds on the same table share one.
         board_of: The number of each world's table in `tables`, int64 [world].
         tallies: Hits of every part since the batch was made, int64 [world, part]; statistics, not state.
@@ -101,7 +102,7 @@ class WorldBatch:
         tick_rate: int,
         threads: int,
     ) -> None:
-        """Set every attribute: worlds with these records, WORLD [world], on these boards [world]."""
+        """Set every attribute: worlds with these records [world], on these boards [world]."""
         self.count = len(state)
         self.tick_rate = tick_rate
         self.threads = threads
@@ -264,7 +265,9 @@ class WorldBatch:
         Raises:
             ValueError: The index is invalid or out of range.
         """
-        return gather(self.state, self.boards.digests, self.board_of, self.tick_rate, index)
+        return gather(
+            self.state, self.boards.digests, self.boards.plain, self.board_of, self.tick_rate, index
+        )
 
     def restore(self, snapshot: Snapshot, index: Index = None) -> None:
         """Restore saved states, bit for bit; each world is then on the table it was saved on.
@@ -297,7 +300,7 @@ class WorldBatch:
 
     def digests(self) -> list[str]:
         """Return the digest of each world, as `World.digest` does; about half a microsecond each."""
-        return saved_world.digests(self.state)
+        return saved_world.digests(self.state, self.boards.plain[self.board_of])
 
     def render(self, index: int = 0, height: int = 480, theme: str = "neon") -> NDArray[np.uint8]:
         """Draw one of the worlds as it is now, as `World.render` does.

@@ -34,6 +34,9 @@ from silverball.physics.records import (
     MAX_SPINNERS,
     MAX_SWITCHES,
     NO_CLOCK,
+    PLAIN_BALLS,
+    PLAIN_PADDLES,
+    PLAIN_WORLD,
     RIGHT,
     WORLD,
     Device,
@@ -87,6 +90,7 @@ class Boards(NamedTuple):
         place: Centres (x, z) [u] of the squares in which balls may be created, shape [place, 2].
         names: For each board, the names of its parts in the order of their numbers.
         digests: For each board, the hash of its table.
+        plain: Whether a world on the board has a PLAIN_WORLD record when it is alone, bool [board].
     """
 
     board: NDArray[Any]
@@ -95,6 +99,12 @@ class Boards(NamedTuple):
     place: NDArray[np.float64]
     names: tuple[tuple[str, ...], ...]
     digests: tuple[str, ...]
+    plain: NDArray[np.bool_]
+
+    @property
+    def layout(self) -> np.dtype[Any]:
+        """The record of worlds that may be on any of the boards: PLAIN_WORLD if all are plain, else WORLD."""
+        return PLAIN_WORLD if self.plain.all() else WORLD
 
 
 def compile_tables(tables: Sequence[Table]) -> Boards:
@@ -129,6 +139,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         np.ascontiguousarray(np.concatenate(places)),
         tuple(part_names(table) for table in tables),
         tuple(table_digest(table) for table in tables),
+        np.array([_is_plain(row, rows) for row, rows in zip(boards, colliders, strict=True)], np.bool_),
     )
 
 
@@ -188,12 +199,13 @@ def blank_worlds(boards: Boards, board_of: NDArray[np.int64]) -> NDArray[Any]:
         board_of: The board of each world [world].
 
     Returns:
-        WORLD records, shape [world].
+        WORLD or PLAIN_WORLD records, shape [world].
     """
-    worlds = records(len(board_of), WORLD)
-    worlds["next_clock"] = NO_CLOCK
+    worlds = records(len(board_of), boards.layout)
+    if boards.layout == WORLD:
+        worlds["next_clock"] = NO_CLOCK
     first = boards.board["collider_first"][board_of]
-    for index in range(MAX_PADDLES):
+    for index in range(worlds["paddle"].shape[1]):
         worlds_with = np.flatnonzero(boards.board["paddles"][board_of] > index)
         rest = boards.collider["angle_rest"][first[worlds_with] + Part.FIRST_PADDLE + index]
         worlds["paddle"]["angle"][worlds_with, index] = rest
@@ -255,6 +267,18 @@ def _set_devices(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:
             number = collider["number"]
             row["bank_switches"][number] |= collider["switch"]
             row["bank_time"][number] = max(row["bank_time"][number], primitive.reset_after)
+
+
+def _is_plain(board: Any, rows: NDArray[Any]) -> bool:
+    """Whether PLAIN_WORLD has room for a world on a board, and its kernels know all that is there."""
+    return bool(
+        board["max_balls"] <= PLAIN_BALLS
+        and board["paddles"] == PLAIN_PADDLES
+        and board["sensors"] == board["switches"] == 0
+        and not rows["one_way"].any()
+        and not (rows["form"] == Shape.ARC).any()
+        and (rows["levels"] & 1).all()
+    )
 
 
 def _banks(expansion: Expansion) -> list[str]:

@@ -98,7 +98,7 @@ class Event(NamedTuple):
 
 
 def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
-    """Return the balls of a WORLD record, in the order of its slots, at a height y [u]."""
+    """Return the balls of a world record, in the order of its slots, at a height y [u]."""
     return tuple(
         BallState(
             id_,
@@ -112,7 +112,7 @@ def read_balls(world: Any, height: float) -> tuple[BallState, ...]:
 
 
 def read_paddles(world: Any, count: int) -> tuple[PaddleState, ...]:
-    """Return the first `count` paddles of a WORLD record."""
+    """Return the first `count` paddles of a world record."""
     return tuple(PaddleState(angle, velocity) for angle, _, velocity in world["paddle"][:count].tolist())
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import WORLD
+from silverball.physics.records import NO_CLOCK, PLAIN_WORLD, WORLD, records as empty_records
 
 MAGIC = b"SILVERBL"
 FORMAT = 1
@@ -35,14 +35,42 @@ def _field_bytes(dtype: np.dtype[Any]) -> int:
     return sum(_field_bytes(field[0]) for field in dtype.fields.values())
 
 
-assert _field_bytes(WORLD) == WORLD.itemsize, "a world record has padding: hash its fields, not its bytes"
+assert all(_field_bytes(one) == one.itemsize for one in (WORLD, PLAIN_WORLD)), (
+    "a world record has padding: hash its fields, not its bytes"
+)
+
+
+def in_layout(worlds: NDArray[Any], layout: np.dtype[Any]) -> NDArray[Any]:
+    """Return world records [world] in a layout; fields that are not in both are left out, or are 0."""
+    if worlds.dtype == layout:
+        return worlds
+    converted = empty_records(len(worlds), layout)
+    if layout == WORLD:
+        converted["next_clock"] = NO_CLOCK
+    _copy_fields(worlds, converted)
+    return converted
+
+
+def _copy_fields(source: Any, target: Any) -> None:
+    """Copy the fields, items and all, that two arrays of records have in common."""
+    for name in source.dtype.names:
+        if name not in target.dtype.names:
+            continue
+        one, other = source[name], target[name]
+        if one.ndim > source.ndim:
+            count = min(one.shape[-1], other.shape[-1])
+            one, other = one[..., :count], other[..., :count]
+        if one.dtype.names is None:
+            other[...] = one
+        else:
+            _copy_fields(one, other)
 
 
 def pack(record: Any, table: str, tick_rate: int) -> bytes:
     """Return a world's record with a header and a checksum.
 
     Args:
-        record: A WORLD record.
+        record: The record of a world in the layout of its board.
         table: The hash of its table.
         tick_rate: Ticks per second.
     """
@@ -50,14 +78,16 @@ def pack(record: Any, table: str, tick_rate: int) -> bytes:
     return seal(header + record.tobytes())
 
 
-def unpack(state: bytes, table: str, tick_rate: int) -> Any:
+def unpack(state: bytes, table: str, tick_rate: int, layout: np.dtype[Any]) -> Any:
     """Return the record in saved bytes, for a world on the table with this hash at this tick rate.
+
+    `layout` is the record of a world on this table.
 
     Raises:
         StateError: The bytes are damaged, or of another table, tick rate or version.
     """
     data = unseal(state, MAGIC, HEADER, "World.save")
-    expected = HEADER.size + WORLD.itemsize
+    expected = HEADER.size + layout.itemsize
     if len(data) != expected:
         raise StateError(f"the state is damaged: {len(data)} bytes where {expected} are expected")
     *_, rate, digest = HEADER.unpack(data[: HEADER.size])
@@ -67,7 +97,7 @@ def unpack(state: bytes, table: str, tick_rate: int) -> Any:
         )
     if rate != tick_rate:
         raise StateError(f"the state was saved at {rate} ticks a second, this world runs at {tick_rate}")
-    return np.frombuffer(data[HEADER.size :], WORLD)[0]
+    return np.frombuffer(data[HEADER.size :], layout)[0]
 
 
 def seal(body: bytes) -> bytes:
@@ -111,8 +141,21 @@ def digest(record: Any) -> str:
     return hashlib.sha256(PHYSICS_VERSION.to_bytes(8, "little") + record.tobytes()).hexdigest()
 
 
-def digests(records: NDArray[Any]) -> list[str]:
-    """Return the digest of each world record [world], about half a microsecond each."""
+def digests(records: NDArray[Any], plain: NDArray[np.bool_]) -> list[str]:
+    """Return the digest of each world record [world], about half a microsecond each.
+
+    Args:
+        records: The worlds, all in one layout.
+        plain: Whether each is on a plain board, where it is hashed as a PLAIN_WORLD record [world].
+    """
+    if records.dtype == PLAIN_WORLD or not plain.any():
+        return _digests(records)
+    whole = np.array(_digests(records), object)
+    whole[plain] = _digests(in_layout(records[plain], PLAIN_WORLD))
+    return list(whole)
+
+
+def _digests(records: NDArray[Any]) -> list[str]:
     version, size = PHYSICS_VERSION.to_bytes(8, "little"), records.dtype.itemsize
     data = np.ascontiguousarray(records).tobytes()
     starts = range(0, len(data), size)

@@ -14,64 +14,71 @@ from collections.abc import Callable
 from typing import Any, cast
 
 import numpy as np
-from numba import extending, types
+from numba import extending, from_dtype as untyped_from_dtype, types
 from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
-from silverball.physics.kernel import SETTINGS, bind_types, wrapper
+from silverball.physics.kernel import SETTINGS, bind_types, kernel
 from silverball.physics.records import (
     BOARD,
     COLLIDER,
-    JITTER,
-    LAUNCH,
-    LEFT,
     LOG,
-    RIGHT,
+    PLAIN_WORLD,
     WORLD,
-    BatchGeometry,
-    Lanes,
+    BoardGeometry,
+    Lane,
 )
-from silverball.physics.step import run_worlds
+from silverball.physics.step import run_held
 from silverball.world.compile import Boards
 
 cgutils, arrayobj = cast(Any, untyped_cgutils), cast(Any, untyped_arrayobj)
 intrinsic: Any = extending.intrinsic
-BUTTONS = 4  # columns of an action: left, right, jitter, launch
+from_dtype: Any = untyped_from_dtype
 INT, SHORT_INT, BOOL = np.dtype(np.int64), np.dtype(np.int32), np.dtype(np.bool_)
 
 ADDRESSES = np.dtype(
     [
-        ("world", "i8"), ("board", "i8"), ("board_of", "i8"), ("collider", "i8"), ("grid", "i8"),
-        ("log", "i8"), ("tally", "i8"), ("action", "i8"),
+        ("world", "i8"), ("board", "i8"), ("collider", "i8"), ("grid", "i8"),
+        ("log", "i8"), ("tally", "i8"),
         ("colliders", "i8"), ("numbers", "i8"), ("parts", "i8"),  # lengths: of collider, of grid, of a tally
         ("tick", "f8"),  # length of a tick [s]
     ]
 )  # fmt: skip
+"""Addresses of the arrays of worlds; see `addresses_of`."""
+
+FULL_MARK, PLAIN_MARK = "full", "plain"  # the last field of a record of addresses
+
+
+def addresses_of(layout: np.dtype[Any], addresses: np.dtype[Any] = ADDRESSES) -> np.dtype[Any]:
+    """The record of the addresses of worlds in a layout: kernels see by its type which one it is."""
+    fields = [(name, addresses[name]) for name in addresses.names or ()]
+    return np.dtype([*fields, (PLAIN_MARK if layout == PLAIN_WORLD else FULL_MARK, "i8")])
 
 
 class SingleStepper:
     """Steps the one world of a batch, in place, in the arrays that it was made with."""
 
     def __init__(
-        self, boards: Boards, state: NDArray[Any], board_of: NDArray[np.int64], logs: NDArray[Any],
-        tallies: NDArray[np.int64], tick: float,
-    ) -> None:  # fmt: skip
+        self,
+        boards: Boards,
+        state: NDArray[Any],
+        logs: NDArray[Any],
+        tallies: NDArray[np.int64],
+        tick: float,
+    ) -> None:
         """Store the addresses of the arrays; `tick` is the length of a tick [s]."""
-        self._action = np.zeros((1, 1, BUTTONS), np.bool_)
         named: dict[str, NDArray[Any]] = {
             "world": state,
             "board": boards.board,
-            "board_of": board_of,
             "collider": boards.collider,
             "grid": boards.grid,
             "log": logs,
             "tally": tallies,
-            "action": self._action,
         }
         self._arrays = list(named.values())
         self._tick = tick
-        self._addresses = np.zeros(1, ADDRESSES)
+        self._addresses = np.zeros(1, addresses_of(state.dtype))
         row = self._addresses[0]
         for name, array in named.items():
             row[name] = array.ctypes.data
@@ -92,18 +99,15 @@ class SingleStepper:
 
         Args:
             buttons: Bits LEFT, RIGHT, JITTER and LAUNCH.
-            ticks: The number of ticks, as `run_worlds` takes it.
+            ticks: The number of ticks, as `run_held` takes it.
 
         Returns:
             The fault of the world, 0 for none.
         """
         if SETTINGS.DISABLE_JIT:
-            self._action[0, 0] = buttons & LEFT, buttons & RIGHT, buttons & JITTER, buttons & LAUNCH
-            state, board, board_of, colliders, grid, logs, tallies, action = self._arrays
-            run_worlds(
-                Lanes(state, board_of, logs, tallies), BatchGeometry(board, colliders, grid),
-                action, 0, 1, ticks, self._tick,
-            )  # fmt: skip
+            state, board, colliders, grid, logs, tallies = self._arrays
+            lane = Lane(state[0], logs[0], tallies[0], logs[0])
+            run_held(lane, BoardGeometry(board[0], colliders, grid), buttons, ticks, self._tick)
             return int(self._arrays[0][0]["fault"])
         return self._step(self._addresses, buttons, ticks)
 
@@ -144,26 +148,33 @@ def _interpreted_array_at(address: int, shape: tuple[int, ...], dtype: np.dtype[
 array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_array_at
 
 
-@wrapper
+@intrinsic  # type: ignore[untyped-decorator]
+def _compiled_layout_of(typing_context: Any, addresses: Any) -> Any:
+    """The record of the worlds at some addresses, as `array_at` takes it."""
+    record = from_dtype(PLAIN_WORLD if PLAIN_MARK in addresses.fields else WORLD)
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return context.get_dummy_value()
+
+    return types.DType(record)(addresses), generate
+
+
+def _interpreted_layout_of(addresses: Any) -> np.dtype[Any]:
+    """Return the same without the compiler."""
+    return PLAIN_WORLD if PLAIN_MARK in addresses.dtype.names else WORLD
+
+
+layout_of: Any = _interpreted_layout_of if SETTINGS.DISABLE_JIT else _compiled_layout_of
+
+
+@kernel
 def step_single_world(addresses: Any, buttons: int, ticks: int) -> int:
-    """Advance the world at these addresses (see `ADDRESSES`) as `run_worlds` does, and return its fault."""
+    """Advance the world at these addresses (see `ADDRESSES`) as `run_held` does, and return its fault."""
     at = addresses[0]
-    worlds = array_at(at.world, (1,), WORLD)
-    action = array_at(at.action, (1, 1, BUTTONS), BOOL)
-    action[0, 0, 0] = buttons & LEFT != 0
-    action[0, 0, 1] = buttons & RIGHT != 0
-    action[0, 0, 2] = buttons & JITTER != 0
-    action[0, 0, 3] = buttons & LAUNCH != 0
-    lanes = Lanes(
-        worlds,
-        array_at(at.board_of, (1,), INT),
-        array_at(at.log, (1,), LOG),
-        array_at(at.tally, (1, at.parts), INT),
-    )
-    geometries = BatchGeometry(
-        array_at(at.board, (1,), BOARD),
-        array_at(at.collider, (at.colliders,), COLLIDER),
-        array_at(at.grid, (at.numbers,), SHORT_INT),
-    )
-    run_worlds(lanes, geometries, action, 0, 1, ticks, at.tick)
+    worlds, logs = array_at(at.world, (1,), layout_of(at)), array_at(at.log, (1,), LOG)
+    tallies, boards = array_at(at.tally, (1, at.parts), INT), array_at(at.board, (1,), BOARD)
+    colliders = array_at(at.collider, (at.colliders,), COLLIDER)
+    grid = array_at(at.grid, (at.numbers,), SHORT_INT)
+    lane = Lane(worlds[0], logs[0], tallies[0], logs[0])
+    run_held(lane, BoardGeometry(boards[0], colliders, grid), buttons, ticks, at.tick)
     return int(worlds[0].fault)

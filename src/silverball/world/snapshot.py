@@ -3,7 +3,9 @@
 A snapshot holds copies of world records, the hash of each record's table, and the tick rate. Restoring
 scatters record i into the i-th chosen world, or a single record into all of them.
 
-Records are copied as plain bytes, which is twenty times as fast as NumPy's copying field by field.
+Records are copied as plain bytes, which is twenty times as fast as NumPy's copying field by field. A snapshot
+holds PLAIN_WORLD records if the boards of all its worlds are plain, so it does not depend on the other worlds
+of its batch.
 """
 
 from __future__ import annotations
@@ -18,14 +20,14 @@ from numpy.typing import NDArray
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import WORLD, records
+from silverball.physics.records import PLAIN_WORLD, WORLD, records
 from silverball.world import saved_world
 from silverball.world.arguments import Index, resolve_index
 
 MAGIC = b"SILVERSN"
 HEADER = struct.Struct("<8sqqqqq")  # magic, format, physics version, tick rate, tables, records
 TABLE_HASH = hashlib.sha256().digest_size
-WHOLE_RECORD = np.dtype((np.void, WORLD.itemsize))  # a record as plain bytes, copied in one piece
+PLAIN_FLAG = np.dtype("<i8")  # of each table: 1 if its worlds have PLAIN_WORLD records
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,10 +37,11 @@ class Snapshot:
     It is immutable. `bytes(snapshot)` and `Snapshot.from_bytes`, or pickle, carry it to another process.
 
     Attributes:
-        records: WORLD records, shape [record], read-only.
+        records: WORLD or PLAIN_WORLD records, shape [record], read-only.
         tables: Hashes of tables; a snapshot of few worlds may name tables that none of its records uses.
         table_of: The number in `tables` of each record's table, int64 [record], read-only.
         tick_rate: Ticks per second.
+        plain: For each table, whether a world that is on it alone has a PLAIN_WORLD record, bool [table].
 
     Examples:
         >>> import silverball as sb
@@ -52,6 +55,7 @@ class Snapshot:
     tables: tuple[str, ...]
     table_of: NDArray[np.int64]
     tick_rate: int
+    plain: NDArray[np.bool_]
 
     def __post_init__(self) -> None:
         self.records.flags.writeable = False
@@ -66,7 +70,7 @@ class Snapshot:
 
     def digests(self) -> list[str]:
         """Return the digest of each record, as `World.digest` does."""
-        return saved_world.digests(self.records)
+        return saved_world.digests(self.records, self.plain[self.table_of])
 
     def pick(self, index: Index) -> Snapshot:
         """Return a snapshot of some of the records.
@@ -78,15 +82,16 @@ class Snapshot:
         Raises:
             ValueError: The index is invalid or out of range.
         """
-        return gather(self.records, self.tables, self.table_of, self.tick_rate, index)
+        return gather(self.records, self.tables, self.plain, self.table_of, self.tick_rate, index)
 
     def __bytes__(self) -> bytes:
         """The snapshot with its tables, the version of the physics and a checksum."""
         used, table_of = np.unique(self.table_of, return_inverse=True)
         tables = b"".join(bytes.fromhex(self.tables[number]) for number in used)
         header = HEADER.pack(MAGIC, saved_world.FORMAT, PHYSICS_VERSION, self.tick_rate, len(used), len(self))
+        plain = self.plain[used].astype(PLAIN_FLAG).tobytes()
         numbers = table_of.astype("<i8").tobytes()
-        return saved_world.seal(header + tables + numbers + self.records.tobytes())
+        return saved_world.seal(header + tables + plain + numbers + self.records.tobytes())
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Snapshot:
@@ -97,28 +102,40 @@ class Snapshot:
         """
         body = saved_world.unseal(data, MAGIC, HEADER, "bytes(snapshot)")
         *_, tick_rate, table_count, count = HEADER.unpack_from(body)
-        numbers_at = HEADER.size + table_count * TABLE_HASH
+        if not 0 <= table_count * TABLE_HASH < len(body):
+            raise StateError(f"the state is damaged: {len(body)} bytes cannot name {table_count} tables")
+        plain_at = HEADER.size + table_count * TABLE_HASH
+        numbers_at = plain_at + table_count * PLAIN_FLAG.itemsize
+        plain = np.frombuffer(body[plain_at:numbers_at].ljust(numbers_at - plain_at), PLAIN_FLAG) == 1
+        layout = PLAIN_WORLD if plain.all() else WORLD
         records_at = numbers_at + count * 8
-        end = records_at + count * WORLD.itemsize
-        if len(body) != end or table_count < 0 or count < 0:
+        end = records_at + count * layout.itemsize
+        if len(body) != end or count < 0:
             raise StateError(f"the state is damaged: {len(body)} bytes where {end} are expected")
         table_of = np.frombuffer(body, "<i8", count, numbers_at).astype(np.int64)
         if count and not 0 <= table_of.min() <= table_of.max() < table_count:
             raise StateError("the state is damaged: a record names a table that is not there")
-        starts = range(HEADER.size, numbers_at, TABLE_HASH)
+        starts = range(HEADER.size, plain_at, TABLE_HASH)
         tables = tuple(body[start : start + TABLE_HASH].hex() for start in starts)
-        saved = records(count, WORLD)
-        saved.view(WHOLE_RECORD)[:] = np.frombuffer(body, WHOLE_RECORD, count, records_at)
-        return cls(saved, tables, table_of, tick_rate)
+        saved = records(count, layout)
+        whole = _whole(layout)
+        saved.view(whole)[:] = np.frombuffer(body, whole, count, records_at)
+        return cls(saved, tables, table_of, tick_rate, plain)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Support `copy` and `pickle`."""
         return Snapshot.from_bytes, (bytes(self),)
 
 
+def _whole(layout: np.dtype[Any]) -> np.dtype[Any]:
+    """A record as plain bytes, which are copied in one piece."""
+    return np.dtype((np.void, layout.itemsize))
+
+
 def gather(
     worlds: NDArray[Any],
     tables: tuple[str, ...],
+    plain: NDArray[np.bool_],
     table_of: NDArray[np.int64],
     tick_rate: int,
     index: Index,
@@ -129,8 +146,11 @@ def gather(
         ValueError: The index is invalid or out of range.
     """
     rows = resolve_index(index, len(worlds))
-    saved = worlds.view(WHOLE_RECORD)[rows].copy().view(worlds.dtype, type(worlds))
-    return Snapshot(saved, tables, table_of[rows].copy(), tick_rate)
+    saved = worlds.view(_whole(worlds.dtype))[rows].copy().view(worlds.dtype, type(worlds))
+    saved_tables = table_of[rows].copy()
+    if plain[saved_tables].all():
+        saved = saved_world.in_layout(saved, PLAIN_WORLD)
+    return Snapshot(saved, tables, saved_tables, tick_rate, plain)
 
 
 def scatter(
@@ -145,7 +165,7 @@ def scatter(
 
     Args:
         snapshot: One record for all chosen worlds, or as many as are chosen.
-        worlds: WORLD records [world], written.
+        worlds: WORLD or PLAIN_WORLD records [world], written.
         tables: Hashes of the tables that the worlds may be played on.
         table_of: The number in `tables` of each world's table [world], written.
         tick_rate: Of the worlds [1/s].
@@ -173,7 +193,8 @@ def scatter(
     if len(snapshot) > 1 and not isinstance(rows, slice) and np.bincount(rows).max() > 1:
         raise ValueError("the index names a world twice, which cannot take two records")
     numbers = _local_numbers(snapshot, tables)
-    worlds.view(WHOLE_RECORD)[rows] = snapshot.records.view(WHOLE_RECORD)
+    whole, saved = _whole(worlds.dtype), saved_world.in_layout(snapshot.records, worlds.dtype)
+    worlds.view(whole)[rows] = saved.view(whole)
     table_of[rows] = numbers
     return rows
 

@@ -24,11 +24,11 @@ from silverball.physics.balls import (
 )
 from silverball.physics.devices import set_switch
 from silverball.physics.records import (
+    HEADER,
     JITTER,
     LAUNCH,
     LEFT,
     RIGHT,
-    WORLD,
     BoardGeometry,
     Device,
     Fault,
@@ -46,8 +46,9 @@ from silverball.world.events import BallState, Event, PaddleState, read_balls, r
 from silverball.world.single_step import SingleStepper
 
 BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
+PLACE_FIELDS = ("x", "z", "id", "motion")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
-COUNTS = tuple(name for name in WORLD.names or () if WORLD[name].shape == ())
+COUNTS = tuple(name for name, _ in HEADER)
 
 
 class World:
@@ -88,7 +89,7 @@ class World:
         self._paddle_count = int(self._board["paddles"])
         batch = self._batch
         self._stepper = SingleStepper(
-            batch.boards, batch.state, batch.board_of, batch.logs, batch.tallies, 1.0 / self.tick_rate
+            batch.boards, batch.state, batch.logs, batch.tallies, 1.0 / self.tick_rate
         )
         self._static = (self._board, self._batch.boards.collider)
 
@@ -334,7 +335,9 @@ class World:
         Raises:
             StateError: The state is damaged, impossible, or of another table or tick rate.
         """
-        record = saved_world.unpack(state, self._batch.boards.digests[0], self.tick_rate)
+        record = saved_world.unpack(
+            state, self._batch.boards.digests[0], self.tick_rate, self._batch.boards.layout
+        )
         before = self._record.copy()
         self._batch.state[0] = record
         try:
@@ -350,7 +353,7 @@ class World:
 
     @property
     def records(self) -> tuple[Any, Any, Any]:
-        """The records that kernels read: WORLD, BOARD, and the COLLIDER rows of its parts."""
+        """The records that kernels read: WORLD or PLAIN_WORLD, BOARD, and the COLLIDER rows of its parts."""
         return self._record, *self._static
 
     @property
@@ -386,7 +389,7 @@ class World:
         return bool(set_switch(self._record, geometry, switches, is_open))
 
     def _step_in_chunks(self, buttons: int, ticks: int) -> int:
-        """Play all but the last chunk of a step; return the remaining ticks for `run_worlds`."""
+        """Play all but the last chunk of a step; return the remaining ticks for `run_held`."""
         sign = 1
         while ticks > CHUNK_TICKS and not self._stepper.step(buttons, sign * CHUNK_TICKS):
             ticks, sign = ticks - CHUNK_TICKS, -1
@@ -472,7 +475,8 @@ class World:
             raise StateError(
                 "the state holds two overlapping balls; moving them apart would press one into a part"
             )
-        for x, z, id_, level, motion in balls[["x", "z", "id", "level", "motion"]].tolist():
+        levels = balls["level"].tolist() if "level" in balls.dtype.names else [0] * len(balls)
+        for (x, z, id_, motion), level in zip(balls[list(PLACE_FIELDS)].tolist(), levels, strict=True):
             if not id_ or motion == Motion.CAPTURED:
                 continue
             gap, part = clearance(self._record, *self._static, x, z, level)

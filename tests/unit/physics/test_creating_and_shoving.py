@@ -33,7 +33,7 @@ def test_new_balls_overlap_nothing_and_are_at_rest(crowd: WorldBatch) -> None:
     assert max(deepest(world, board, colliders) for world in crowd.state) == 0.0
     assert not crowd.state["ball"]["vx"].any()
     assert not crowd.state["ball"]["vz"].any()
-    assert (crowd.state["ball"]["id"] == [1, 2, 0, 0, 0, 0, 0, 0]).all()
+    assert (crowd.state["ball"]["id"] == [1, 2]).all()
 
 
 def test_new_balls_appear_above_the_paddles_reach(crowd: WorldBatch) -> None:

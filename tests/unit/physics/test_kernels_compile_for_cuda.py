@@ -18,6 +18,7 @@ import pytest
 import silverball
 from silverball.physics import balls, step
 from silverball.physics.kernel import KERNEL_PACKAGES, SETTINGS
+from silverball.table import Board, Table
 from silverball.world import World, WorldBatch
 
 PACKAGE = Path(silverball.__file__).parent
@@ -92,7 +93,7 @@ def compile_to_ptx(monkeypatch):
     monkeypatch.setattr("numba.cuda.dispatcher.get_current_device", lambda: card)
 
     def compiled(kernel) -> str:
-        (signature, *_) = kernel.nopython_signatures
+        signature = next(one for one in kernel.nopython_signatures if "next_clock" in str(one.args))
         ptx, _ = cuda.compile(kernel.py_func, signature.args, abi="numba", cc=COMPUTE_CAPABILITY)
         return ptx
 
@@ -104,8 +105,9 @@ def compile_to_ptx(monkeypatch):
 )
 def test_a_kernel_compiles_to_ptx_that_calls_nothing_from_outside(kernel, product, compile_to_ptx):
     """Allocation, printing and exceptions would call functions of a runtime."""
-    World("classic").create_ball()
-    WorldBatch("classic").step(np.zeros((1, 3), np.bool_))
+    table = Table(name="many balls", format=2, board=Board(max_balls=3))  # its worlds have all fields
+    World(table).create_ball()
+    WorldBatch(table).step(np.zeros((1, 3), np.bool_))
     ptx = compile_to_ptx(kernel)
     assert f".target sm_{COMPUTE_CAPABILITY[0]}{COMPUTE_CAPABILITY[1]}" in ptx
     assert re.search(rf"\.visible \.func .*{kernel.py_func.__name__}", ptx)

@@ -17,7 +17,7 @@ from boards import FIRST_SHAPE, full_table, table_of
 from silverball.physics.contact import find_contact
 from silverball.physics.flight import time_to_shape
 from silverball.physics.motion import start_flight
-from silverball.physics.records import BALL, NOTHING, ROLL_START, BoardGeometry
+from silverball.physics.records import NOTHING, PLAIN_BALL, ROLL_START, BoardGeometry
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, generate_table
 from silverball.world import World, WorldBatch
 from silverball.world.compile import Boards, compile_tables
@@ -115,7 +115,7 @@ def test_the_cached_contact_is_what_a_search_from_the_start_of_the_flight_finds(
         for old, ball in zip(before, world.records[0]["ball"].copy(), strict=True):
             if ball["id"] == 0 or not is_same_flight(old, ball) or ball["contact_age"] == old["contact_age"]:
                 continue
-            copy = np.zeros(1, BALL)
+            copy = np.zeros(1, ball.dtype)
             copy[0] = ball
             again = copy[0]
             again["contact_age"], again["contact_row"], again["age"] = 0.0, NOTHING, -again["offset"]
@@ -203,7 +203,7 @@ def random_ball(rng, boards: Boards, world: World):
         x, z = float(rng.uniform(-9.5, 9.5)), float(rng.uniform(-4.6, 4.6))
         if world.clearance(x, z) > 0.0:
             break
-    ball = np.zeros(1, BALL)[0]
+    ball = np.zeros(1, PLAIN_BALL)[0]
     speed, way = float(rng.choice([0.0, 0.3, 3.0, 22.0])) * rng.random(), rng.uniform(0, 2 * math.pi)
     ball["x"], ball["z"], ball["id"] = x, z, 1
     ball["vx"], ball["vz"] = speed * math.sin(way), speed * math.cos(way)

@@ -59,7 +59,7 @@ def test_planning_does_not_change_the_world_by_a_bit() -> None:
 def test_planning_does_not_change_a_batch_by_a_bit() -> None:
     batch = WorldBatch("random", count=3, seed=4, tick_rate=60)
     batch.create_balls()
-    state = PlannerState.of(3, batch.tallies.shape[1], FEW)
+    state = PlannerState.of(batch.state, batch.tallies.shape[1], FEW)
     before, tallies = batch.digests(), batch.tallies.copy()
     plan_batch(batch, state)
     assert batch.digests() == before

@@ -35,7 +35,8 @@ def still(table, *balls, tick_rate: int = 60, hostile: bool = False) -> SoakBatc
     for slot, values in enumerate(balls):
         ball = soaked.batch.state["ball"][0, slot]
         ball["x"], ball["z"], ball["vx"], ball["vz"], ball["id"] = *values, slot + 1
-        ball["passed_row"] = NOTHING
+        if "passed_row" in ball.dtype.names:  # not in plain worlds
+            ball["passed_row"] = NOTHING
     soaked.batch.state["created"] = len(balls)
     return soaked
 

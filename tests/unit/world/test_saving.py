@@ -71,14 +71,18 @@ def test_a_restored_world_has_no_old_events() -> None:
     assert world.events == ()
 
 
-def test_the_digest_tells_every_field_apart() -> None:
-    world = launched(TABLE, (1.0, 3.0, 0.0, 0.0), (2.0, 3.5, 1.0, 1.0))
+@pytest.mark.parametrize("max_balls", [2, 3])
+def test_the_digest_tells_every_field_apart(max_balls: int) -> None:
+    """With two balls in a plain world, with three in one that has all fields."""
+    table = TABLE.model_copy(update={"board": TABLE.board.model_copy(update={"max_balls": max_balls})})
+    world = launched(table, (1.0, 3.0, 0.0, 0.0), (2.0, 3.5, 1.0, 1.0))
     record = world.records[0]
     before = world.digest()
     seen = {before}
     fields = [("ball", name, slot) for name in record["ball"].dtype.names for slot in (0, 1)]
     fields += [("paddle", name, side) for name in record["paddle"].dtype.names for side in (0, 1)]
-    fields += [("spinner", name, slot) for name in record["spinner"].dtype.names for slot in (0, 1)]
+    if max_balls > 2:
+        fields += [("spinner", name, slot) for name in record["spinner"].dtype.names for slot in (0, 1)]
     for group, name, index in fields:
         kept = record[group][name][index]
         record[group][name][index] = kept + 1 if kept + 1 != kept else 0.0  # one is infinite

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, TypeAlias
 from silverball.benchmarks.peers.playfield import Playfield
 from silverball.benchmarks.peers.random_play import Game
 from silverball.physics.audit import deepest
-from silverball.physics.records import WORLD, records
+from silverball.physics.records import records
 from silverball.table import Paddle, Table
 from silverball.table.primitive import Point
 from silverball.world.compile import compile_tables
@@ -49,7 +49,7 @@ class PenetrationMonitor:
         boards = compile_tables([table])
         self.table = table
         self.board, self.colliders = boards.board[0], boards.collider
-        self.record: Any = records(1, WORLD)[0]
+        self.record: Any = records(1, boards.layout)[0]
         self.radius = table.board.ball_radius
         self.depth = 0.0
         self.before: list[Point] = []

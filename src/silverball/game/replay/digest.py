@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import LEFT, PADDLE, WORLD, Part
+from silverball.physics.records import LEFT, PADDLE, PLAIN_WORLD, WORLD, Part
 
 if TYPE_CHECKING:
     from silverball.world import World
@@ -68,7 +68,7 @@ def short_digests(record: bytes, rules: str, physics: int = PHYSICS_VERSION) -> 
         rules: The state of the rules as JSON.
         physics: The version of the physics in whose layout the bytes are.
     """
-    spans = _SPANS if physics == PHYSICS_VERSION else _SPANS_3
+    spans = _SPANS_3 if physics != PHYSICS_VERSION else _SPANS[len(record)]
     parts = (*(b"".join(record[start:end] for start, end in group) for group in spans), rules.encode("ascii"))
     return "".join(_short(part) for part in parts)
 
@@ -114,7 +114,8 @@ def _spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:
     )
 
 
-_SPANS, _SPANS_3 = _spans(WORLD), _spans(_WORLD_3)
+_SPANS = {layout.itemsize: _spans(layout) for layout in (WORLD, PLAIN_WORLD)}  # by the length of a record
+_SPANS_3 = _spans(_WORLD_3)
 
 
 def differing_groups(expected: str, got: str) -> tuple[str, ...]:
