@@ -89,7 +89,7 @@ def test_a_reader_who_goes_away_is_no_error(arguments: str):
 
 
 def test_output_that_is_longer_than_what_is_read_of_it_is_no_error():
-    lines = "[[cylinder]]\nradius = 0.3\ncenter = [{}, 0.0]\n"
+    lines = "[[cylinder]]\nradius = 0.01\ncenter = [{}, 0.0]\n"
     Path("many.toml").write_text("format = 1\n" + "".join(lines.format(x / 10) for x in range(200)), "utf-8")
     script = f'"{sys.executable}" -m silverball check many.toml 2>&1 | head -1; echo "${{PIPESTATUS[0]}}"'
     result = subprocess.run(
