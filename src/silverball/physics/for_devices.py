@@ -59,6 +59,8 @@ def for_devices(otherwise: Callable[..., Any]) -> Callable[[F], F]:
         if SETTINGS.DISABLE_JIT:
             return _interpreted(function, otherwise)
         compiled = cast(Any, function)
+        # Symbols have names that no two functions may share (see linkage.py), such as <lambda>.
+        otherwise.__name__ = otherwise.__qualname__ = f"{function.__name__}_plain"
 
         def implementation(argument_types: tuple[Any, ...], _: Any) -> Callable[..., Any]:
             is_plain = any(map(_is_plain_type, argument_types))

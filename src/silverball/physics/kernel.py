@@ -44,7 +44,7 @@ from numba.core.registry import CPUDispatcher
 
 from silverball.physics.code_cache import CodeCache, discard, find_code, remove, sweep
 from silverball.physics.compile_thread import run_in_compiler_thread
-from silverball.physics.linkage import HelperCompiler, KernelCompiler, can_link
+from silverball.physics.linkage import HelperCompiler, KernelCompiler, NamedCompiler, can_link
 
 SETTINGS: Any = numba.core.config
 cgutils: Any = untyped_cgutils
@@ -287,9 +287,9 @@ def _compile(function: F, **more: Any) -> F:
         "no_cfunc_wrapper": True,
         **more,
     }
-    if can_link:
-        is_helper = more.get("no_cpython_wrapper")
-        options.setdefault("pipeline_class", HelperCompiler if is_helper else KernelCompiler)
+    is_helper = more.get("no_cpython_wrapper")
+    linking = HelperCompiler if is_helper else KernelCompiler
+    options.setdefault("pipeline_class", linking if can_link else NamedCompiler)
     compiled: Any = numba.njit(**options)(function)
     if isinstance(compiled, CPUDispatcher):
         compiled.__class__ = Internal if more.get("no_cpython_wrapper") else Compiled

@@ -8,10 +8,15 @@ other kernels call, each of which contains its own callees once more. Here
 * a function that only kernels call is kept as bitcode, for linking: a tenth less to compile.
 
 Where Numba's classes have changed, its own linkage is used.
+
+Symbols are named by the function and its argument types. In Numba's names a record type is a number that
+counts the types of a process, so code of two types, cached by two processes, can have one name, and the
+linker would take one for the other. `NamedCompiler` adds a hash of the types themselves.
 """
 
 from __future__ import annotations
 
+import hashlib
 from typing import Any, cast
 
 from llvmlite import binding as untyped_binding
@@ -76,7 +81,21 @@ class HelperLibrary(Library):  # type: ignore[misc,valid-type]
         super()._finalize_final_module()
 
 
-class KernelCompiler(Pipeline):  # type: ignore[misc,valid-type]
+class NamedCompiler(Pipeline):  # type: ignore[misc,valid-type]
+    """Compiles functions under names that say the same in every process."""
+
+    def compile_extra(self, function: Any) -> Any:
+        """Compile a function under its name and a hash of its argument types."""
+        name = function.__qualname__
+        types = hashlib.sha256(str(self.state.args).encode()).hexdigest()[:16]
+        function.__qualname__ = f"{name}_{types}"
+        try:
+            return super().compile_extra(function)
+        finally:
+            function.__qualname__ = name
+
+
+class KernelCompiler(NamedCompiler):
     """Compiles kernels that Python may call."""
 
     library = KernelLibrary
