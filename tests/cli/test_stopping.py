@@ -66,7 +66,7 @@ def test_an_end_of_file_inside_of_the_program_is_not_taken_for_ctrl_d(monkeypatc
     def damaged(*_: object, **__: object) -> None:
         raise EOFError("Ran out of input")
 
-    monkeypatch.setattr("silverball.table.load_table", damaged)
+    monkeypatch.setattr("silverball.table.file.examine_table", damaged)
     with pytest.raises(EOFError, match="Ran out of input"):
         run(["check", "classic"])
     assert "stopped" not in capsys.readouterr().err

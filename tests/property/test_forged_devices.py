@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "unit" / "physics"))
-
-from test_devices import everything, play
-
+from device_boards import everything, play
 from silverball.errors import StateError
 from silverball.physics.records import MAX_LEVELS, Fault, Motion
 from silverball.world import World, WorldBatch

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 
 import numpy as np
 import pytest
 
-from boards import PADDLES
+from device_boards import LANE, TARGETS, everything, play, table_with
 from silverball.errors import NoRoom
 from silverball.physics import records
 from silverball.physics.records import NO_CLOCK
-from silverball.table import Board, Table
 from silverball.table.kinds import (
     Cylinder,
-    DropTarget,
     Gate,
     Hole,
     Level,
@@ -28,24 +25,6 @@ from silverball.table.kinds import (
 from silverball.world import World, WorldBatch
 
 RATES = (60, 240, 1000)
-KINDS = {
-    Cylinder: "cylinder",
-    DropTarget: "drop_target",
-    Gate: "gate",
-    Hole: "hole",
-    Level: "level",
-    Passage: "passage",
-    Plunger: "plunger",
-    Rollover: "rollover",
-    SlantWall: "slant_wall",
-    Spinner: "spinner",
-}
-
-
-def table_with(*parts, **board) -> Table:
-    """A table of these parts and two paddles."""
-    lists = {name: tuple(part for part in parts if type(part) is kind) for kind, name in KINDS.items()}
-    return Table(name="of a test", format=2, board=Board(**board), paddle=PADDLES, **lists)
 
 
 def events_of(world: World, ticks: int, **buttons) -> list:
@@ -61,9 +40,6 @@ def times_of(world: World, kind: str, seconds: float, **buttons) -> list[tuple[s
     """The parts and times [s] of all events of a kind."""
     events = events_of(world, round(seconds * world.tick_rate), **buttons)
     return [(e.part, e.tick / world.tick_rate + e.offset) for e in events if e.kind == kind]
-
-
-LANE = Rollover(start=(2.0, -1.0), end=(2.0, 1.0))
 
 
 @pytest.mark.parametrize("tick_rate", RATES)
@@ -159,12 +135,6 @@ def test_a_plunger_launches_at_the_speed_of_its_charge(tick_rate: int, held: flo
     assert event.part == "plunger[0]"
     assert event.speed == pytest.approx(8.0 + 12.0 * min(ticks / tick_rate, 1.0), abs=1e-12)
     assert world.balls[0].velocity[0] > 0.0
-
-
-TARGETS = (
-    DropTarget(start=(3.0, -1.0), end=(3.0, -0.2), bank="a", reset_after=0.5),
-    DropTarget(start=(3.0, 0.2), end=(3.0, 1.0), bank="a", reset_after=0.5),
-)
 
 
 def test_drop_targets_fall_and_come_back_together_but_not_under_a_ball() -> None:
@@ -285,33 +255,6 @@ def test_a_spinner_turns_as_its_closed_form_says(tick_rate: int) -> None:
         expected.append(0.2 - math.log1p(-share) / 2.0)
     assert times == pytest.approx(expected, abs=1e-12)
     assert len(times) > 2
-
-
-def everything() -> Table:
-    """A board with every device, on which a few balls play."""
-    return table_with(
-        LANE, Rollover(center=(3.0, 3.0), radius=0.6), Spinner(start=(5.0, -2.5), end=(5.0, -0.5), drag=0.4),
-        Hole(center=(6.5, 2.5), radius=0.35, hold=0.3, exit=(6.0, 0.0), exit_velocity=(-4.0, 2.0)),
-        Hole(center=(-3.0, -4.2), radius=0.3, drain=True),
-        *TARGETS, Gate(start=(0.0, 2.0), end=(0.0, 3.4), passes="up"),
-        Gate(start=(0.0, -3.4), end=(0.0, -2.0), held=True, name="door"),
-        Passage(start=(-1.0, 3.0), end=(-1.0, -3.0), **{"from": 0, "to": 1}),
-        Level(number=1, gravity=(-6.0, 1.0)),
-        Plunger(position=(-6.0, 4.4), launch=(10.0, 20.0), charge=0.3),
-        Cylinder(center=(1.0, 0.5), radius=0.5), SlantWall(start=(-4.5, -5.0), end=(-6.88, -2.76)),
-        max_balls=5,
-    )  # fmt: skip
-
-
-def play(world: World, tick: int, rng: np.random.Generator) -> None:
-    """One tick of random play."""
-    if tick % 20 == 0 and len(world.balls) < 5:
-        with contextlib.suppress(NoRoom):
-            world.create_ball()
-    if tick % 97 == 0:
-        world.open_gate("door", tick % 2 == 0)
-    left, right, jitter, launch = (rng.random(4) < (0.3, 0.3, 0.02, 0.8)).tolist()
-    world.step(left=left, right=right, jitter=jitter, launch=launch)
 
 
 @pytest.mark.parametrize("tick_rate", [60, 240])

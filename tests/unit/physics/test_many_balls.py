@@ -158,7 +158,7 @@ def test_a_mirrored_crowd_plays_the_mirror_image() -> None:
 SCRIPT = """
 import sys
 sys.path[:0] = {paths!r}
-from test_devices import everything, play
+from device_boards import everything, play
 from test_many_balls import crowded, played
 import numpy as np
 from silverball.world import World

@@ -165,10 +165,10 @@ def test_a_ball_that_a_hole_or_a_passage_brings_elsewhere_has_not_escaped() -> N
 
 def test_all_buttons_are_pressed_and_gates_move() -> None:
     gate = Gate(start=(3.0, -1.0), end=(3.0, 1.0), held=True, name="gate")
-    table = table_of(gate, Plunger(position=(0.0, 0.0)), max_balls=8)
+    table = table_of(gate, Plunger(position=(0.0, 0.0)), max_balls=8, gravity=0.5)
     soaked = SoakBatch([table], [0], 60, False, [True])
     seen, off, balls = set(), set(), 0
-    for _ in range(1200):
+    for _ in range(2400):
         soaked.run(1)
         action = soaked.drivers.actions[0]
         seen |= {name for name in ("left", "right", "shove", "launch", "gates", "create") if action[name]}

@@ -282,7 +282,7 @@ def test_a_world_of_a_round_is_the_same_alone_and_among_the_others(short_rounds,
         alone = round_batch(options, 2, world)
         for _ in range(7):
             alone.run(100)
-        assert alone.batch.state[0].tobytes() == together.batch.state[world].tobytes()
+        assert alone.batch.digests()[0] == together.batch.digests()[world]
         assert alone.watches.states[0].tobytes() == together.watches.states[world].tobytes()
 
 
