@@ -24,6 +24,7 @@ from silverball.physics.for_devices import (
     shares_level,
     switches_off,
 )
+from silverball.physics.jams import stall_at_held_ball
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.motion import advance_to, clear_ball, start_flight, start_rolling
 from silverball.physics.one_way import time_to_one_way
@@ -242,6 +243,9 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
         return
     if contact.row >= 0 and is_sensor(geometry, ball, contact.row):
         cross_sensor(lane, geometry, ball, contact.row, tick)
+        return
+    if ball.motion == Motion.HELD:
+        stall_at_held_ball(lane, geometry, ball, contact)
         return
     advance_to(ball, board, ball.age + time)
     if contact.row == GUTTER:

@@ -119,6 +119,12 @@ def hold_still(ball: BallRecord, offset: float) -> None:
     ball.roll_age, ball.contact_age = NEVER, NEVER
 
 
+@inlined
+def is_fixed(ball: BallRecord) -> bool:
+    """Whether a ball does not move whatever meets it."""
+    return ball.motion in (Motion.HELD, Motion.CAPTURED)
+
+
 @internal
 def capture(ball: BallRecord, row: int, x: float, z: float, offset: float) -> None:
     """Hold a ball at (x, z) for the device in a row, from `offset` [s] into the tick until it lets it go."""

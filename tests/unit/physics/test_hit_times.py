@@ -213,7 +213,6 @@ def paddle_corners(paddle, angle):
 @pytest.mark.parametrize("paddle", [LEFT, RIGHT])
 def test_hit_times_on_paddles(paddle, motion: str) -> None:
     table = Range(table_of(paddle))
-    number = 0 if paddle.side == "left" else 1
     rest, up = math.radians(paddle.rest_angle), math.radians(paddle.up_angle)
     omega = {"lifting": (up - rest) / 0.1, "returning": -(up - rest) / 0.1, "resting": 0.0}[motion]
     seen: list[float] = []
@@ -245,7 +244,7 @@ def test_hit_times_on_paddles(paddle, motion: str) -> None:
             return from_triangle(*position(ball, t), paddle_corners(paddle, begin + omega * t)) - RADIUS
 
         def prepare(record, begin=begin):
-            record["paddle"]["angle"][number] = begin
+            record["paddle"]["angle"][0] = begin
 
         times = np.linspace(0, end, SAMPLES)
         # In the middle of the paddle the distance from its sides is no gap: leave such starts out.

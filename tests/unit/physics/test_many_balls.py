@@ -85,10 +85,13 @@ def played(world: World, ticks: int, seed: int = 0) -> World:
 def test_eight_balls_and_five_paddles_are_never_inside_each_other(board: dict, tick_rate: int) -> None:
     batch = WorldBatch(crowded(**board), 16, 3, tick_rate)
     rng = np.random.default_rng(0)
-    most, depth = 0, 0.0
+    most, depth, jams = 0, 0.0, batch.state["jams"].copy()
     for _ in range(400 if tick_rate == 60 else 1000):
         batch.create_balls()
         batch.step(rng.random((16, 3)) < (0.5, 0.5, 0.02))
+        # A jammed ball is stopped, and held if it jams again: twice in a tick at most.
+        assert (batch.state["jams"] - jams).max() <= 2 * 8
+        jams = batch.state["jams"].copy()
         most = max(most, int((batch.state["ball"]["id"] != 0).sum(axis=1).max()))
         for world in batch.state:
             depth = max(depth, deepest(world, batch.boards.board[0], batch.boards.collider))

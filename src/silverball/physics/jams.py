@@ -1,0 +1,153 @@
+"""Jams: balls that bounce between things too often in one tick, and the paddles that press them.
+
+too many events in one tick → the ball is stopped, and the paddles next to it stall
+→ again in the same tick → the ball is held until the tick is over
+"""
+
+from __future__ import annotations
+
+from silverball.physics.broad_phase import is_near
+from silverball.physics.event_log import log_event
+from silverball.physics.for_devices import ball_slots, paddle_count
+from silverball.physics.kernel import as_int, internal
+from silverball.physics.motion import advance_to, hold_still, is_fixed, start_flight
+from silverball.physics.paddle import (
+    angle_at,
+    is_turning,
+    paddle_distance,
+    read_sweep,
+    stop_sweep,
+    surface_velocity,
+    write_sweep,
+)
+from silverball.physics.records import (
+    NOTHING,
+    BallRecord,
+    BoardGeometry,
+    ColliderRecord,
+    Contact,
+    EventKind,
+    Lane,
+    PaddleSweep,
+    Part,
+)
+from silverball.physics.tolerances import JAM_GAP, JAM_SHARE, MAX_CREEP, NEVER
+
+
+@internal
+def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: int) -> None:
+    """Stop the balls that have reached `limit` events in this tick, and stall the paddles next to them.
+
+    A ball is stopped with another one if contacts between the two make up at least 1/JAM_SHARE of `limit`.
+    """
+    world, board, scratch = lane.world, geometry.board, lane.scratch
+    jammed, partners, pair = 0, 0, 0
+    for slot in range(ball_slots(world, board)):
+        if scratch.ball_events[slot] >= limit:
+            jammed |= 1 << slot
+    for other in range(1, ball_slots(world, board)):
+        for one in range(other):
+            both = 1 << one | 1 << other
+            if jammed & both != 0 and JAM_SHARE * scratch.pair_events[pair] >= limit:
+                partners |= both
+            pair += 1
+    jammed |= partners
+    pair = 0
+    for slot in range(ball_slots(world, board)):
+        is_jammed = jammed >> slot & 1 != 0
+        if is_jammed:
+            stop_jammed_ball(lane, geometry, world.ball[slot], time, scratch.ball_jams[slot] > 0)
+            scratch.ball_events[slot] = 0
+            scratch.ball_jams[slot] += 1
+        for one in range(slot):
+            if is_jammed or jammed >> one & 1 != 0:
+                scratch.pair_events[pair] = 0
+            pair += 1
+
+
+@internal
+def stop_jammed_ball(
+    lane: Lane, geometry: BoardGeometry, ball: BallRecord, time: float, is_repeat: bool
+) -> None:
+    """Stop a jammed ball at a time of the tick, and stall the paddles next to it.
+
+    A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
+    So is one that an accelerating paddle leaves; the paddle goes on.
+    """
+    if ball.id == 0 or is_fixed(ball):
+        return
+    world, board, colliders = lane.world, geometry.board, geometry.colliders
+    advance_to(ball, board, ball.age + time)
+    near = board.ball_radius + JAM_GAP
+    first = board.collider_first + Part.FIRST_PADDLE
+    is_held = is_repeat
+    for index in range(paddle_count(world, board)):
+        is_held |= is_leaving(
+            read_sweep(lane.scratch.sweep[index]), colliders[first + index], ball, near, time
+        )
+    for index in range(paddle_count(world, board)):
+        c = colliders[first + index]
+        sweep = read_sweep(lane.scratch.sweep[index])
+        if must_stall(sweep, c, ball, near, time, is_held):
+            until = stall_time(sweep, c, ball, board.ball_radius, time)
+            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
+    ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
+    world.jams += 1
+    contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
+    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, NOTHING, contact, 0.0)
+    if is_held:
+        hold_still(ball, time)
+    else:
+        start_flight(ball, board, time)
+
+
+@internal
+def stall_at_held_ball(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact) -> None:
+    """Stop a paddle that meets a held ball: whatever meets such a ball, it does not move."""
+    c = geometry.colliders[geometry.board.collider_first + contact.row]
+    record = lane.scratch.sweep[contact.row - Part.FIRST_PADDLE]
+    until = stall_time(read_sweep(record), c, ball, geometry.board.ball_radius, contact.time)
+    write_sweep(record, stop_sweep(read_sweep(record), until), NEVER)
+
+
+@internal
+def is_leaving(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float) -> bool:
+    """Whether an accelerating paddle within `near` [u] of a jammed ball's centre turns away from it.
+
+    Such a paddle starts from rest. A ball pinched between it and something else meets both again and again
+    before there is a gap, so if that stopped the paddle, nothing would ever let the ball go. A paddle at
+    constant speed leaves faster than a ball hops.
+    """
+    if paddle.alpha == 0.0 or not is_turning(paddle):
+        return False
+    gap, nx, nz = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    ux, uz = surface_velocity(c, paddle.stop - paddle.angle, ball.x - gap * nx, ball.z - gap * nz)
+    return bool(gap < near and ux * nx + uz * nz < 0.0)
+
+
+@internal
+def must_stall(
+    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, near: float, time: float, is_held: bool
+) -> bool:
+    """Whether a turning paddle is within `near` [u] of a jammed ball's centre, so that it has to stop.
+
+    If the ball is about to be held, a paddle that could reach it stops too: no paddle may run into a held
+    ball.
+    """
+    if not is_turning(paddle) or is_leaving(paddle, c, ball, near, time):
+        return False
+    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    return bool(gap < near or (is_held and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
+
+
+@internal
+def stall_time(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float) -> float:
+    """Compute up to which time of the tick a stalling paddle has turned [s].
+
+    A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and presses it
+    a little deeper before the jam is noticed. Such a paddle stays where it was, or it would creep on.
+    """
+    if paddle.alpha == 0.0 or paddle.omega != 0.0:
+        return time
+    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
+    return 0.0 if gap < radius - MAX_CREEP else time
