@@ -142,7 +142,7 @@ def put_ball(
     if is_known:
         store_checksum(world, board, log)
     contact = Contact(0.0, as_int(NOTHING), 0.0, 0.0)
-    log_event(log, as_int(EventKind.CREATED), ball, world.tick, NOTHING, contact, 0.0)
+    log_event(log, as_int(EventKind.CREATED), ball, world.tick, contact.row, contact, 0.0)
 
 
 @kernel
@@ -215,7 +215,7 @@ def shove_balls(world: WorldRecord, board: BoardRecord, log: LogRecord) -> None:
         ball.vx, ball.vz = clamp_speed(ball.vx, ball.vz, board.speed_cap)
         start_flight(ball, board, 0.0)
         contact = Contact(0.0, as_int(NOTHING), sine, cosine)
-        log_event(log, as_int(EventKind.JITTER), ball, world.tick, NOTHING, contact, board.jitter)
+        log_event(log, as_int(EventKind.JITTER), ball, world.tick, contact.row, contact, board.jitter)
 
 
 @kernel

@@ -251,7 +251,7 @@ def resolve(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Cont
     if contact.row == GUTTER:
         world.drained += 1
         contact = Contact(time, as_int(GUTTER), 1.0, 0.0)
-        log_event(lane.log, as_int(EventKind.GUTTER), ball, world.tick, GUTTER, contact, -ball.vx)
+        log_event(lane.log, as_int(EventKind.GUTTER), ball, world.tick, contact.row, contact, -ball.vx)
         clear_ball(ball)
         return
     c = geometry.colliders[board.collider_first + contact.row]

@@ -94,7 +94,7 @@ def stop_jammed_ball(
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
-    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, NOTHING, contact, 0.0)
+    log_event(lane.log, as_int(EventKind.JAM), ball, world.tick, contact.row, contact, 0.0)
     if is_held:
         hold_still(ball, time)
     else:

@@ -163,7 +163,7 @@ def play_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) ->
         limit = min(tick, clock)
         for index in range(paddle_count(world, board)):
             limit = min(limit, scratch.sweep[index].stop_time)
-        slot, other, contact = -1, -1, Contact(limit, as_int(NOTHING), 0.0, 0.0)
+        slot, other, contact = as_int(-1), -1, Contact(limit, as_int(NOTHING), 0.0, 0.0)
         for index in range(ball_slots(world, board)):
             found = first_contact(lane, geometry, world.ball[index], time, limit, tick)
             if found.row != NOTHING and found.time < contact.time:
