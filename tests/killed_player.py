@@ -86,13 +86,18 @@ def main() -> None:
     show("ready")
     for line in sys.stdin:
         seed, folder = line.rstrip("\n").split(" ", 1)
+        start, started = os.pipe()
         player = os.fork()
         if player == 0:
             try:
+                os.read(start, 1)  # until it has been said who plays
                 play(Path(folder), int(seed))
             finally:
                 os._exit(1)
         show("pid", player)
+        os.write(started, b"!")
+        os.close(start)
+        os.close(started)
         os.waitpid(player, 0)
         show("dead")
 

@@ -78,6 +78,11 @@ def rolling_playground() -> Table:
     return PLAYGROUND.model_copy(update={"board": rough})
 
 
+@cache
+def all_parts(seed: int) -> Table:
+    return part_table(seed)
+
+
 def jamming() -> Table:
     """A bar above the paddles, under which they press balls."""
     return full_table(SlantWall(start=(-6.0, -1.5), end=(-6.2, 1.5)))
@@ -108,7 +113,7 @@ SCENES = (
 ALL_PARTS = (
     Scene("built-in parts", lambda: load_table("parts"), seed=30, launch=0.5),
     *(
-        Scene(f"all parts {seed}", lambda seed=seed: part_table(seed), seed=seed, launch=0.5)
+        Scene(f"all parts {seed}", lambda seed=seed: all_parts(seed), seed=seed, launch=0.5)
         for seed in (3, 8, 10)
     ),
     *(

@@ -14,7 +14,7 @@ from boards import edited, full_table, launched
 from silverball.errors import FaultError, StateError
 from silverball.physics.audit import deepest
 from silverball.physics.records import BALL, PLAIN_BALL
-from silverball.table import Table
+from silverball.table import Table, table_digest
 from silverball.world import Snapshot, World, WorldBatch
 
 DEPTH = 1e-9
@@ -41,6 +41,22 @@ def board(rub: dict[str, Any]) -> Table:
     return full_table(**rub)
 
 
+STRAYS: dict[str, tuple[World, bytes]] = {}
+
+
+def stray(table: Table, tick_rate: int) -> World:
+    """A world that has played something else; the same one is used again and again."""
+    key = f"{table_digest(table)} {tick_rate}"
+    if key not in STRAYS:
+        other = World(table, 5, tick_rate)
+        other.create_ball()
+        other.step(right=True, ticks=40)
+        STRAYS[key] = other, other.save()
+    other, state = STRAYS[key]
+    other.restore(state)
+    return other
+
+
 def played(table: Table, ticks: int, buttons: bool = False) -> World:
     """A world in the middle of a game with two balls, one of them fast and soon at the parts."""
     world = launched(table, (1.5, 2.0, 6.0, 7.0), (3.7, -0.3, -4.0, 9.0), tick_rate=60)
@@ -56,9 +72,7 @@ def through_restore(world: World, change: Callable[[Any], None]) -> WorldBatch:
 
 def through_another_world(world: World, change: Callable[[Any], None]) -> WorldBatch:
     """The same, restored into a world that has played something else."""
-    other = World(world.table, 5, world.tick_rate)
-    other.create_ball()
-    other.step(right=True, ticks=40)
+    other = stray(world.table, world.tick_rate)
     other.restore(edited(world, change))
     return other._batch
 

@@ -14,6 +14,7 @@ cell is smaller than any part with a ball's radius around it, so no cell extends
 
 from __future__ import annotations
 
+import functools
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -143,6 +144,7 @@ class Space(NamedTuple):
         return np.stack([x_of, z_of], axis=1), SAMPLES * grid.step
 
 
+@functools.lru_cache(maxsize=64)
 def ball_places(table: Table) -> tuple[Floats, float]:
     """Return the square cells of the board in which a ball may be created.
 
@@ -155,9 +157,11 @@ def ball_places(table: Table) -> tuple[Floats, float]:
 
     Returns:
         The centres of the cells (x, z) [u], shape [cell, 2], row by row from the paddles to the top, each
-        from left to right; and the side of a cell [u].
+        from left to right, read-only: the last tables are remembered; and the side of a cell [u].
     """
-    return space(Layout.of(table)).places()
+    centers, size = space(Layout.of(table)).places()
+    centers.flags.writeable = False
+    return centers, size
 
 
 def creation_floor(layout: Layout) -> float:
