@@ -7,8 +7,10 @@ Read `step.py` first: it is the whole simulation on one screen. Then:
 * `contact.py`, on `broad_phase.py`, `flight.py`, `paddle.py` and `shapes.py`: the next contact of a ball
 * `bounce.py`, `friction.py`: the effect of a contact on a ball
 * `motion.py`: how a ball moves between contacts: sliding, slipping or rolling
-* `devices.py`, on `crossing.py`, `one_way.py`, `spinner.py` and `holes.py`: what parts do apart from bouncing
-  balls: sensors, passages between levels, spinners, holes, plungers, drop targets and gates
+* `devices.py`, on `crossing.py` and `spinner.py`: what parts do apart from bouncing balls: sensors, passages
+  between levels, spinners, and when they act by themselves
+* `captures.py`, on `holes.py`: holes and plungers; `switches.py`: drop targets and gates; `one_way.py`
+* `jams.py`: balls that bounce between things too often in a tick
 * `balls.py`: creating, shoving and separating balls
 * `validation.py`: checks of states that were modified externally
 * `audit.py`: an independent check for balls inside parts; it shares no code with the solver

@@ -11,8 +11,8 @@ from __future__ import annotations
 from math import sqrt
 
 from silverball.physics.bounce import clamp_speed
+from silverball.physics.captures import free_plunger
 from silverball.physics.contact import is_present
-from silverball.physics.devices import free_plunger
 from silverball.physics.event_log import flight_checksum, log_event, store_checksum
 from silverball.physics.for_devices import for_devices, is_captured, level_of, switches_off
 from silverball.physics.kernel import as_int, internal, kernel

@@ -12,7 +12,7 @@ from math import sqrt
 from silverball.physics.bounce import bounce
 from silverball.physics.broad_phase import cell_of, is_culled, is_near
 from silverball.physics.crossing import disc_entry, line_crossing
-from silverball.physics.devices import cross_sensor, drop_target
+from silverball.physics.devices import cross_sensor
 from silverball.physics.event_log import log_event
 from silverball.physics.flight import state_at, time_to_border, time_to_shape
 from silverball.physics.for_devices import (
@@ -56,6 +56,7 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.shapes import contact_normal
+from silverball.physics.switches import drop_target
 from silverball.physics.tolerances import FLIGHT_STEPS, FREE_GAP
 
 

@@ -14,6 +14,7 @@ from silverball.physics.records import (
     ColliderRecord,
     Contact,
     EventKind,
+    Lane,
     LogRecord,
     WorldRecord,
 )
@@ -140,3 +141,10 @@ def _place_checksum(ball: BallRecord) -> int:
     )
     passed = mixed_bits(ball.passed_age) + mixed_bits(ball.passed_row)
     return place + passed + mixed_bits(ball.search_age) + mixed_bits(ball.solid_row)
+
+
+@inlined
+def count_score(lane: Lane, c: ColliderRecord) -> None:
+    """Count an event that scores."""
+    lane.world.score += c.points
+    lane.tally[c.part] += 1

@@ -7,7 +7,7 @@ from silverball.physics.portable_math import sine_cosine, uniform
 
 
 @kernel
-def is_captured(vx: float, vz: float, capture_speed: float) -> bool:
+def can_capture(vx: float, vz: float, capture_speed: float) -> bool:
     """Whether a hole captures a ball that enters with this velocity [u/s]; a faster ball passes over it."""
     return vx * vx + vz * vz <= capture_speed * capture_speed
 

@@ -17,8 +17,10 @@ from __future__ import annotations
 
 from math import floor, sqrt
 
-from silverball.physics.kernel import inlined, kernel
+from silverball.physics.kernel import inlined, internal, kernel
+from silverball.physics.motion import advance_to, start_flight
 from silverball.physics.portable_math import exp, expm1, log1p
+from silverball.physics.records import BallRecord, BoardRecord, ColliderRecord, SpinnerRecord, WorldRecord
 from silverball.physics.tolerances import NEVER
 
 PI = 3.141592653589793
@@ -91,3 +93,44 @@ def slowed_by_blade(vx: float, vz: float, drag: float) -> tuple[float, float]:
         return 0.0, 0.0
     share = (speed - drag) / speed
     return vx * share, vz * share
+
+
+@internal
+def drive_spinner(
+    world: WorldRecord,
+    board: BoardRecord,
+    ball: BallRecord,
+    c: ColliderRecord,
+    speed: float,
+    time: float,
+    tick: float,
+) -> None:
+    """Set the speed of a spinner's blade by a ball that crosses it with this normal speed [u/s]."""
+    spinner = world.spinner[c.number]
+    elapsed = (world.tick - spinner.tick) * tick + (time - spinner.offset)
+    spinner.angle = blade_angle(spinner.angle, spinner.speed, c.damping, max(elapsed, 0.0), spinner.turns)
+    spinner.speed = speed / c.blade
+    spinner.tick, spinner.offset, spinner.turns = world.tick, time, 0
+    if c.drag > 0.0:
+        advance_to(ball, board, ball.age + time)
+        ball.vx, ball.vz = slowed_by_blade(ball.vx, ball.vz, c.drag)
+        start_flight(ball, board, time)
+
+
+@inlined
+def time_of_next_turn(spinner: SpinnerRecord, c: ColliderRecord, now: int, tick: float) -> float:
+    """Compute the time of a spinner's next turn, from the start of the tick `now` [s]; NEVER for none."""
+    turn = time_of_turn(spinner.angle, spinner.speed, c.damping, spinner.turns + 1)
+    return spinner.offset + turn - (now - spinner.tick) * tick if turn < NEVER else NEVER
+
+
+@internal
+def is_possible_spinner(
+    spinner: SpinnerRecord, c: ColliderRecord, board: BoardRecord, now: int, tick: float
+) -> bool:
+    """Whether a spinner can have this state: all turns of the past were counted, and no others."""
+    if not (abs(spinner.angle) < 3.2 and abs(spinner.speed) * c.blade <= board.speed_cap * 1.001):
+        return False
+    if not (0.0 <= spinner.offset <= tick and 0 <= spinner.tick <= now and spinner.turns >= 0):
+        return False
+    return spinner.speed == 0.0 or time_of_next_turn(spinner, c, now, tick) > -tick

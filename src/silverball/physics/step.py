@@ -16,16 +16,14 @@ from typing import Any, cast
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
+from silverball.physics.captures import count_launch_ticks, is_launching, work_plungers
 from silverball.physics.contact import first_contact, resolve
 from silverball.physics.devices import (
     clock_time,
-    count_launch_ticks,
     has_devices,
-    is_launching,
     run_clocks,
     set_next_clock,
     ticks_to_clock,
-    work_plungers,
 )
 from silverball.physics.event_log import begin_step, log_event, store_checksum
 from silverball.physics.flight import contact_with_ball, state_at

@@ -11,10 +11,13 @@ from __future__ import annotations
 
 from silverball.physics.balls import separate_balls
 from silverball.physics.broad_phase import cell_of, is_near
-from silverball.physics.devices import is_possible_capture, validate_devices
+from silverball.physics.captures import is_possible_capture
+from silverball.physics.devices import set_next_clock
+from silverball.physics.due_times import later
 from silverball.physics.event_log import flight_checksum
 from silverball.physics.for_devices import (
     ball_slots,
+    for_devices,
     is_captured,
     is_solid,
     level_of,
@@ -42,6 +45,7 @@ from silverball.physics.records import (
     WorldRecord,
 )
 from silverball.physics.shapes import distance
+from silverball.physics.spinner import is_possible_spinner
 from silverball.physics.tolerances import MAX_DEPTH, NEVER, SPEED_MARGIN
 
 
@@ -188,3 +192,29 @@ def is_valid_ball(ball: BallRecord, board: BoardRecord) -> bool:
 def is_finite(x: float) -> bool:
     """Whether x is neither infinite nor NaN."""
     return abs(x) < NEVER
+
+
+@for_devices(lambda world, geometry, tick: None)
+@internal
+def validate_devices(world: WorldRecord, geometry: BoardGeometry, tick: float) -> None:
+    """Make the state of the devices in a world from outside a possible one."""
+    board, colliders = geometry.board, geometry.colliders
+    world.off &= board.switches
+    world.banks_due &= (1 << board.banks) - 1
+    world.launch_held = min(max(world.launch_held, 0), world.tick) if board.plungers != 0 else 0
+    for number in range(board.banks):
+        mask = board.bank_switches[number]
+        is_possible = world.off & mask == mask and 0.0 <= world.bank_offset[number] <= tick
+        if not is_possible:
+            world.banks_due &= ~(1 << number)
+        if world.off & mask == mask and world.banks_due >> number & 1 == 0:
+            world.banks_due |= 1 << number
+            due, offset = later(world.tick, board.bank_time[number], tick)
+            world.bank_tick[number], world.bank_offset[number] = due, offset
+    for number in range(board.spinners):
+        spinner = world.spinner[number]
+        c = colliders[board.collider_first + board.spinner_row[number]]
+        if not is_possible_spinner(spinner, c, board, world.tick, tick):
+            spinner.angle, spinner.speed, spinner.turns = 0.0, 0.0, 0
+            spinner.tick, spinner.offset = world.tick, 0.0
+    set_next_clock(world, geometry, tick)

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.physics.balls import create_ball
-from silverball.physics.devices import set_switch
 from silverball.physics.event_log import clear_log
 from silverball.physics.for_devices import switches_off
 from silverball.physics.kernel import kernel
@@ -34,6 +33,7 @@ from silverball.physics.records import (
     WorldRecord,
     records,
 )
+from silverball.physics.switches import set_switch
 from silverball.players.simple import launch_bit
 
 SOAK_KEY = 0x50A4  # makes these random numbers independent of the world's

@@ -22,7 +22,6 @@ from silverball.physics.balls import (
     put_ball,
     separate_balls,
 )
-from silverball.physics.devices import set_switch
 from silverball.physics.records import (
     HEADER,
     JITTER,
@@ -36,6 +35,7 @@ from silverball.physics.records import (
     Outcome,
     Part,
 )
+from silverball.physics.switches import set_switch
 from silverball.physics.tolerances import FREE_GAP, MIN_ADVANCE_GAP
 from silverball.physics.validation import validate_world
 from silverball.table import Table, expand

@@ -42,7 +42,7 @@ def results() -> list[str]:
         add(spinner.time_of_turn(0.2, x, 0.3, 2))
         add(spinner.remaining_turns(0.2, x, 0.3, 0))
         add(spinner.slowed_by_blade(x, y, 1.0))
-        add(holes.is_captured(x, y, 10.0))
+        add(holes.can_capture(x, y, 10.0))
         add(holes.exit_velocity(x, y, 0.3, 5, 17))
         add(holes.launch_speed(1.0, 20.0, 0.7, int(abs(10.0 * y)), 1 / 240))
     return found
