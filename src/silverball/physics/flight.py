@@ -185,8 +185,8 @@ def _time_to_arc(
             opens = -gap_accel * height >= along * along  # the gap's acceleration is ≥ 0
             is_pressed = gap == 0.0 and rate == 0.0 and not opens
             least = min_step if rate >= 0.0 and opens else 0.0  # see MIN_ADVANCE_GAP
-            step = 0.0
-            if -height > 0.25 * c.arc_radius:  # nearer to the centre the bound on the speed is the better one
+            step = least
+            if -height > MIN_ADVANCE_GAP:  # elsewhere the bound on the speed is the better one
                 bend = accel - 2.0 * max_speed * max_speed / height
                 step = max(time_to_line(gap, rate, -bend), least)
                 step = min(step, time_to_line(-0.5 * height, -max_speed, -accel))

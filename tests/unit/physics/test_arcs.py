@@ -13,6 +13,7 @@ from mpmath import mpf
 
 from contact_times import BOUND, exact, first_root, length
 from rows_of import RADIUS, ball_at, first_touch, row_of
+from silverball.physics.flight import time_to_shape
 from silverball.physics.records import Shape
 from silverball.physics.shapes import distance
 from silverball.table.primitive import Primitive
@@ -245,3 +246,21 @@ def test_a_ball_on_both_ends_of_a_cup_bounces_off_each() -> None:
         time, is_hit = fly((x, 0.0, 0.0, vz), row)
         assert is_hit
         assert time < 1e-9
+
+
+@settings(max_examples=1000)
+@given(
+    st.floats(1e-4, 4.0), st.integers(-32, 32), st.integers(-32, 32), st.sampled_from([0.0, 1e-6, 0.3, 9.0]),
+    st.sampled_from([-1e-12, -1e-16, 0.0, 1e-16, 1e-9]), st.booleans(),
+)  # fmt: skip
+def test_a_search_that_finds_nothing_has_got_on(room, turn, way, speed, gap, is_inside) -> None:
+    """Also for a ball in an arc hardly larger than itself, which it is about to leave or pressed to."""
+    thickness, turn, way = 0.05, turn / 10, way / 10
+    radius = RADIUS + thickness + room if is_inside else room
+    row = row_of(Curve((0.0, -radius), (0.0, radius), -1.0, thickness).primitive)
+    out = radius - thickness - RADIUS - gap if is_inside else radius + thickness + RADIUS + gap
+    x, z = out * math.cos(turn), out * math.sin(turn)
+    along = (-speed * math.sin(turn), speed * math.cos(turn))  # a ball that slides along the arc
+    ball = ball_at(x, z, *along, accel=(10.0 * math.cos(way), 10.0 * math.sin(way)))
+    time, is_hit = time_to_shape(row, ball, RADIUS, 0.0, TIME)
+    assert is_hit or time > 0.0
