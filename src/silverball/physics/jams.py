@@ -16,7 +16,6 @@ from silverball.physics.paddle import (
     is_turning,
     paddle_distance,
     read_sweep,
-    stop_sweep,
     surface_velocity,
     write_sweep,
 )
@@ -31,7 +30,7 @@ from silverball.physics.records import (
     PaddleSweep,
     Part,
 )
-from silverball.physics.tolerances import JAM_GAP, JAM_SHARE, MAX_CREEP, NEVER
+from silverball.physics.tolerances import JAM_GAP, JAM_SHARE, MAX_CREEP, MAX_TURN_BACK, NEVER
 
 
 @internal
@@ -89,8 +88,7 @@ def stop_jammed_ball(
         c = colliders[first + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_held):
-            until = stall_time(sweep, c, ball, board.ball_radius, time)
-            write_sweep(lane.scratch.sweep[index], stop_sweep(sweep, until), NEVER)
+            write_sweep(lane.scratch.sweep[index], stalled(sweep, c, ball, board.ball_radius, time), NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
@@ -106,8 +104,8 @@ def stall_at_held_ball(lane: Lane, geometry: BoardGeometry, ball: BallRecord, co
     """Stop a paddle that meets a held ball: whatever meets such a ball, it does not move."""
     c = geometry.colliders[geometry.board.collider_first + contact.row]
     record = lane.scratch.sweep[contact.row - Part.FIRST_PADDLE]
-    until = stall_time(read_sweep(record), c, ball, geometry.board.ball_radius, contact.time)
-    write_sweep(record, stop_sweep(read_sweep(record), until), NEVER)
+    sweep = stalled(read_sweep(record), c, ball, geometry.board.ball_radius, contact.time)
+    write_sweep(record, sweep, NEVER)
 
 
 @internal
@@ -141,13 +139,23 @@ def must_stall(
 
 
 @internal
-def stall_time(paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float) -> float:
-    """Compute up to which time of the tick a stalling paddle has turned [s].
+def stalled(
+    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float
+) -> PaddleSweep:
+    """Stop a paddle where it is at a time of the tick, next to a jammed ball.
 
-    A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and presses it
-    a little deeper before the jam is noticed. Such a paddle stays where it was, or it would creep on.
+    A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and before the
+    jam is noticed, it has pressed a little deeper, and the ball has sunk a little. So that this does not add
+    up over many ticks, the paddle turns back until it only touches the ball. If that takes more than
+    MAX_TURN_BACK, because the ball is in the direction of the pivot, it turns back to where it was.
     """
-    if paddle.alpha == 0.0 or paddle.omega != 0.0:
-        return time
-    gap, _, _ = paddle_distance(c, angle_at(paddle, time), ball.x, ball.z)
-    return 0.0 if gap < radius - MAX_CREEP else time
+    angle = angle_at(paddle, time)
+    if paddle.alpha != 0.0 and paddle.omega == 0.0:
+        gap, nx, nz = paddle_distance(c, angle, ball.x, ball.z)
+        depth = radius - gap
+        if depth > MAX_CREEP:
+            ux, uz = surface_velocity(c, 1.0, ball.x - gap * nx, ball.z - gap * nz)
+            closing = ux * nx + uz * nz  # [u/rad] by which the gap closes
+            angle = angle - depth / closing if depth < MAX_TURN_BACK * abs(closing) else paddle.angle
+            angle = min(max(angle, min(c.angle_rest, c.angle_up)), max(c.angle_rest, c.angle_up))
+    return PaddleSweep(angle, 0.0, paddle.stop, 0.0)

@@ -117,12 +117,6 @@ def end_at_stop(paddle: PaddleSweep) -> PaddleSweep:
 
 
 @inlined
-def stop_sweep(paddle: PaddleSweep, time: float) -> PaddleSweep:
-    """Stop a paddle where it is at a time of the tick."""
-    return PaddleSweep(angle_at(paddle, time), 0.0, paddle.stop, 0.0)
-
-
-@inlined
 def surface_velocity(c: ColliderRecord, omega: float, x: float, z: float) -> tuple[float, float]:
     """Compute the velocity [u/s] of the turning paddle's surface at (x, z) [u]:  ω × r."""
     rx = x - c.x

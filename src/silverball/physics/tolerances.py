@@ -56,8 +56,11 @@ JAM_GAP = 1e-3
 """[u] A paddle this close to a jammed ball takes part in the jam and stalls."""
 
 MAX_CREEP = 1e-11
-"""[u] depth of a jammed ball in a paddle on a coil above which the paddle goes back to where it was at the
-start of the tick. Larger than the rounding of a contact, far smaller than `MAX_DEPTH`."""
+"""[u] depth of a jammed ball in a paddle on a coil above which the paddle turns back. Larger than the
+rounding of a contact, far smaller than `MAX_DEPTH`."""
+
+MAX_TURN_BACK = 1e-6
+"""[rad] the most by which it turns back."""
 
 FREE_GAP = 1e-9
 """[u] A ball is created only at this distance from everything or more, so that it starts clear."""
