@@ -19,7 +19,6 @@ from silverball.physics.audit import (
     depth_in_borders,
     depth_in_other_ball,
     depth_in_paddle,
-    depth_in_stationary,
     gap_to,
     is_met,
     is_out_of_reach,
@@ -56,6 +55,7 @@ from silverball.soak.crossings import (
     is_thrown_back,
 )
 from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action, move_gates
+from silverball.soak.near_rows import NearBoard, NearRows, depth_near
 from silverball.soak.regions import (
     BLOCKED,
     MAIN_REGION,
@@ -134,6 +134,7 @@ class ReferenceBoard(NamedTuple):
         colliders: COLLIDER records of all boards.
         header: The GRID_HEADER record of the board.
         labels: Labels of the cells of all boards.
+        near: The lists of the rows near its places.
         hostile: Whether a ball may start in any region, and get stuck: the check was not made, or warned.
     """
 
@@ -141,6 +142,7 @@ class ReferenceBoard(NamedTuple):
     colliders: Colliders
     header: GridHeaderRecord
     labels: Any
+    near: NearBoard
     hostile: bool
 
 
@@ -152,6 +154,7 @@ class Watches(NamedTuple):
         colliders: COLLIDER records of all boards.
         headers: GRID_HEADER records [board].
         labels: Labels of the cells of all boards.
+        near: The lists of the rows near the places of all boards.
         states: WATCH records [world].
         hostile: Whether the check of each board was not made, or warned, bool [board].
     """
@@ -160,6 +163,7 @@ class Watches(NamedTuple):
     colliders: Colliders
     headers: Any
     labels: Any
+    near: NearRows
     states: Any
     hostile: Any
 
@@ -222,8 +226,8 @@ def check_places(world: WorldRecord, truth: ReferenceBoard, watch: WatchRecord) 
             report(world, watch, as_int(Found.ESCAPE), slot, now, 0.0)
         depth = depth_in_borders(board, colliders, ball.x, ball.z)
         if is_narrow(label) and ball.motion != Motion.CAPTURED:
-            inside = depth_in_stationary(
-                board, colliders, ball.x, ball.z, level_of(ball), switches_off(world)
+            inside = depth_near(
+                truth.near, board, colliders, ball.x, ball.z, level_of(ball), switches_off(world)
             )
             depth = max(depth, inside)
         for number in range(board.paddles if ball.motion != Motion.CAPTURED else 0):
@@ -349,8 +353,8 @@ def depth_along_path(
         share = number / count
         x, z = start_x + share * dx, start_z + share * dz
         if is_narrow(label_at(truth.header, truth.labels, level_of(ball), x, z)):
-            inside = depth_in_stationary(
-                board, colliders, x, z, level_of(ball), switches_off(world) | watch.off_before
+            inside = depth_near(
+                truth.near, board, colliders, x, z, level_of(ball), switches_off(world) | watch.off_before
             )
             depth = max(depth, inside)
         if at_paddle:
@@ -437,9 +441,9 @@ def check_crossings(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick:
         if not is_free(lane, truth, watch, slot, tick):
             continue
         ball = world.ball[slot]
-        if is_crossing_wrong(log, board, truth.colliders, ball, watch, slot, margin):
+        if is_crossing_wrong(log, truth.near, truth.colliders, ball, watch, slot, margin):
             report(world, watch, as_int(Found.MISSED), slot, world.tick - 1, 0.0)
-        depth = depth_in_one_way(board, truth.colliders, ball, watch, slot)
+        depth = depth_in_one_way(truth.near, truth.colliders, board.ball_radius, ball, watch, slot)
         if depth > margin:
             report(world, watch, as_int(Found.PASSAGE), slot, world.tick - 1, depth)
 
@@ -538,6 +542,7 @@ def soak_worlds(
         geometry = BoardGeometry(board, geometries.colliders, geometries.grid)
         truth = ReferenceBoard(
             watches.boards[number], watches.colliders, watches.headers[number], watches.labels,
+            NearBoard(watches.near.headers[number], watches.near.starts, watches.near.rows),
             watches.hostile[number],
         )  # fmt: skip
         for _ in range(ticks):

@@ -23,6 +23,7 @@ from silverball.physics.records import (
     LogRecord,
     Shape,
 )
+from silverball.soak.near_rows import NearBoard
 
 UNKNOWN = -1  # the margin does not tell whether there was a crossing
 CLEAR = 1e-6  # [u] by which a ball must be clear of a one-way part for the part to block it
@@ -80,7 +81,7 @@ def disc_entries(c: ColliderRecord, ball: BallRecord, x: float, z: float, margin
 @kernel
 def is_crossing_wrong(
     log: LogRecord,
-    board: BoardRecord,
+    near: NearBoard,
     colliders: Colliders,
     ball: BallRecord,
     watch: Any,
@@ -89,8 +90,8 @@ def is_crossing_wrong(
 ) -> bool:
     """Whether a ball that met nothing in the last tick has crossed a sensor, but not as often as logged."""
     x, z = watch.x_before[slot], watch.z_before[slot]
-    for index in range(board.collider_first + board.shape_first, board.collider_end):
-        c = colliders[index]
+    for entry in range(near.header.crossed_first, near.header.crossed_end):
+        c = colliders[near.rows[entry]]
         if not is_sensor(c) or c.levels >> level_of(ball) & 1 == 0:
             continue
         if c.form == Shape.LINE:
@@ -125,9 +126,11 @@ def has_passed(log: LogRecord, board: BoardRecord, colliders: Colliders, ball: i
 @kernel
 def is_thrown_back(board: BoardRecord, colliders: Colliders, kind: int, part: int) -> bool:
     """Whether an event is that of a passage which has thrown a ball back: a touch of its line."""
+    if kind != EventKind.TOUCH:
+        return False
     for index in range(board.collider_first + board.shape_first, board.collider_end):
         if colliders[index].part == part and colliders[index].role == Device.PASSAGE:
-            return bool(kind == EventKind.TOUCH)
+            return True
     return False
 
 
@@ -146,15 +149,15 @@ def gap_to_sensor(board: BoardRecord, colliders: Colliders, part: int, x: float,
 
 @kernel
 def depth_in_one_way(
-    board: BoardRecord, colliders: Colliders, ball: BallRecord, watch: Any, slot: int
+    near: NearBoard, colliders: Colliders, radius: float, ball: BallRecord, watch: Any, slot: int
 ) -> float:
     """Compute how deep a ball is in one-way parts that it was clear of, on the blocked side, a tick ago."""
     x, z, depth = watch.x_before[slot], watch.z_before[slot], 0.0
-    for index in range(board.collider_first + board.shape_first, board.collider_end):
-        c = colliders[index]
+    for entry in range(near.header.crossed_first, near.header.crossed_end):
+        c = colliders[near.rows[entry]]
         if c.one_way == 0 or c.levels >> level_of(ball) & 1 == 0:
             continue
-        dx, dz, thick = c.x1 - c.x0, c.z1 - c.z0, c.radius + board.ball_radius
+        dx, dz, thick = c.x1 - c.x0, c.z1 - c.z0, c.radius + radius
         square = dx * dx + dz * dz
         before = (x - c.x0) * c.inward_x + (z - c.z0) * c.inward_z
         after = (ball.x - c.x0) * c.inward_x + (ball.z - c.z0) * c.inward_z

@@ -23,6 +23,7 @@ from silverball.soak.driver import Drivers
 from silverball.soak.hostile import hostile_table
 from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.json_file import STRICT, Amount, Count
+from silverball.soak.near_rows import NearBoard, near_rows
 from silverball.soak.part_boards import part_table
 from silverball.soak.regions import region_map
 from silverball.table import Table, generate_table, table_digest
@@ -160,6 +161,7 @@ class SoakBatch:
             boards.board,
             boards.collider,
             *region_map(boards.board, boards.collider),
+            near_rows(boards.board, boards.collider),
             records(len(tables), WATCH),
             np.array([hostile] * len(tables) if isinstance(hostile, bool) else hostile)[_first_of(batch)],
         )
@@ -172,6 +174,7 @@ class SoakBatch:
             watches.colliders,
             watches.headers[board],
             watches.labels,
+            NearBoard(watches.near.headers[board], watches.near.starts, watches.near.rows),
             watches.hostile[board],
         )
 

@@ -23,6 +23,18 @@ from silverball.table import dump_table, load_table, table_names
 GOOD = 'format = 1\nname = "{}"\n[[cylinder]]\ncenter = [3, {}]\nradius = 1.0\n'
 
 
+BEING_READ = "is being read"
+
+
+def all_read(catalog):
+    """The entries, once all files have been read."""
+    limit = time.monotonic() + 120.0
+    while BEING_READ in {entry.description for entry in catalog.entries()}:
+        assert time.monotonic() < limit
+        time.sleep(0.05)
+    return catalog.entries()
+
+
 def write(folder, name="mine.toml", text=None, title="Mine", z=0.0):
     """A table file in the folder for one's own tables."""
     path = folder / "tables" / name
@@ -107,7 +119,7 @@ def mine(tmp_path):
 
 
 def entry_of(catalog, path):
-    return next(entry for entry in catalog.entries() if entry.name == str(path))
+    return next(entry for entry in all_read(catalog) if entry.name == str(path))
 
 
 def center(evening) -> float:
@@ -373,7 +385,7 @@ def test_files_of_equal_names_are_told_apart(catalog, tmp_path):
     for name in ("one.toml", "two.toml"):
         write(tmp_path, name, title="Twin")
     write(tmp_path, "three.toml", title="CLASSIC")
-    titles = [entry.title for entry in catalog.entries()]
+    titles = [entry.title for entry in all_read(catalog)]
     assert len({title.upper() for title in titles}) == len(titles)
     assert "Twin (one.toml)" in titles
     assert load_table("classic").name in titles
@@ -393,7 +405,7 @@ def test_names_that_would_steer_a_terminal_are_shown_and_not_obeyed(tmp_path, na
     except OSError:
         pytest.skip("this disk takes no such name")
     evening = Evening(tmp_path, Settings(table=str(path)) if text is None else None)
-    (entry,) = [one for one in evening.catalog.entries() if one.name == str(path)]
+    (entry,) = [one for one in all_read(evening.catalog) if one.name == str(path)]
     evening.program.finish_loading()
     evening.program.play(Mode.FREE, str(path))
     evening.tap(Action.NEW_BOARD)
@@ -416,13 +428,9 @@ def test_five_hundred_files_are_all_offered_though_none_is_waited_for(tmp_path, 
         catalog = Catalog(store, tmp_path)
         own = [entry for entry in catalog.entries() if entry.name.startswith(str(tmp_path))]
         assert [entry.title for entry in own] == [f"t{number:03}.toml" for number in range(500)]
-        assert {entry.description for entry in own} == {"is being read"}
+        assert {entry.description for entry in own} == {BEING_READ}
         gate.set()
-        limit = time.monotonic() + 120.0
-        while any(entry.description == "is being read" for entry in catalog.entries()):
-            assert time.monotonic() < limit
-            time.sleep(0.05)
-        titles = {entry.title for entry in catalog.entries()}
+        titles = {entry.title for entry in all_read(catalog)}
         assert {f"Table {number}" for number in range(500)} <= titles
 
 
