@@ -7,6 +7,7 @@ quiet.
 
 from __future__ import annotations
 
+import functools
 import hashlib
 from collections.abc import Callable, Sequence
 from dataclasses import field
@@ -26,7 +27,7 @@ from silverball.soak.json_file import STRICT, Amount, Count
 from silverball.soak.near_rows import NearBoard, near_rows
 from silverball.soak.part_boards import part_table
 from silverball.soak.regions import region_map
-from silverball.table import Table, generate_table, table_digest
+from silverball.table import Table, check_table, generate_table, table_digest
 from silverball.world import WorldBatch
 from silverball.world.compile import compile_tables
 
@@ -209,11 +210,12 @@ def round_batch(options: Options, number: int, only: int | None = None) -> SoakB
     worlds = range(options.worlds) if only is None else range(only, only + 1)
     board_of = {world: world // options.worlds_per_board for world in worlds}
     boards = {board: _board(options, number, board) for board in sorted(set(board_of.values()))}
+    is_warned = options.recipe.random is None and has_problems(options.recipe)
     return SoakBatch(
         [boards[board_of[world]] for world in worlds],
         [_seed(options.seed, number, f"world {world}") for world in worlds],
         options.tick_rate,
-        [options.hostile or _has_parts(options, board_of[world]) for world in worlds],
+        [options.hostile or is_warned or _has_parts(options, board_of[world]) for world in worlds],
         [world % QUIET_EVERY != 0 for world in worlds],
     )
 
@@ -242,6 +244,12 @@ def play_round(
         for world in np.nonzero(soaked.watches.states["found"])[0]
     ]
     return soaked.totals(), places
+
+
+@functools.lru_cache(maxsize=8)
+def has_problems(table: Table) -> bool:
+    """Whether the check of a table has problems, warnings among them: a ball may lie still on it."""
+    return check_table(table) != []
 
 
 def _board(options: Options, number: int, board: int) -> Table:

@@ -17,9 +17,9 @@ from silverball.soak.finding import Finding, reproduce
 from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.part_boards import SECTION, part_table
 from silverball.soak.regions import MAIN_REGION
-from silverball.soak.rounds import SoakBatch, play_round, round_batch
+from silverball.soak.rounds import SoakBatch, has_problems, play_round, round_batch
 from silverball.table import SlantWall, Table, check_table, dump_table, load_table
-from silverball.table.kinds import DropTarget, Gate, Hole, Level, Passage, Plunger, Rollover
+from silverball.table.kinds import DropTarget, Gate, Hole, Level, Passage, Plunger, Rollover, Wall
 from silverball.world import WorldBatch
 
 LINE = Rollover(start=(2.0, -2.0), end=(2.0, 2.0))
@@ -214,3 +214,13 @@ def test_a_finding_with_launches_is_recorded_and_reproduced(short_rounds, monkey
         assert all(Finding.from_text(finding.to_text(), "") == finding for finding in findings)
     assert {reproduce(finding) for finding in findings} == {Found.NOTHING}
     assert any(type(action[4]) is int for finding in findings for action in finding.actions)
+
+
+def test_a_ball_may_lie_still_on_a_table_of_which_the_check_has_warned() -> None:
+    """On one without warnings it is stuck."""
+    cup = Wall(points=((1.0, -0.5), (0.0, -0.5), (0.0, 0.5), (1.0, 0.5)))
+    for parts, is_warned in (((cup,), True), ((), False)):
+        table = load_table("classic").replace(format=2, wall=parts)
+        options = options_of(worlds=2)._replace(recipe=table)
+        assert has_problems(table) == is_warned
+        assert round_batch(options, 0).watches.hostile.tolist() == [is_warned]
