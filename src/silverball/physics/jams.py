@@ -27,10 +27,11 @@ from silverball.physics.records import (
     Contact,
     EventKind,
     Lane,
+    LogRecord,
     PaddleSweep,
     Part,
 )
-from silverball.physics.tolerances import JAM_GAP, JAM_SHARE, MAX_CREEP, MAX_TURN_BACK, NEVER
+from silverball.physics.tolerances import JAM_GAP, JAM_SHARE, MAX_CREEP, MAX_PUT_BACK, MAX_TURN_BACK, NEVER
 
 
 @internal
@@ -55,7 +56,7 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
     for slot in range(ball_slots(world, board)):
         is_jammed = jammed >> slot & 1 != 0
         if is_jammed:
-            stop_jammed_ball(lane, geometry, world.ball[slot], time, scratch.ball_jams[slot] > 0)
+            stop_jammed_ball(lane, geometry, slot, time, scratch.ball_jams[slot] > 0)
             scratch.ball_events[slot] = 0
             scratch.ball_jams[slot] += 1
         for one in range(slot):
@@ -65,17 +66,16 @@ def stop_jammed_balls(lane: Lane, geometry: BoardGeometry, time: float, limit: i
 
 
 @internal
-def stop_jammed_ball(
-    lane: Lane, geometry: BoardGeometry, ball: BallRecord, time: float, is_repeat: bool
-) -> None:
-    """Stop a jammed ball at a time of the tick, and stall the paddles next to it.
+def stop_jammed_ball(lane: Lane, geometry: BoardGeometry, slot: int, time: float, is_repeat: bool) -> None:
+    """Stop the jammed ball in a slot at a time of the tick, and stall the paddles next to it.
 
     A ball that jams again in the same tick, although the paddles are still, is held until the tick is over.
     So is one that an accelerating paddle leaves; the paddle goes on.
     """
+    world, board, colliders = lane.world, geometry.board, geometry.colliders
+    ball = world.ball[slot]
     if ball.id == 0 or is_fixed(ball):
         return
-    world, board, colliders = lane.world, geometry.board, geometry.colliders
     advance_to(ball, board, ball.age + time)
     near = board.ball_radius + JAM_GAP
     first = board.collider_first + Part.FIRST_PADDLE
@@ -88,7 +88,10 @@ def stop_jammed_ball(
         c = colliders[first + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_held):
-            write_sweep(lane.scratch.sweep[index], stalled(sweep, c, ball, board.ball_radius, time), NEVER)
+            stall = stalled(sweep, c, ball, board.ball_radius, time)
+            write_sweep(lane.scratch.sweep[index], stall, NEVER)
+            if sweep.alpha != 0.0:
+                put_back(lane.scratch, stall, c, ball, slot, board.ball_radius)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
@@ -97,6 +100,20 @@ def stop_jammed_ball(
         hold_still(ball, time)
     else:
         start_flight(ball, board, time)
+
+
+@internal
+def put_back(
+    scratch: LogRecord, paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, slot: int, radius: float
+) -> None:
+    """Put a ball that has sunk into a stalled paddle at its stop back to where it was before the tick.
+
+    A ball that has come further than MAX_PUT_BACK has not sunk, but was pushed.
+    """
+    gap, _, _ = paddle_distance(c, paddle.angle, ball.x, ball.z)
+    dx, dz = ball.x - scratch.before_x[slot], ball.z - scratch.before_z[slot]
+    if gap < radius - MAX_CREEP and dx * dx + dz * dz < MAX_PUT_BACK * MAX_PUT_BACK:
+        ball.x, ball.z = scratch.before_x[slot], scratch.before_z[slot]
 
 
 @internal

@@ -383,10 +383,12 @@ LOG = np.dtype(
         ("done", "i8"),  # events at the end of the last step; later ones are balls created since
         ("checksum", "i8"),  # of the flights and angles that the last call left
         ("event", EVENT, (LOG_LENGTH,)),
-        # Scratch of a tick: the paddles' motion; for each ball its events since its last jam and its jams;
-        # for each pair of balls the contacts between them since a jam of either.
+        # Scratch of a tick: the paddles' motion; for each ball its events since its last jam, its jams, and
+        # where it was before the tick [u]; for each pair of balls the contacts between them since a jam of
+        # either.
         ("sweep", SWEEP, (MAX_PADDLES,)),
         ("ball_events", "i8", (MAX_BALLS,)), ("ball_jams", "i8", (MAX_BALLS,)),
+        ("before_x", "f8", (MAX_BALLS,)), ("before_z", "f8", (MAX_BALLS,)),
         ("pair_events", "i8", (MAX_PAIRS,)),
     ],
     align=True,

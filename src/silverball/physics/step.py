@@ -214,7 +214,9 @@ def start_tick(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
         write_sweep(scratch.sweep[index], sweep, time_to_stop(sweep, tick))
     pair = 0
     for slot in range(ball_slots(world, board)):
+        ball = world.ball[slot]
         scratch.ball_events[slot], scratch.ball_jams[slot] = 0, 0
+        scratch.before_x[slot], scratch.before_z[slot] = ball.x, ball.z
         for _ in range(slot):
             scratch.pair_events[pair] = 0
             pair += 1

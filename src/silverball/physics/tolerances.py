@@ -62,6 +62,10 @@ rounding of a contact, far smaller than `MAX_DEPTH`."""
 MAX_TURN_BACK = 1e-6
 """[rad] the most by which it turns back."""
 
+MAX_PUT_BACK = 1e-10
+"""[u] the most by which a ball that has sunk into a paddle at its stop is put back; it sinks by some 1e-11 u
+in a tick."""
+
 FREE_GAP = 1e-9
 """[u] A ball is created only at this distance from everything or more, so that it starts clear."""
 
