@@ -9,7 +9,6 @@ from silverball.physics.due_times import later
 from silverball.physics.event_log import count_score, log_event
 from silverball.physics.flight import state_at
 from silverball.physics.for_devices import for_devices
-from silverball.physics.forms import Response
 from silverball.physics.holes import can_capture, exit_velocity, launch_speed
 from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.motion import advance_to, capture, clear_ball, set_free
@@ -28,6 +27,7 @@ from silverball.physics.records import (
     Lane,
     Motion,
     Part,
+    Response,
     WorldRecord,
 )
 from silverball.physics.shapes import distance
@@ -53,9 +53,9 @@ def enter_hole(
         log_event(lane.log, as_int(EventKind.GUTTER), ball, world.tick, c.part, contact, speed)
         clear_ball(ball)
         return
-    if not _has_room(world, board, ball, c.x, c.z, ball.level, time):
+    if not has_room(world, board, ball, c.x, c.z, ball.level, time):
         return
-    if not _is_clear(lane, geometry, c.x, c.z, ball.level, time):
+    if not is_clear(lane, geometry, c.x, c.z, ball.level, time):
         return
     capture(ball, row, c.x, c.z, time)
     count_score(lane, c)
@@ -65,7 +65,7 @@ def enter_hole(
 
 
 @inlined
-def _has_room(
+def has_room(
     world: WorldRecord, board: BoardRecord, ball: BallRecord, x: float, z: float, level: int, time: float
 ) -> bool:
     """Whether a ball at (x, z) on a level would overlap no other ball at a time of the tick [s]."""
@@ -80,7 +80,7 @@ def _has_room(
 
 
 @internal
-def _is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: int, time: float) -> bool:
+def is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: int, time: float) -> bool:
     """Whether a ball at (x, z) on a level would overlap no collider at a time of the tick [s]."""
     world, board, scratch = lane.world, geometry.board, lane.scratch
     if min(z - board.low_z, board.high_z - z, board.top_x - x) < -MAX_DEPTH:
@@ -111,8 +111,8 @@ def release_ball(lane: Lane, geometry: BoardGeometry, ball: BallRecord, time: fl
     world, board = lane.world, geometry.board
     c = geometry.colliders[board.collider_first + ball.holder]
     if not (
-        _has_room(world, board, ball, c.exit_x, c.exit_z, c.exit_level, time)
-        and _is_clear(lane, geometry, c.exit_x, c.exit_z, c.exit_level, time)
+        has_room(world, board, ball, c.exit_x, c.exit_z, c.exit_level, time)
+        and is_clear(lane, geometry, c.exit_x, c.exit_z, c.exit_level, time)
     ):
         ball.due_tick, ball.due_offset = world.tick + 1, 0.0
         return
@@ -147,7 +147,7 @@ def work_plungers(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float
         ball = world.ball[slot]
         if ball.id != 0 and ball.motion == Motion.CAPTURED:
             c = geometry.colliders[board.collider_first + ball.holder]
-            if c.role == Device.PLUNGER and _is_clear(lane, geometry, c.x, c.z, ball.level, 0.0):
+            if c.role == Device.PLUNGER and is_clear(lane, geometry, c.x, c.z, ball.level, 0.0):
                 speed = launch_speed(
                     c.launch_least, c.launch_greatest, c.charge_time, world.launch_held, tick
                 )

@@ -19,7 +19,7 @@ or gate comes back, only where there is room; otherwise it is tried again (a pas
 
 from __future__ import annotations
 
-from silverball.physics.captures import _has_room, _is_clear, enter_hole, release_ball
+from silverball.physics.captures import enter_hole, has_room, is_clear, release_ball
 from silverball.physics.due_times import is_due, later
 from silverball.physics.event_log import count_score, log_event, log_part_event
 from silverball.physics.flight import state_at
@@ -68,8 +68,8 @@ def cross_sensor(lane: Lane, geometry: BoardGeometry, ball: BallRecord, row: int
             return  # it is on this level already
         advance_to(ball, board, age)
         if not (
-            _has_room(world, board, ball, ball.x, ball.z, after, time)
-            and _is_clear(lane, geometry, ball.x, ball.z, after, time)
+            has_room(world, board, ball, ball.x, ball.z, after, time)
+            and is_clear(lane, geometry, ball.x, ball.z, after, time)
         ):
             # Something is in the way on the other level: the ball is thrown back.
             ball.vx -= 2.0 * speed * c.inward_x

@@ -1,7 +1,10 @@
 """Jams: balls that bounce between things too often in one tick, and the paddles that press them.
 
-too many events in one tick → the ball is stopped, and the paddles next to it stall
-→ again in the same tick → the ball is held until the tick is over
+    too many events in one tick → the ball is stopped, and the paddles next to it stall
+    → again in the same tick → the ball is held until the tick is over
+
+So a ball jams twice in a tick at most. What a tick has pressed into a paddle does not add up: a paddle on a
+coil turns back, and where it is at its stop, the ball is put back.
 """
 
 from __future__ import annotations
