@@ -88,8 +88,9 @@ def without_screen(monkeypatch) -> None:
 
 @pytest.fixture(autouse=True)
 def sketches(request, monkeypatch) -> None:
-    """Only tests marked `sharp` wait for pictures in full quality; the others are content with the sketch."""
+    """Only tests marked `sharp` wait for pictures in full quality; the others always see the sketch."""
     if "sharp" not in request.keywords:
+        monkeypatch.setattr("silverball.drawing.renderer.load_baked_table", lambda cache, key: None)
         monkeypatch.setattr("silverball.drawing.background.Background._work", lambda self: None)
 
 
