@@ -12,7 +12,7 @@ from __future__ import annotations
 from silverball.physics.broad_phase import is_near
 from silverball.physics.event_log import log_event
 from silverball.physics.for_devices import ball_slots, paddle_count
-from silverball.physics.kernel import as_int, internal
+from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.motion import advance_to, hold_still, is_fixed, start_flight
 from silverball.physics.paddle import (
     angle_at,
@@ -31,6 +31,7 @@ from silverball.physics.records import (
     EventKind,
     Lane,
     LogRecord,
+    PaddleRecord,
     PaddleSweep,
     Part,
 )
@@ -91,10 +92,12 @@ def stop_jammed_ball(lane: Lane, geometry: BoardGeometry, slot: int, time: float
         c = colliders[first + index]
         sweep = read_sweep(lane.scratch.sweep[index])
         if must_stall(sweep, c, ball, near, time, is_held):
-            stall = stalled(sweep, c, ball, board.ball_radius, time)
-            write_sweep(lane.scratch.sweep[index], stall, NEVER)
-            if sweep.alpha != 0.0:
-                put_back(lane.scratch, stall, c, ball, slot, board.ball_radius)
+            sweep = stalled(sweep, time)
+        if c.lift_accel != 0.0 and not is_turning(sweep):
+            sweep = turned_back(sweep, world.paddle[index], c, ball, board.ball_radius)
+            put_back(lane.scratch, sweep, c, ball, slot, board.ball_radius)
+        if not is_turning(sweep):
+            write_sweep(lane.scratch.sweep[index], sweep, NEVER)
     ball.vx, ball.vz, ball.spin_x, ball.spin_y, ball.spin_z = 0.0, 0.0, 0.0, 0.0, 0.0
     world.jams += 1
     contact = Contact(time, as_int(NOTHING), 0.0, 0.0)
@@ -109,7 +112,7 @@ def stop_jammed_ball(lane: Lane, geometry: BoardGeometry, slot: int, time: float
 def put_back(
     scratch: LogRecord, paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, slot: int, radius: float
 ) -> None:
-    """Put a ball that has sunk into a stalled paddle at its stop back to where it was before the tick.
+    """Put a ball that has sunk into a coil's paddle that stands back to where it was before the tick.
 
     A ball that has come further than MAX_PUT_BACK has not sunk, but was pushed.
     """
@@ -122,9 +125,11 @@ def put_back(
 @internal
 def stall_at_held_ball(lane: Lane, geometry: BoardGeometry, ball: BallRecord, contact: Contact) -> None:
     """Stop a paddle that meets a held ball: whatever meets such a ball, it does not move."""
-    c = geometry.colliders[geometry.board.collider_first + contact.row]
-    record = lane.scratch.sweep[contact.row - Part.FIRST_PADDLE]
-    sweep = stalled(read_sweep(record), c, ball, geometry.board.ball_radius, contact.time)
+    index = contact.row - Part.FIRST_PADDLE
+    c, record = geometry.colliders[geometry.board.collider_first + contact.row], lane.scratch.sweep[index]
+    sweep = stalled(read_sweep(record), contact.time)
+    if c.lift_accel != 0.0:
+        sweep = turned_back(sweep, lane.world.paddle[index], c, ball, geometry.board.ball_radius)
     write_sweep(record, sweep, NEVER)
 
 
@@ -158,24 +163,29 @@ def must_stall(
     return bool(gap < near or (is_held and is_near(ball.x, ball.z, c.x, c.z, c.reach + near)))
 
 
+@inlined
+def stalled(paddle: PaddleSweep, time: float) -> PaddleSweep:
+    """Stop a paddle where it is at a time of the tick."""
+    return PaddleSweep(angle_at(paddle, time), 0.0, paddle.stop, 0.0)
+
+
 @internal
-def stalled(
-    paddle: PaddleSweep, c: ColliderRecord, ball: BallRecord, radius: float, time: float
+def turned_back(
+    paddle: PaddleSweep, before: PaddleRecord, c: ColliderRecord, ball: BallRecord, radius: float
 ) -> PaddleSweep:
-    """Stop a paddle where it is at a time of the tick, next to a jammed ball.
+    """Turn a coil's paddle that has stopped back until it only touches a jammed ball.
 
     A coil starts from rest in every tick in which its paddle is pressed against a jammed ball, and before the
-    jam is noticed, it has pressed a little deeper, and the ball has sunk a little. So that this does not add
-    up over many ticks, the paddle turns back until it only touches the ball. If that takes more than
-    MAX_TURN_BACK, because the ball is in the direction of the pivot, it turns back to where it was.
+    jam is noticed, it has pressed a little deeper, and the ball has sunk a little. This must not add up over
+    many ticks. If it takes more than MAX_TURN_BACK, because the ball is in the direction of the pivot, the
+    paddle turns back to where it was before the tick.
     """
-    angle = angle_at(paddle, time)
-    if paddle.alpha != 0.0 and paddle.omega == 0.0:
-        gap, nx, nz = paddle_distance(c, angle, ball.x, ball.z)
-        depth = radius - gap
-        if depth > MAX_CREEP:
-            ux, uz = surface_velocity(c, 1.0, ball.x - gap * nx, ball.z - gap * nz)
-            closing = ux * nx + uz * nz  # [u/rad] by which the gap closes
-            angle = angle - depth / closing if depth < MAX_TURN_BACK * abs(closing) else paddle.angle
-            angle = min(max(angle, min(c.angle_rest, c.angle_up)), max(c.angle_rest, c.angle_up))
+    gap, nx, nz = paddle_distance(c, paddle.angle, ball.x, ball.z)
+    depth = radius - gap
+    if depth <= MAX_CREEP or before.angular_velocity != 0.0 or paddle.angle == before.angle:
+        return paddle
+    ux, uz = surface_velocity(c, 1.0, ball.x - gap * nx, ball.z - gap * nz)
+    closing = ux * nx + uz * nz  # [u/rad] by which the gap closes
+    angle = paddle.angle - depth / closing if depth < MAX_TURN_BACK * abs(closing) else before.angle
+    angle = min(max(angle, min(c.angle_rest, c.angle_up)), max(c.angle_rest, c.angle_up))
     return PaddleSweep(angle, 0.0, paddle.stop, 0.0)

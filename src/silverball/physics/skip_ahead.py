@@ -13,7 +13,7 @@ from silverball.physics.devices import ticks_to_clock
 from silverball.physics.flight import contact_with_ball, state_at, time_to_line
 from silverball.physics.for_devices import ball_slots, is_captured, paddle_count, switches_off
 from silverball.physics.kernel import inlined, internal
-from silverball.physics.motion import restart_slip, start_rolling
+from silverball.physics.motion import start_rolling
 from silverball.physics.records import (
     NOTHING,
     ROLL_START,
@@ -111,8 +111,6 @@ def event_free_ticks(geometry: BoardGeometry, world: WorldRecord, tick: float, l
         return 0
     off = switches_off(world)
     changes = False
-    for slot in range(slots):
-        restart_slip(world.ball[slot], board)
     for slot in range(slots):
         if not is_undisturbed(geometry, world.ball[slot], off, tick):
             return 0

@@ -30,7 +30,7 @@ from silverball.physics.flight import contact_with_ball, state_at
 from silverball.physics.for_devices import are_on_one_level, ball_slots, for_devices, paddle_count
 from silverball.physics.jams import stop_jammed_balls
 from silverball.physics.kernel import as_int, inlined, internal, kernel, prefetch
-from silverball.physics.motion import advance_ticks, advance_to, is_fixed, release, start_flight
+from silverball.physics.motion import advance_ticks, advance_to, is_fixed, release, restart_slip, start_flight
 from silverball.physics.paddle import (
     angle_at,
     end_at_stop,
@@ -104,9 +104,7 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
         The number of ticks.
     """
     world, board = lane.world, geometry.board
-    free = 0
-    if not is_launching(world, board, buttons):
-        free = event_free_ticks(geometry, world, tick, limit)
+    free = free_ticks(world, geometry, buttons, tick, limit)
     if free == 0:
         play_tick(lane, geometry, buttons, tick)
         return 1
@@ -116,6 +114,16 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
     count_launch_ticks(world, board, buttons, free)
     finish_ticks(world, board, tick, free)
     return free
+
+
+@inlined
+def free_ticks(world: WorldRecord, geometry: BoardGeometry, buttons: int, tick: float, limit: int) -> int:
+    """Start the slips of a tick; return how many ticks from it on, at most `limit`, are free of events."""
+    for slot in range(ball_slots(world, geometry.board)):
+        restart_slip(world.ball[slot], geometry.board)
+    if is_launching(world, geometry.board, buttons):
+        return 0
+    return event_free_ticks(geometry, world, tick, limit)
 
 
 @inlined
@@ -418,9 +426,7 @@ def run_worlds(
             if actions[tick_index, index, JITTER_COLUMN]:
                 shove_balls(world, board, log)
             buttons = held_buttons(actions, tick_index, index)
-            free = 0
-            if not is_launching(world, board, buttons):
-                free = event_free_ticks(geometry, world, tick, ticks - tick_index)
+            free = free_ticks(world, geometry, buttons, tick, ticks - tick_index)
             if free == 0:
                 play_tick(lane, geometry, buttons, tick)
                 tick_index += 1

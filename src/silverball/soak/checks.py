@@ -118,7 +118,7 @@ WATCH = np.dtype(
         ("deepest", "f8"),  # [u]
         ("found", "i8"),  # Found
         ("slot", "i8"), ("since", "i8"),  # of the finding: the ball, the tick at which it may have begun
-        ("depth", "f8"),  # of the finding, where it has one [u]
+        ("depth", "f8"),  # of the finding, where it has one [u]; of a phantom: the distance of the contact
     ],
     align=True,
 )  # fmt: skip
@@ -263,7 +263,7 @@ def check_contacts(lane: Lane, truth: ReferenceBoard, watch: WatchRecord) -> Non
         if -gap > DEPTH:
             report(world, watch, as_int(Found.PENETRATION), slot, world.tick - 1, -gap)
         elif gap > DEPTH:
-            report(world, watch, as_int(Found.PHANTOM), slot, world.tick - 1, -gap)
+            report(world, watch, as_int(Found.PHANTOM), slot, world.tick - 1, gap)
 
 
 @kernel
@@ -435,7 +435,7 @@ def check_crossings(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, tick:
         if event.kind == EventKind.PASS or is_thrown_back(board, truth.colliders, event.kind, event.part):
             gap = gap_to_sensor(board, truth.colliders, event.part, event.x, event.z)
             if gap > DEPTH:
-                report(world, watch, as_int(Found.PHANTOM), slot_of(watch, event.ball), world.tick - 1, -gap)
+                report(world, watch, as_int(Found.PHANTOM), slot_of(watch, event.ball), world.tick - 1, gap)
     margin = max_sagitta(board, tick) + PASSAGE_DEPTH
     for slot in range(board.max_balls):
         if not is_free(lane, truth, watch, slot, tick):

@@ -74,7 +74,7 @@ class Finding:
     Attributes:
         kind: The name of a `Found` in small letters.
         ball: The id of the ball; 0 where no single ball is concerned.
-        depth: How deep it was inside something [u]; 0 where the kind has no depth.
+        depth: How deep it was inside something, or how far a contact was from anything [u]; else 0.
         round: The round of the soak.
         world: The world of the round.
         tick: The tick of the world, counted from 1, after which it shows.

@@ -155,7 +155,7 @@ def test_a_contact_with_nothing_is_reported() -> None:
     soaked.batch.boards.collider[first_shape(soaked)]["radius"] += 0.01
     soaked.run(20)
     assert found(soaked) == Found.PHANTOM
-    assert soaked.watches.states["depth"][0] == pytest.approx(-0.01, abs=1e-9)
+    assert soaked.watches.states["depth"][0] == pytest.approx(0.01, abs=1e-9)
 
 
 def test_a_contact_inside_a_part_is_reported_although_the_ball_has_left_it_at_the_end_of_the_tick() -> None:
