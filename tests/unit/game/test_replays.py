@@ -353,7 +353,7 @@ REFUSED = {
     "bad checksum": (TEXT[:-10] + "zzz\n", r"expected 'checksum = ' and 32 hexadecimal digits"),
     "more behind": (TEXT + "more\n", "more text after the checksum"),
     "another table": (changed(10, "name = 'Other'"), "line 10: this is not the table that was played"),
-    "table nonsense": (changed(9, "name = ["), "line 10: the table is not valid TOML"),
+    "table nonsense": (changed(9, "name = ]"), "line 10: the table is not valid TOML"),
     "table unusable": (changed(9, "nome = 'x'"), "line 10: the table cannot be used: nome: unknown key"),
     "table recipe": (changed(PLAY - 1, LINES[PLAY - 1] + "\n[random]"), "line 10: the table is a recipe"),
     "table deep": (changed(9, "x = " + "[" * 5000), "nested too deeply|not valid TOML"),
