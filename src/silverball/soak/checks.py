@@ -50,7 +50,7 @@ from silverball.physics.step import button_bits, step_world
 from silverball.soak.crossings import (
     depth_in_one_way,
     gap_to_sensor,
-    has_passed,
+    has_changed_course,
     is_crossing_wrong,
     is_thrown_back,
 )
@@ -394,7 +394,7 @@ def is_free(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, slot: int, ti
         change = hypot(ball.vx - watch.vx_before[slot], ball.vz - watch.vz_before[slot])
         if change > max_change(truth.board, tick) + PASSAGE_DEPTH:
             return False
-        if has_passed(lane.log, truth.board, truth.colliders, ball.id):
+        if has_changed_course(lane.log, truth.board, truth.colliders, ball.id):
             return False
     return is_untouched(lane.log, ball.id)
 

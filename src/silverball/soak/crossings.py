@@ -111,14 +111,18 @@ def is_crossing_wrong(
 
 
 @kernel
-def has_passed(log: LogRecord, board: BoardRecord, colliders: Colliders, ball: int) -> bool:
-    """Whether the ball with this id has crossed a passage in the last tick, perhaps there and back."""
+def has_changed_course(log: LogRecord, board: BoardRecord, colliders: Colliders, ball: int) -> bool:
+    """Whether the ball with this id has crossed a passage in the last tick, perhaps there and back.
+
+    Or a spinner that slows balls: one that stops on its line may fall back, without a second crossing.
+    """
     for number in range(log.count):
         event = log.event[number]
         if event.kind != EventKind.PASS or event.ball != ball:
             continue
         for index in range(board.collider_first + board.shape_first, board.collider_end):
-            if colliders[index].part == event.part and colliders[index].role == Device.PASSAGE:
+            c = colliders[index]
+            if c.part == event.part and (c.role == Device.PASSAGE or c.drag > 0.0):
                 return True
     return False
 

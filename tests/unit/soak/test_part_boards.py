@@ -9,17 +9,18 @@ import pytest
 
 from boards import table_of
 from holed import hide_from_the_solver, options_of
-from silverball.physics.records import NOTHING, Device
+from silverball.physics.records import NOTHING, Device, EventKind
 from silverball.soak import rounds as soak_module
 from silverball.soak.campaign import soak
 from silverball.soak.checks import Found, check_places
+from silverball.soak.crossings import has_changed_course
 from silverball.soak.finding import Finding, reproduce
 from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.part_boards import SECTION, part_table
 from silverball.soak.regions import MAIN_REGION
 from silverball.soak.rounds import SoakBatch, has_problems, play_round, round_batch
 from silverball.table import SlantWall, Table, check_table, dump_table, load_table
-from silverball.table.kinds import DropTarget, Gate, Hole, Level, Passage, Plunger, Rollover, Wall
+from silverball.table.kinds import DropTarget, Gate, Hole, Level, Passage, Plunger, Rollover, Spinner, Wall
 from silverball.world import WorldBatch
 
 LINE = Rollover(start=(2.0, -2.0), end=(2.0, 2.0))
@@ -100,6 +101,18 @@ def test_a_sensor_that_a_broken_solver_does_not_see_is_reported(part) -> None:
     broken.run(40)
     assert sound.batch.tallies[0, -1] == 1
     assert (found(sound), found(broken)) == (Found.NOTHING, Found.MISSED)
+
+
+@pytest.mark.parametrize("drag", [0.0, 1.0])
+def test_a_ball_that_a_spinner_slows_is_off_its_course(drag: float) -> None:
+    """It may stop on the spinner's line, and fall back without a second crossing."""
+    spinner = Spinner(start=(2.0, -2.0), end=(2.0, 2.0), drag=drag)
+    soaked = still(table_of(spinner), (2.05, 0.1, -10.0, 0.0))
+    soaked.run(1)
+    log, truth = soaked.batch.logs[0], soaked.truth(0)
+    assert EventKind.PASS in log["event"]["kind"][: log["count"]]
+    assert has_changed_course(log, truth.board, truth.colliders, 1) == (drag > 0.0)
+    assert found(soaked) == Found.NOTHING
 
 
 def test_a_crossing_at_another_place_is_reported() -> None:
