@@ -115,11 +115,16 @@ class Expected:
 
 
 def kill_and_look(players: Players, folder: Path, kills: int, seed: int) -> None:
-    """Kill players, on one file and on new ones, and check after each that everything is there."""
+    """Kill players, on one file and on new ones, and check after each that everything is there.
+
+    More are killed where all the first ones died at the same few places.
+    """
     draw = random.Random(seed)
     old = Expected()
-    ends = set()
-    for kill in range(kills):
+    ends: set[str] = set()
+    for kill in range(10 * kills):
+        if kill >= kills and len(ends) > 3:
+            break
         is_new = kill % 4 == 3
         expected, place = (Expected(), folder / str(kill)) if is_new else (old, folder)
         things = draw.randrange(1 if is_new else MOST_THINGS)
@@ -130,7 +135,7 @@ def kill_and_look(players: Players, folder: Path, kills: int, seed: int) -> None
             expected.check(place, shown)
         ends.add(shown[-1][0] if shown else "")
     assert len(old.scores) > kills / 2  # otherwise no player had time to play
-    assert len(ends) > 3  # and not always at the same place
+    assert len(ends) > 3
 
 
 @KILLABLE
