@@ -4,7 +4,7 @@
     → again in the same tick → the ball is held until the tick is over
 
 So a ball jams twice in a tick at most. What a tick has pressed into a paddle does not add up: a paddle on a
-coil turns back, and where it is at its stop, the ball is put back.
+coil turns back from every jammed ball, and where it cannot, the ball is put back.
 """
 
 from __future__ import annotations

@@ -63,8 +63,8 @@ MAX_TURN_BACK = 1e-6
 """[rad] the most by which it turns back."""
 
 MAX_PUT_BACK = 1e-10
-"""[u] the most by which a ball that has sunk into a paddle at its stop is put back; it sinks by some 1e-11 u
-in a tick."""
+"""[u] the most by which a ball that has sunk into a coil's paddle is put back, where the paddle cannot turn
+back from it; it sinks by some 1e-11 u in a tick."""
 
 FREE_GAP = 1e-9
 """[u] A ball is created only at this distance from everything or more, so that it starts clear."""

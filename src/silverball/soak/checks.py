@@ -390,7 +390,7 @@ def is_free(lane: Lane, truth: ReferenceBoard, watch: WatchRecord, slot: int, ti
         return False
     if Motion.CAPTURED in (ball.motion, watch.motion_before[slot]):
         return False
-    if truth.board.sensors != 0:  # a spinner may slow a ball, a passage may throw it back
+    if truth.board.sensors != 0:  # a spinner may slow it, a passage throw it back, a jitter hide that
         change = hypot(ball.vx - watch.vx_before[slot], ball.vz - watch.vz_before[slot])
         if change > max_change(truth.board, tick) + PASSAGE_DEPTH:
             return False

@@ -41,7 +41,7 @@ def test_a_finding_is_recorded_and_reproduced_with_the_same_broken_solver_only(
 
 def test_a_stuck_ball_is_recorded_with_all_of_its_minute(monkeypatch, tmp_path) -> None:
     monkeypatch.setattr(soak_module, "ROUND_SECONDS", 74.0)
-    monkeypatch.setattr(soak_module, "has_problems", lambda recipe: False)  # the check sees the cradle
+    monkeypatch.setattr(soak_module, "has_problems", lambda recipe: False)  # of the cradle
     cradle = [SlantWall(start=(-3.0, 0.0), end=(1.0, side * 4.1)) for side in (-1.0, 1.0)]
     log = soak(Options(table_of(*cradle), 0, 1, 60, False), 1, tmp_path / "soak.json")
     assert log.totals.found["stuck"] == 1  # both balls come to lie in there
