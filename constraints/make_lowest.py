@@ -11,7 +11,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-EXTRAS = ("video", "rl", "test")
+EXTRAS = ("video", "rl", "design", "test")
 HEAD = "# Written by constraints/make_lowest.py: what pyproject.toml names as the lowest versions.\n"
 
 

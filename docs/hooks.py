@@ -1,4 +1,4 @@
-"""What MkDocs cannot do by itself: formulas as MathML, the documents of the root, links into the source."""
+"""What MkDocs cannot do: formulas as MathML, documents of the root, links into the source, playable pages."""
 
 from __future__ import annotations
 
@@ -11,6 +11,11 @@ from latex2mathml.converter import convert
 
 DOCS = Path(__file__).parent
 ROOT = DOCS.parent
+SEED = 7  # of all tables and games
+PLAYED = "silver_comet"
+WATCHED = {"watch": ("silver_comet", "planner", 60), "rolling-balls": ("rolling", "reflex", 40)}
+"""The pages with a game that is watched: its table, its player, and for how long [s]."""
+
 PAGES = {"README.md": "index.md", "ARCHITECTURE.md": "architecture.md", "CHANGELOG.md": "changelog.md"}
 
 
@@ -44,6 +49,31 @@ def on_page_markdown(markdown: str, page: Any, config: Any, **_: Any) -> str:
         return f"]({target}{'#' if anchor else ''}{anchor})"
 
     return re.sub(r"\]\((?!\w+:)([^)\s]+)\)", link, markdown)
+
+
+def on_post_build(config: Any) -> None:
+    """Write the table that is played on the site, and the games that are watched."""
+    from silverball.drawing.themes import THEMES
+    from silverball.table import load_table
+    from silverball.web.page import game_page, replay_page, write_page
+    from silverball.web.replay_inputs import recording_of
+
+    site = Path(config.site_dir)
+    write_page(site / "play.html", game_page(load_table(PLAYED), SEED, THEMES["neon"]))
+    for name, (table, player, seconds) in WATCHED.items():
+        replay = _played(load_table(table), player, seconds)
+        write_page(site / f"{name}.html", replay_page(replay, recording_of(replay), THEMES["neon"]))
+
+
+def _played(table: Any, player: str, seconds: int) -> Any:
+    """The replay of a game that a player plays."""
+    from silverball.app.controls import PaddleInput
+    from silverball.app.sessions import DemoSession
+    from silverball.players import make_player
+
+    session = DemoSession(table, SEED, make_player(player, SEED))
+    session.advance(PaddleInput((False, False), (False, False)), seconds * session.game.tick_rate)
+    return session.game.replay
 
 
 def _formula(source: str, *_: Any, **__: Any) -> str:

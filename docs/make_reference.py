@@ -1,8 +1,8 @@
-"""Write docs/tables.md, the reference of the table file, from the models of `silverball.table`.
+"""Write docs/tables.md and docs/rules.md, the references of the table file, from the models of `silverball.table`.
 
     python docs/make_reference.py
 
-A test fails if the page differs from what this script writes.
+A test fails if a page differs from what this script writes.
 """
 
 from __future__ import annotations
@@ -13,10 +13,15 @@ from typing import Any
 from silverball.table import Arcade, Board, RandomRecipe, Table
 from silverball.table.kinds.part import Bouncing, in_order
 from silverball.table.model import is_since_2, key_of
-from silverball.table.table import PART_KINDS
+from silverball.table.rulebook import Counter, Lamp, PlayMode, Rule
+from silverball.table.rulebook.names import NameList
+from silverball.table.rulebook.rule import CONDITIONS, EFFECTS, TRIGGERS
+from silverball.table.table import PART_KINDS, RULE_SECTIONS
 
 PAGE = Path(__file__).parent / "tables.md"
 EXAMPLES = Path(__file__).parent / "parts"
+RULES_PAGE = Path(__file__).parent / "rules.md"
+RULE_EXAMPLES = {"skill_shot": "A skill shot", "lock": "Locks and a multiball", "mission": "A mission"}
 HEAD = """\
 # The table file
 
@@ -100,9 +105,75 @@ SHARED = ("name", "level", "levels", "speed_factor", "friction", "hit_speed", "f
 NOTES = {"paddle": "Any number; in format 1 at most one per side"}
 
 
+RULES_HEAD = """\
+# Rules of a table
+
+A table file may say what is to be done on it: *collect these → light that → shoot it → reward*. Rules are data, never
+code: `silverball check FILE` finds the names that are not there, the rules that can never act and those that loop; a
+replay holds them, and verifies with them; they run compiled, in the window and in thousands of games at once
+(`GameBatch`). They need `format = 2`.
+
+A `[[rule]]` has **triggers** (keys that begin with `on_`): any of them sets it off. It has **conditions** (`if_`): all of
+them must hold. And it has **effects**: all of them happen. What it speaks of are parts and banks, by their names, and
+
+* **lamps**, which are off, on or blinking, alone or in groups;
+* **counters**, whole numbers: values that grow, letters, locks, the bonus;
+* **modes**, which run or do not, and end by themselves after some seconds: missions, hurry-ups, multiballs, timers.
+
+Where a key takes names, one may be written without a list: `light = "lock"`. Points are whole numbers. In words of the
+trade: a switch or shot is a part under `on_hit`, a timer is a mode with `seconds`, a kickback is a rule with `kick`, a
+lane change is `rotate_left` under `on_press`, a jackpot is an award in a mode, an end-of-ball bonus is an award under
+`on_ball = "end"`, a combo is a short mode.
+
+A table without rules has the standard ones, below; with rules of its own it has only those. Ball save, tilt and
+un-sticking belong to every table and have their numbers in `[arcade]` ([The table file](tables.md#arcade)). Free play
+has the standard rules always, and no combos.
+"""
+RULES_EXAMPLES = """\
+## Three examples
+
+Each is a whole set of rules for the built-in table `parts`: put it behind the text of that table.
+"""
+STANDARD = """\
+## The standard rules
+
+`src/silverball/table/rulebook/standard.toml`:
+
+```toml
+{text}```
+"""
+
+
+def rules_page() -> str:
+    """Return the page of the rules."""
+    folder = Path(RULES_PAGE).parent / "rules"
+    parts = [RULES_HEAD]
+    for name, model in zip(RULE_SECTIONS, (Lamp, Counter, PlayMode), strict=False):
+        parts.append(_table(f"`[[{name}]]`", model, "Any number", is_marked=False))
+    groups = {
+        "Triggers": TRIGGERS,
+        "Conditions": CONDITIONS,
+        "Effects, in the order in which they happen": EFFECTS,
+    }
+    others = tuple(name for name in Rule.model_fields if name != "name")
+    parts.append(_table("`[[rule]]`", Rule, "Any number", skip=others, is_marked=False))
+    for title, keys in groups.items():
+        rows = [_row(Rule, name, is_marked=False) for name in keys]
+        head = [f"### {title}", "", "| key | default | range | meaning |", "| --- | --- | --- | --- |"]
+        parts.append("\n".join([*head, *rows, ""]))
+    parts.append(RULES_EXAMPLES)
+    for name, title in RULE_EXAMPLES.items():
+        text = (folder / f"{name}.toml").read_text(encoding="utf-8")
+        parts.append(f"### {title}\n\n```toml\n{text}```\n")
+    standard = Path(__file__).parents[1] / "src/silverball/table/rulebook/standard.toml"
+    parts.append(STANDARD.format(text=standard.read_text(encoding="utf-8")))
+    return "\n".join(parts)
+
+
 def page() -> str:
-    """Return the whole page."""
-    parts = [HEAD, FORMATS, ERRORS, _table("Top level", Table, skip=(*PART_KINDS, "board", "arcade"))]
+    """Return the page of the table file."""
+    skipped = (*PART_KINDS, *RULE_SECTIONS, "board", "arcade")
+    parts = [HEAD, FORMATS, ERRORS, _table("Top level", Table, skip=skipped)]
     parts.append(_table("`[board]`", Board, "Once"))
     rows = [_row(Bouncing, name, is_marked=False) for name in in_order(Bouncing) if name in SHARED]
     parts.append(COMMON + "\n".join(rows) + "\n")
@@ -163,7 +234,8 @@ def _default(field: Any) -> str:
     if field.is_required():
         return "–"
     value = field.default
-    if value is None or value == "":
+    has_names = any(isinstance(rule, NameList) for rule in field.metadata)
+    if value is None or value in ("", {}) or (value == () and has_names):
         return "none"
     if hasattr(value, "model_dump"):
         return ", ".join(f"{key} {number:g}" for key, number in value.model_dump().items())
@@ -174,13 +246,17 @@ def _default(field: Any) -> str:
 
 def _span(field: dict[str, Any]) -> str:
     for choice in (field, *field.get("anyOf", ())):
+        if "form" in choice:
+            span = _span(choice.get("additionalProperties", {}))
+            return f"{choice['form']}: {span}" if span else str(choice["form"])
         if "minimum" in choice and "maximum" in choice:
-            return f"{choice['minimum']:g} to {choice['maximum']:,.10g} {choice.get('unit', '')}".rstrip()
+            return f"{choice['minimum']:,.10g} to {choice['maximum']:,.10g} {choice.get('unit', '')}".rstrip()
         if "enum" in choice:
             return " or ".join(f'"{v}"' if isinstance(v, str) else str(v) for v in choice["enum"])
     return ""
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page(), encoding="utf-8")
-    print(f"wrote {PAGE}")
+    for path, text in ((PAGE, page()), (RULES_PAGE, rules_page())):
+        path.write_text(text, encoding="utf-8")
+        print(f"wrote {path}")

@@ -13,7 +13,7 @@ import silverball.envs  # noqa: F401  (registers the environments)
 
 # TorchRL needs environments that are reset in the step in which an episode ends.
 envs = GymWrapper(
-    gym.make_vec("silverball/PinballClassic-v0", 16, autoreset_mode=gym.vector.AutoresetMode.SAME_STEP)
+    gym.make_vec("silverball/PinballClassic-v1", 16, autoreset_mode=gym.vector.AutoresetMode.SAME_STEP)
 )
 rollout = envs.rollout(200, break_when_any_done=False)
 print(rollout["next", "reward"].sum().item() * 100, "points in", rollout.numel(), "steps")

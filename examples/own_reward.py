@@ -6,7 +6,7 @@ import numpy as np
 import silverball.envs
 
 weights = {"points": 0.01, "drained": -5.0}  # runs inside the compiled step
-envs = gym.make_vec("silverball/Pinball-v0", num_envs=64, reward=weights)
+envs = gym.make_vec("silverball/Pinball-v1", num_envs=64, reward=weights)
 envs.reset(seed=0)
 total = np.zeros(64)
 for _ in range(600):
@@ -20,6 +20,6 @@ def long_balls(terms):
     return terms["seconds"] - terms["drained"]
 
 
-env = gym.make("silverball/Pinball-v0", reward=long_balls)
+env = gym.make("silverball/Pinball-v1", reward=long_balls)
 env.reset(seed=0)
 print(f"callable: {env.step(3)[1]:.4f} in the first step")

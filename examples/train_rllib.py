@@ -18,7 +18,7 @@ chosen = parser.parse_args()
 config = (
     PPOConfig()
     # The name of the module makes every worker register the environments.
-    .environment("silverball.envs:silverball/PinballClassic-v0")
+    .environment("silverball.envs:silverball/PinballClassic-v1")
     .env_runners(num_env_runners=0, num_envs_per_env_runner=32, gym_env_vectorize_mode="vector_entry_point")
     .training(train_batch_size_per_learner=16_384, minibatch_size=512, num_epochs=4)
 )

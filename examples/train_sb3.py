@@ -1,4 +1,7 @@
-"""Train a player for unseen boards: PPO of Stable-Baselines3 on random boards, in 15 minutes.
+"""Train the player `trained` of the windows: PPO of Stable-Baselines3 on random boards, in 15 minutes.
+
+It learns from features made by hand, without the sticky actions and the power supply of the v1 ids, which a
+game does not have; `train_benchmark.py` and `train_sb3_benchmark.py` train on those.
 
 pip install '.[rl]' stable-baselines3 matplotlib
 python examples/train_sb3.py --minutes 15 --out curve.png --policy policy.npz
@@ -191,7 +194,7 @@ for name, points in others.items():
     print(f"the player {name}: {points:.0f} points a ball", flush=True)
 
 gamma = math.exp(-1 / DECISIONS / HORIZON)
-envs = Seen(SilverballVecEnv(chosen.envs, chosen.seed, boards=chosen.boards, **options))
+envs = Seen(SilverballVecEnv(chosen.envs, seed=chosen.seed, boards=chosen.boards, **options))
 curve = Curve(chosen.minutes, unseen, chosen.every)
 model = PPO(
     "MlpPolicy",

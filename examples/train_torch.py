@@ -17,7 +17,7 @@ from torch.distributions import Categorical
 import silverball.envs  # noqa: F401  (registers the environments)
 
 parser = argparse.ArgumentParser()
-parser.add_argument("--id", default="silverball/Pinball-v0")
+parser.add_argument("--id", default="silverball/Pinball-v1")
 parser.add_argument("--steps", type=int, default=500_000)
 parser.add_argument("--envs", type=int, default=256)
 parser.add_argument("--boards", type=int, default=64)
@@ -26,7 +26,7 @@ LENGTH, EPOCHS, PARTS, GAMMA, LAMBDA, CLIP = 64, 4, 8, 0.995, 0.95, 0.2
 
 torch.manual_seed(0)
 # With NEXT_STEP, the default, the step after the end of an episode is a reset and is masked out of the loss.
-envs = gym.make_vec(chosen.id, chosen.envs, boards=chosen.boards, frame_skip=4)
+envs = gym.make_vec(chosen.id, chosen.envs, boards=chosen.boards)
 envs = gym.wrappers.vector.RecordEpisodeStatistics(envs)
 columns, actions = envs.single_observation_space.shape[0], int(envs.single_action_space.n)
 

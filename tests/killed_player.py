@@ -2,12 +2,14 @@
 
     python killed_player.py
 
-loads the game once; then for every line `seed folder` that it reads it forks a player, says `pid N`, passes
-on what the player is shown, and says `dead` when he is.
+loads the game once, on a table without rules of its own, on one with, and on the one that new players meet;
+then for every line `seed folder` that it reads it forks a player, says `pid N`, passes on what the player is
+shown, and says `dead` when he is.
 """
 
 from __future__ import annotations
 
+import itertools
 import os
 import random
 import sys
@@ -15,34 +17,46 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from rule_tables import comet
 from silverball.game.scores.store import Store
+from silverball.table import Table, dump_table, load_table, table_digest
 
 MOST_TICKS = 240  # of a game: a second of play
-LIST = ("arcade", "Classic", "d" * 64)
+TABLES = (load_table("classic"), comet(), load_table("silver_comet"))
 
 
 class Played(NamedTuple):
-    """What a game came to."""
+    """What a game came to; in a match, for one of its players."""
 
+    table: Table
     seed: int
     score: int
     replay: str
+    player: int = 1
+    rank: int = 0
+
+    @property
+    def score_list(self) -> tuple[str, str, str]:
+        """The list to which its score belongs."""
+        return "arcade", self.table.name, table_digest(self.table)
 
 
 def games(seed: int) -> Iterator[Played]:
-    """Games with random presses, as many as one likes."""
+    """Games with random presses, as many as one likes, on all tables in turn."""
     from silverball.game.game import Game
 
     draw = random.Random(seed)
-    while True:
-        number = draw.randrange(1, 2**31)
-        game = Game("classic", number)
+    for count in itertools.count(seed):
+        number, table = draw.randrange(1, 2**31), TABLES[count % len(TABLES)]
+        game = Game(table, number, players=draw.choice((1, 1, 3)))
         while not game.is_over and game.tick < MOST_TICKS:
             if game.view.on_board == 0:
                 game.create_ball()
-            game.step(draw.random() < 0.5, draw.random() < 0.5, ticks=20)
+            game.step(draw.random() < 0.5, draw.random() < 0.5, ticks=20, launch=draw.random() < 0.5)
         game.end()
-        yield Played(number, game.score, game.replay.to_text())
+        player = draw.randrange(game.players)
+        rank = draw.randrange(4)  # nothing here proves it, but it must be kept
+        yield Played(table, number, game.scores[player], game.replay.to_text(), player + 1, rank)
 
 
 def initials(id: int) -> str:
@@ -63,8 +77,12 @@ def play(folder: Path, seed: int) -> None:
         for count, game in enumerate(games(seed)):
             store.save_last_game(f"{count}\n{game.replay}")
             show("last_game", count)
-            id = store.add_score("OLD", game.score, *LIST, game.seed, game.replay)
-            show("score", id, game.score, game.seed)
+            text = dump_table(game.table)
+            id = store.add_score(
+                "OLD", game.score, *game.score_list, game.seed, game.replay,
+                table_text=text, player=game.player, rank=game.rank,
+            )  # fmt: skip
+            show("score", id, game.score, game.seed, game.player, game.rank)
             store.rename(id, initials(id))
             show("renamed", id)
             store.save_settings({"initials": initials(id), "count": count, "again": count})
@@ -75,14 +93,15 @@ def add_scores(folder: Path, first: int, count: int) -> None:
     """Keep so many scores as fast as possible."""
     with Store(folder) as store:
         for score in range(first, first + count):
-            id = store.add_score("OLD", score, *LIST, 0, "a replay\n" * 100)
+            id = store.add_score("OLD", score, "arcade", "Classic", "d" * 64, 0, "a replay\n" * 100)
             store.rename(id, initials(score))
         assert (store.warning, store.is_persistent) == ("", True)
 
 
 def main() -> None:
     """Fork the players that are asked for."""
-    next(games(0))  # loads the compiled physics, once for all of them
+    for _ in zip(TABLES, games(0), strict=False):
+        pass  # loads the compiled physics and rules, once for all players
     show("ready")
     for line in sys.stdin:
         seed, folder = line.rstrip("\n").split(" ", 1)

@@ -1,11 +1,13 @@
 """Fuzzing of table files: thousands of damaged files through load, check and five seconds of play.
 
     python tests/mutate_tables.py --count 50000
+    python tests/mutate_tables.py --count 5000 --rules
 
-Each is a valid file with changed bytes, lines, numbers, keys or types, or with a hostile recipe or mesh. File
-n of a seed is always the same. A table or a `TableError` is right. Wrong, and listed, are any other
-exception, a control character in a message, more than 5 s, more than 200 MB beyond the process itself, a
-world that stops with a fault, and a recipe that loads but makes no board.
+Each is a valid file with changed bytes, lines, numbers, keys or types, or with a hostile recipe or mesh; with
+`--rules` a table whose rules are changed, and name what is there in wrong places. File n of a seed is always
+the same. A table or a `TableError` is right. Wrong, and listed, are any other exception, a control character
+in a message, more than 5 s, more than 200 MB beyond the process itself, a world that stops with a fault, a
+recipe that loads but makes no board, and a check that fails.
 """
 
 from __future__ import annotations
@@ -28,13 +30,16 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rule_tables import COMET_RULES, PARTS, comet
 from silverball.errors import SilverballError, TableError
+from silverball.game.game import Game
 from silverball.soak.hostile_parts import hostile_part_table
 from silverball.soak.part_boards import part_table
-from silverball.table import dump_table, generate_table, load_table, table_names
+from silverball.table import Table, dump_table, generate_table, load_table, table_names
 from silverball.table.model import key_of
 from silverball.table.parts import Arcade, Board, RandomRecipe
-from silverball.table.table import PART_KINDS
+from silverball.table.rulebook import Rule
+from silverball.table.table import PART_KINDS, RULE_SECTIONS
 from silverball.world import World
 
 LONGEST = 5.0  # [s] of computing time for one file, and ten times that by the clock
@@ -91,14 +96,17 @@ WORDS = tuple(
         [
             *(
                 key_of(model, name)
-                for model in (Board, RandomRecipe, Arcade, *PART_KINDS.values())
+                for model in (Board, RandomRecipe, Arcade, *PART_KINDS.values(), *RULE_SECTIONS.values())
                 for name in model.model_fields
             ),
             *("format", "from", "to", "flipper", "__class__", "\x1b[1m"),
         ]
     )
 )
-HEADS = ("[board]", "[random]", "[arcade]", *(f"[[{kind}]]" for kind in PART_KINDS))
+HEADS = ("[board]", "[random]", "[arcade]", *(f"[[{kind}]]" for kind in (*PART_KINDS, *RULE_SECTIONS)))
+RULE_KEYS = tuple(Rule.model_fields)
+SECTION = re.compile(r"^(?=\[)", re.MULTILINE)
+NAME = re.compile(r'"([^"\n]*)"')
 NUMBER = re.compile(r"(?<![\w.\"])-?\d[\d_.]*(?:e-?\d+)?(?![\w.])")
 
 
@@ -235,7 +243,85 @@ def _mesh(text: str, dice: random.Random) -> str:
     return f'{text}\n[[{dice.choice(["cylinder", "triangular_prism"])}]]\nmesh = "{mesh}"\n'
 
 
-WAYS: tuple[Callable[[str, random.Random], str], ...] = (
+# --- how its rules are damaged --------------------------------------------------------------------------
+
+
+def _split(text: str) -> tuple[list[str], list[int]]:
+    """The sections of a file, and the numbers of those that belong to its rules."""
+    sections = SECTION.split(text)
+    heads = tuple(f"[[{section}]]" for section in RULE_SECTIONS)
+    return sections, [number for number, one in enumerate(sections) if one.startswith(heads)]
+
+
+def _names(text: str, dice: random.Random) -> str:
+    """Exchange some names in the rules for others of the file, which may be of another sort."""
+    sections, rules = _split(text)
+    names = sorted(set(NAME.findall(text))) or ["x"]
+    for number in dice.choices(rules or [0], k=dice.randint(1, 3)):
+        found = list(NAME.finditer(sections[number]))
+        if found:
+            one = dice.choice(found)
+            section, name = sections[number], dice.choice([*names, "any", "combo", "in_play", "nobody"])
+            sections[number] = section[: one.start()] + f'"{name}"' + section[one.end() :]
+    return "".join(sections)
+
+
+def _keys(text: str, dice: random.Random) -> str:
+    """Give rules other keys, or another value of the same key, or one more."""
+    sections, rules = _split(text)
+    lines = [line for number in rules for line in sections[number].splitlines() if " = " in line]
+    for number in dice.choices(rules or [0], k=dice.randint(1, 3)):
+        own = sections[number].rstrip("\n").split("\n")
+        line = dice.choice(lines or ["x = 1"])
+        key, _, value = line.partition(" = ")
+        place, way = dice.randrange(1, len(own) + 1), dice.randrange(4)
+        if way == 0:
+            own.insert(place, line)
+        elif way == 1:
+            own.insert(place, f"{dice.choice(RULE_KEYS)} = {value}")
+        elif way == 2:
+            own.insert(place, f"{key} = {dice.choice(VALUES + NUMBERS)}")
+        else:
+            own[place - 1] = line
+        sections[number] = "\n".join(own) + "\n\n"
+    return "".join(sections)
+
+
+def _sections(text: str, dice: random.Random) -> str:
+    """Remove, double or move lamps, counters, modes and rules; or repeat one hundreds of times."""
+    sections, rules = _split(text)
+    for _ in range(dice.randint(1, 3)):
+        if not rules:
+            break
+        one, other, way = dice.choice(rules), dice.choice(rules), dice.randrange(4)
+        if way == 0:
+            sections[one] = ""
+        elif way == 1:
+            sections[other] += sections[one]
+        elif way == 2:
+            sections[one], sections[other] = sections[other], sections[one]
+        else:
+            sections[other] += sections[one] * dice.choice([2, 30, 300])
+    return "".join(sections)
+
+
+def _rule_numbers(text: str, dice: random.Random) -> str:
+    """Change some numbers of the rules: a little, to a limit, or to what is none."""
+    sections, rules = _split(text)
+    for number in dice.choices([one for one in rules if NUMBER.search(sections[one])] or [0], k=3):
+        section = sections[number]
+        found = list(NUMBER.finditer(section))
+        if found:
+            one = dice.choice(found)
+            value = dice.choice(["0", "1", "2", "8", "1000000000", "0.5", "600.0", *NUMBERS])
+            sections[number] = section[: one.start()] + value + section[one.end() :]
+    return "".join(sections)
+
+
+Ways = tuple[Callable[[str, random.Random], str], ...]
+
+RULE_WAYS: Ways = (*(_names, _keys, _sections, _rule_numbers) * 2, _bytes, _cut)
+WAYS: Ways = (
     *(
         _bytes,
         _lines,
@@ -262,13 +348,18 @@ def good_texts() -> list[str]:
     return [dump_table(table) for table in tables] + [dump_table(tables[0]) + full + "\n"]
 
 
-def mutated(texts: list[str], seed: int, number: int) -> bytes:
+def rule_texts() -> list[str]:
+    """The files whose rules are damaged: a whole machine, as it is written and as it is dumped."""
+    return [f"{PARTS}\n{COMET_RULES}", dump_table(comet())]
+
+
+def mutated(texts: list[str], seed: int, number: int, ways: Ways = WAYS) -> bytes:
     """Make damaged file number n of a seed."""
     dice = random.Random(f"{seed}/{number}")
     text = dice.choice(texts)
     for _ in range(dice.choice([1, 1, 1, 2, 3])):
         if text:
-            text = dice.choice(WAYS)(text, dice)
+            text = dice.choice(ways)(text, dice)
     content = text.encode("utf-8", "surrogatepass")
     if dice.random() < 0.05 and content:  # bytes that are no text
         place = dice.randrange(len(content))
@@ -325,6 +416,9 @@ def take_through(path: Path, seed: int) -> tuple[str, str]:
             table = generate_table(seed, table)
     except TableError as error:
         return "WRONG: loads, but makes no board", str(error)
+    if table.rule:
+        play_game(table, seed)
+        return "played", ""
     dice = random.Random(seed)
     world = World(table, seed=seed, tick_rate=dice.choice([60, 240]))
     held = [False, False]
@@ -336,6 +430,30 @@ def take_through(path: Path, seed: int) -> tuple[str, str]:
         for _ in range(world.tick_rate // 10):
             world.step(left=held[0], right=held[1], jitter=dice.random() < 0.01, launch=held[0])
     return "played", ""
+
+
+def play_game(table: Table, seed: int) -> None:
+    """Play a game with the rules of a table, save it, and verify its replay."""
+    dice = random.Random(seed)
+    game = Game(table, seed, tick_rate=dice.choice([60, 240]))
+    held = [False, False, False]
+    for _ in range(round(PLAY * 10)):
+        with contextlib.suppress(SilverballError):  # no ball is left, or there is no room
+            if dice.random() < 0.5:
+                game.create_ball()
+        with contextlib.suppress(SilverballError):  # no ball to shove
+            if dice.random() < 0.05:
+                game.jitter()
+        held = [state != (dice.random() < 0.3) for state in held]
+        game.step(held[0], held[1], game.tick_rate // 10, launch=held[2])
+    assert game.fault is None, f"fault {game.fault}"
+    assert game.score >= 0
+    assert all(value >= 0 for value in game.counters.values())
+    assert set(game.lamps.values()) <= {"off", "on", "blinking"}
+    other = Game(table, seed, tick_rate=game.tick_rate)
+    other.restore(game.save())
+    assert other.digest() == game.digest(), "another game after save and restore"
+    assert (verdict := game.replay.verify()).ok, verdict.message
 
 
 def examine(path: Path, seed: int) -> tuple[str, str | None]:
@@ -385,17 +503,21 @@ def run(
     seed: int = 0,
     first: int = 0,
     tell: Callable[[int, Finding | None], None] = lambda number, found: None,
+    *,
+    rules: bool = False,
 ) -> tuple[Counter[str], list[Finding], float]:
     """Run the files of a seed; returns the number of each outcome, the findings, and the growth [bytes]."""
-    texts, outcomes, findings = good_texts(), Counter[str](), []
+    texts, ways = (rule_texts(), RULE_WAYS) if rules else (good_texts(), WAYS)
+    outcomes, findings = Counter[str](), []
     World("classic", seed=1).step()
+    play_game(comet(), 1)  # compiles what is needed
     before = _peak()
     with TemporaryDirectory() as folder:
         path = Path(folder) / "table.toml"
         for number in range(first, first + count):
             if number % 100 == 0 or number == first:
                 write_meshes(Path(folder), random.Random(f"{seed}/{number // 100}"))
-            path.write_bytes(mutated(texts, seed, number))
+            path.write_bytes(mutated(texts, seed, number, ways))
             outcome, wrong = examine(path, number)
             if _peak() - before > LARGEST and not any("memory" in found.what for found in findings):
                 outcome, wrong = "wrong", f"has grown the memory by {(_peak() - before) / 1e6:.0f} MB"
@@ -419,10 +541,12 @@ def main() -> int:
     options.add_argument("--count", type=int, default=1000, help="how many files")
     options.add_argument("--seed", type=int, default=0)
     options.add_argument("--first", type=int, default=0, help="number of the first file")
+    options.add_argument("--rules", action="store_true", help="damage rules instead of parts")
     options.add_argument("--show", type=int, help="write this damaged file to the standard output instead")
     chosen = options.parse_args()
     if chosen.show is not None:
-        sys.stdout.buffer.write(mutated(good_texts(), chosen.seed, chosen.show))
+        texts, ways = (rule_texts(), RULE_WAYS) if chosen.rules else (good_texts(), WAYS)
+        sys.stdout.buffer.write(mutated(texts, chosen.seed, chosen.show, ways))
         return 0
     start = time.process_time()
 
@@ -432,7 +556,7 @@ def main() -> int:
         if (number + 1) % 1000 == 0:
             print(f"{number + 1:,} files, {time.process_time() - start:.0f} s", file=sys.stderr, flush=True)
 
-    outcomes, findings, grown = run(chosen.count, chosen.seed, chosen.first, tell)
+    outcomes, findings, grown = run(chosen.count, chosen.seed, chosen.first, tell, rules=chosen.rules)
     told = ", ".join(f"{number:,} {outcome}" for outcome, number in sorted(outcomes.items()))
     cost = f"{grown / 1e6:.0f} MB, {time.process_time() - start:.0f} s"
     print(f"{chosen.count:,} files of seed {chosen.seed}: {told}; {cost}")

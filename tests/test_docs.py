@@ -10,8 +10,10 @@ import pytest
 from PIL import Image
 
 import silverball
+from rule_tables import with_rules
 from silverball.cli.app import main_command
-from silverball.table import parse_table, table_digest
+from silverball.game.game import Game
+from silverball.table import check_table, parse_table, table_digest
 from silverball.table.table import PART_KINDS
 
 ROOT = Path(__file__).parent.parent
@@ -98,9 +100,17 @@ FILES = [example for example in examples("toml") if example.document != MACHINE]
 
 @pytest.mark.parametrize("example", FILES, ids=name_of)
 def test_an_example_of_a_table_file_has_no_mistake(example: Example):
-    """A whole file is of format 1 unless it says otherwise; what begins with a part may be a piece of any."""
-    version = 2 if example.text.startswith("[[") else 1
-    table = parse_table(f"format = {version}\n{example.text}", example.document.name)
+    """A whole file is of format 1 unless it says otherwise; what begins with a part may be a piece of any.
+
+    Rules are for a table that has none of its own.
+    """
+    if "\nformat = " in example.text:
+        table = parse_table(example.text, example.document.name)
+    elif example.document.name == "rules.md":
+        table = with_rules(example.text)
+    else:
+        version = 2 if example.text.startswith("[[") else 1
+        table = parse_table(f"format = {version}\n{example.text}", example.document.name)
     assert silverball.check_table(table) == []
 
 
@@ -155,6 +165,24 @@ def test_every_file_and_folder_that_architecture_names_exists():
 def test_the_reference_of_the_table_file_is_what_the_models_say():
     names = script("make_reference.py")
     assert names["PAGE"].read_text(encoding="utf-8") == names["page"](), "run: python docs/make_reference.py"
+
+
+def test_the_reference_of_rules_is_what_the_models_say():
+    names = script("make_reference.py")
+    assert names["RULES_PAGE"].read_text(encoding="utf-8") == names["rules_page"](), (
+        "run: python docs/make_reference.py"
+    )
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "docs" / "rules").glob("*.toml")), ids=lambda path: path.stem)
+def test_every_example_of_rules_can_be_played_and_has_no_problems(path):
+    table = with_rules(path.read_text(encoding="utf-8"))
+    assert check_table(table) == []
+    game = Game(table, 1)
+    game.create_ball()
+    game.step(ticks=100, launch=True)
+    game.step(ticks=400)
+    assert game.replay.verify().ok
 
 
 def test_every_file_name_and_test_that_the_page_of_the_original_names_exists():

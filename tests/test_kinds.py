@@ -63,7 +63,10 @@ EXAMPLES: dict[str, list[dict[str, Any]]] = {
         {"center": [3.0, 0.0], "exit_velocity": [-8.0, 1.0], "exit": [2.0, 0.0]},
         {"center": [5.0, 0.0], "drain": True},
     ],
-    "plunger": [{"position": [-5.0, 4.5], "launch": [5.0, 18.0], "angle": 80.0}],
+    "plunger": [
+        {"position": [-5.0, 4.5], "launch": [5.0, 18.0], "angle": 80.0},
+        {"position": [-5.0, -4.5], "auto_launch": [12.0, 18.0], "auto_delay": 0.5},
+    ],
     "passage": [{"start": [3.0, 0.2], "end": [3.1, 1.0], "from": 0, "to": 1}],
     "level": [{"number": 1, "gravity": [-20.0, 0.0]}],
 }

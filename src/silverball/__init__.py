@@ -38,6 +38,10 @@ if TYPE_CHECKING:
     from silverball.game.game import (
         Game as Game,
     )
+    from silverball.game.game_batch import (
+        GameBatch as GameBatch,
+        GameSnapshot as GameSnapshot,
+    )
     from silverball.game.replay.format import (
         Replay as Replay,
     )
@@ -85,6 +89,7 @@ _HOME = {
     ),
     "silverball.game.builtin_rules": ("ArcadeRules", "FreeRules"),
     "silverball.game.game": ("Game",),
+    "silverball.game.game_batch": ("GameBatch", "GameSnapshot"),
     "silverball.game.replay.format": ("Replay",),
     "silverball.game.replay.verify": ("Verdict",),
     "silverball.game.rules": ("InPlay", "RuleConfig", "Rules", "RuleState"),

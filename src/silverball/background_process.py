@@ -18,14 +18,20 @@ class Compiler:
     """One process that compiles, shared by all who wait for it. It ends with the program.
 
     Args:
-        module: The module that it runs, which compiles and lowers its own priority.
+        module: The module that it runs, which compiles and may lower its own priority.
+        arguments: What it is told.
     """
 
-    def __init__(self, module: str) -> None:
-        self._module = module
+    def __init__(self, module: str, *arguments: str) -> None:
+        self._command = module, *arguments
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
         atexit.register(self.kill)
+
+    def start(self) -> None:
+        """Start the process, if it can be."""
+        with contextlib.suppress(OSError, RuntimeError):  # `finish` tells
+            self._running()
 
     def finish(self, stop: threading.Event, most_seconds: float) -> bool:
         """Run the process to its end.
@@ -51,6 +57,11 @@ class Compiler:
                 return False
         return process.returncode == 0
 
+    def close(self) -> None:
+        """Kill the process if it runs; the object is not used any more."""
+        self.kill()
+        atexit.unregister(self.kill)
+
     def kill(self) -> None:
         """Kill the process if it runs."""
         with self._lock:
@@ -66,7 +77,7 @@ class Compiler:
                 # On Windows a process cannot lower its priority later.
                 flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
                 self._process = subprocess.Popen(
-                    [sys.executable, "-m", self._module],
+                    [sys.executable, "-m", *self._command],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL,

@@ -17,6 +17,7 @@ def small(monkeypatch):
     monkeypatch.setattr(environments, "BOARDS", 2)
     monkeypatch.setattr(environments, "SINGLE_STEPS", 20)
     monkeypatch.setattr(environments, "STATES", [(3, {"threads": 1}), (3, {"zero_copy": True})])
+    monkeypatch.setattr(environments, "GAMES", [(1, {}), (3, {"threads": 1, "rules": False})])
     monkeypatch.setattr(environments, "PICTURES", [(1, 2, {}), (4, 2, {"frame_skip": 4})])
     monkeypatch.setattr(measure, "MIN_ROUND_TIME", 1e-4)
     monkeypatch.setattr(measure, "WARM_UP", 2)

@@ -49,6 +49,9 @@ def completed(new_process, tmp_path):
         ("simulate --player re", ("reflex",)),
         ("demo --theme ", tuple(THEMES)),
         ("replay l", ("last",)),
+        ("page --replay l", ("last",)),
+        ("page --table cl", ("classic",)),
+        ("page --player re", ("reflex",)),
         ("scores --mode a", ("arcade",)),
     ],
 )

@@ -155,9 +155,10 @@ class Forger:
         self.db.execute("DROP TABLE score")
         self.db.execute(
             "CREATE TABLE score"
-            " (id INTEGER PRIMARY KEY, list, initials, score, seed, played, verified, why, replay)"
+            " (id INTEGER PRIMARY KEY, list, initials, score, seed, played, verified, why, replay, player,"
+            " rank)"
         )
-        self.db.executemany("INSERT INTO score VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", rows)
+        self.db.executemany(f"INSERT INTO score VALUES ({', '.join('?' * 11)})", rows)
 
 
 def signed(text: str) -> str:
@@ -378,7 +379,7 @@ FORGERIES["the same game in the list of its board"] = lambda forger: forger.add(
 )
 FORGERIES["the same game with a number below the first"] = lambda forger: (
     forger.db.execute(
-        "INSERT INTO score SELECT -7, list, 'XYZ', score, seed, played, 1, why, replay"
+        "INSERT INTO score SELECT -7, list, 'XYZ', score, seed, played, 1, why, replay, player, rank"
         " FROM score WHERE id = ?",
         (forger.ids["classic"],),
     )
@@ -391,8 +392,36 @@ def of_another_type(forger: Forger, column: str, value: Any) -> set[int]:
     return forger.set("mine", **{column: value})
 
 
+for name in ("classic", "random"):
+    FORGERIES[f"a rank that was not earned, on {name}"] = lambda forger, name=name: forger.set(name, rank=1)
+    FORGERIES[f"a player who was not there, on {name}"] = lambda forger, name=name: forger.set(name, player=2)
+
+
+@cache
+def honest_match() -> Game:
+    return played(CLASSIC, players=2)
+
+
+def put_match(forger: Forger, player: int) -> set[int]:
+    """The points of the first player of a match, as those of a player."""
+    return forger.set(
+        "classic", score=honest_match().scores[0], replay=honest_match().replay.to_text(), player=player
+    )
+
+
+FORGERIES["the score of another player of a match"] = lambda forger: put_match(forger, 2)
+FORGERIES["one score of a match twice"] = lambda forger: (
+    put_match(forger, 1)
+    and forger.db.execute(
+        "INSERT INTO score SELECT 7000, list, 'XYZ', score, seed, played, 1, why, replay, player, rank"
+        " FROM score WHERE id = ?",
+        (forger.ids["classic"],),
+    )
+    and {7000}
+)
+
 VALUES = (None, "text", "7\x1b[31m", b"\x00\xff", 1.5, float("nan"), float("inf"), -1, 2**63 - 1, -(2**63))
-for column in ("initials", "score", "seed", "played"):
+for column in ("initials", "score", "seed", "played", "player", "rank"):
     for value in VALUES:
         if not (column == "initials" and isinstance(value, str)) and not (
             column == "played" and value == -1  # a day before the calendar of computers is a day

@@ -7,14 +7,16 @@ import os
 import re
 import sqlite3
 from contextlib import closing
-from datetime import UTC, datetime
+from datetime import UTC, date, datetime
 from pathlib import Path
 
 import pytest
 
 from holder import ALONE, held
+from silverball.game.scores.daily import daily_seed
+from silverball.game.scores.medals import medal_points
 from silverball.game.scores.store import FILE, Store
-from silverball.table import load_table, table_digest
+from silverball.table import dump_table, load_table, table_digest
 
 
 @pytest.fixture
@@ -103,7 +105,87 @@ def test_json_has_everything_about_a_score(silverball, scores):
         "verified": None,
         "why": "",
         "has_replay": True,
+        "player": 1,
+        "rank": 0,
+        "day": None,
+        "medal": None,
+        "table_rank": 0,
     }
+
+
+@pytest.fixture
+def comet_scores(folder: Path) -> dict[str, int]:
+    """Scores on a table with medals: one of a daily board, two of a match, and one in free play."""
+    table = load_table("silver_comet")
+    points = medal_points(table)
+    assert points
+    with Store(folder) as store:
+        for score, mode, seed, player, rank in (
+            (points["silver"], "arcade", daily_seed(date(2026, 1, 2)), 1, 2),
+            (points["bronze"], "arcade", 4, 2, 1),
+            (points["bronze"] - 1, "arcade", 4, 1, 0),
+            (points["gold"], "free", 4, 1, 0),
+        ):
+            digest, text = table_digest(table), dump_table(table)
+            store.add_score(
+                "ABC", score, mode, table.name, digest, seed, "", table_text=text, player=player, rank=rank
+            )
+    return {str(medal): points[medal] for medal in points}
+
+
+def test_a_list_tells_rank_medals_players_and_the_day(silverball, comet_scores):
+    result = silverball("scores", "--mode", "arcade")
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "rank 3" in result.stdout
+    assert "medal: silver" in result.stdout
+    assert f"gold at {comet_scores['gold']:,}" in result.stdout
+    text = " ".join(result.stdout.split())
+    for words in (
+        f"{comet_scores['silver']:,} ABC",
+        "silver, 2 missions, daily board of 2026-01-02",
+        "bronze, 1 mission, player 2 of a match",
+    ):
+        assert words in text
+    assert text.count("bronze") == 1
+
+
+def test_the_same_is_in_json(silverball, comet_scores):
+    rows = json.loads(silverball("scores", "--json").stdout)
+    told = [(row["medal"], row["day"], row["player"], row["rank"], row["table_rank"]) for row in rows]
+    assert told == [
+        ("silver", "2026-01-02", 1, 2, 3),
+        ("bronze", None, 2, 1, 3),
+        (None, None, 1, 0, 3),
+        (None, None, 1, 0, 0),  # free play wins no medals
+    ]
+
+
+def test_a_list_whose_scores_say_nothing_of_it_has_no_such_columns(silverball, scores):
+    output = silverball("scores").stdout
+    for word in ("medal", "missions", "player", "daily", "rank"):
+        assert word not in output
+
+
+def test_a_medal_needs_the_table_that_the_list_names(silverball, folder):
+    table = load_table("silver_comet")
+    easy = table.replace(arcade={"bronze": 1, "silver": 2, "gold": 3})
+    with Store(folder) as store:
+        store.add_score(
+            "ABC", 5, "arcade", table.name, table_digest(table), 4, "", table_text=dump_table(easy)
+        )
+    assert json.loads(silverball("scores", "--json").stdout)[0]["medal"] is None
+
+
+def test_a_day_chooses_the_scores_of_its_board(silverball, comet_scores):
+    rows = json.loads(silverball("scores", "--json", "--day", "2026-01-02").stdout)
+    assert [(row["place"], row["score"]) for row in rows] == [(1, comet_scores["silver"])]
+    assert "no scores on that board yet" in silverball("scores", "--day", "2026-01-03").stdout
+    assert "no scores on that board yet" in silverball("scores", "--day", "today").stdout
+
+
+@pytest.mark.parametrize("day", ["yesterday", "29.11.2026", "2026-13-01", "\x1b[31m"])
+def test_what_is_no_day_is_refused(silverball, comet_scores, day):
+    assert_refused(silverball("scores", "--day", day), "--day", "2026-11-29", "today")
 
 
 def test_what_a_terminal_would_obey_is_shown_as_its_escape_and_can_be_asked_for(silverball, folder):

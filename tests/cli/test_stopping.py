@@ -28,13 +28,13 @@ def stop(tmp_path, name: str, sent: signal.Signals, seconds: float) -> None:
     """Start a command with an empty cache, stop it after some seconds, and check how it ends."""
     folders = {"SILVERBALL_CACHE": str(tmp_path / "cache"), "SILVERBALL_DATA": str(tmp_path / "data")}
     process = started(*COMMANDS[name], cwd=tmp_path, env=os.environ | folders)
-    limit = time.monotonic() + 60.0
+    limit = time.monotonic() + 300.0
     while not (tmp_path / "cache").exists() and time.monotonic() < limit:
         time.sleep(0.01)  # its own code runs from now on
     time.sleep(seconds)
     assert process.poll() is None, process.communicate()
     process.send_signal(sent)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=120)
     assert process.returncode == 128 + sent
     lines = [line for line in errors.splitlines() if not line.startswith("progress is saved in")]
     assert lines == (["stopped"] if sent == signal.SIGINT else [])

@@ -1,4 +1,4 @@
-"""The reference in docs/agents.md is what the environments are."""
+"""The reference in docs/environments.md is what the environments are."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from silverball.envs.observations import fields
 
 @pytest.fixture(scope="module")
 def script() -> dict[str, Any]:
-    """The names of docs/make_agents.py, which is not a module of the package."""
-    path = Path(__file__).parents[2] / "docs" / "make_agents.py"
-    names: dict[str, Any] = {"__name__": "agents", "__file__": str(path)}
+    """The names of docs/make_environments.py, which is not a module of the package."""
+    path = Path(__file__).parents[2] / "docs" / "make_environments.py"
+    names: dict[str, Any] = {"__name__": "environments", "__file__": str(path)}
     exec(compile(path.read_text(encoding="utf-8"), path.name, "exec"), names)
     return names
 
@@ -46,5 +46,6 @@ def test_the_table_of_slots_has_a_row_for_every_slot(script):
     assert len(rows) == 2 + sum(len(group.slots) for group in GROUPS)
 
 
-def test_the_page_for_agents_is_what_the_code_says(script):
-    assert script["PAGE"].read_text(encoding="utf-8") == script["page"](), "run: python docs/make_agents.py"
+def test_the_page_of_environments_is_what_the_code_says(script):
+    written = script["PAGE"].read_text(encoding="utf-8")
+    assert written == script["page"](), "run: python docs/make_environments.py"

@@ -30,7 +30,7 @@ def _blind(monkeypatch):
 
 
 @pytest.mark.usefixtures("_blind")
-@pytest.mark.filterwarnings("error")
+@pytest.mark.filterwarnings("error", "ignore:.*out of date:DeprecationWarning")
 @pytest.mark.parametrize("mode", [None, "human", "rgb_array"])
 @pytest.mark.parametrize("id_", IDS)
 def test_gymnasiums_checker_accepts_every_render_mode(id_, mode):

@@ -25,9 +25,10 @@ OPTIONS = {"table": "classic", "time_limit": 6.0}
 
 @pytest.mark.parametrize("id_", IDS)
 def test_its_checker_accepts_the_environment(id_):
+    env = gym.make(id_, **({} if "Classic" in id_ else {"boards": 2}))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        check_env(gym.make(id_, **({} if "Classic" in id_ else {"boards": 2})))
+        check_env(env)
 
 
 @pytest.mark.parametrize(
@@ -205,3 +206,43 @@ def test_processes_of_its_own_import_by_the_long_name():
         assert envs.reset().shape == (2, 63)
     finally:
         envs.close()
+
+
+def test_an_id_brings_its_options():
+    by_id = SilverballVecEnv("silverball/PinballClassic-v0", 3, seed=2)
+    given = SilverballVecEnv(num_envs=3, seed=2, table="classic")
+    assert by_id.reset().tolist() == given.reset().tolist()
+    assert by_id.envs.spec.id == "silverball/PinballClassic-v0"
+    long = SilverballVecEnv("silverball.envs:silverball/PinballPixels-v0", 2, boards=1, size=(20, 16))
+    assert long.observation_space.shape == (4, 20, 16)
+
+
+@pytest.mark.parametrize("given", [(), ("silverball/PinballClassic-v0",), (4, 4)], ids=str)
+def test_a_missing_or_second_number_is_refused(given):
+    with pytest.raises(TypeError, match="pass"):
+        SilverballVecEnv(*given)
+
+
+def test_the_id_of_another_environment_is_refused():
+    with pytest.raises(ValueError, match="one of Silverball's pinball tables, got 'CartPole-v1'"):
+        SilverballVecEnv("CartPole-v1", 2)
+    with pytest.raises(gym.error.NameNotFound):
+        SilverballVecEnv("silverball/Pinnball-v1", 2)
+
+
+def test_the_spaces_of_the_attributes_are_those_of_one_environment():
+    envs = SilverballVecEnv(3, table="classic", observation="pixels", size=(20, 16))
+    assert envs.get_attr("observation_space") == [envs.observation_space] * 3
+    assert envs.get_attr("action_space", [0, 2]) == [gym.spaces.Discrete(4)] * 2
+
+
+@pytest.mark.parametrize("rgb", [False, True])
+@pytest.mark.parametrize(("stack", "channels"), [(1, "first"), (1, "last"), (4, "first"), (3, "last")])
+def test_a_policy_for_images_learns_through_gymnasiums_make(stack, channels, rgb):
+    options = {"size": (36, 40), "stack": stack, "channels": channels, "rgb": rgb, "time_limit": 0.3}
+    env = gym.make("silverball/PinballPixels-v0", boards=1, **options)
+    assert is_image_space(env.observation_space)
+    sb3.PPO("CnnPolicy", env, n_steps=8, batch_size=8, n_epochs=1, device="cpu").learn(24)
+    envs = SilverballVecEnv("silverball/PinballPixels-v0", 2, boards=1, **options)
+    assert envs.observation_space == env.observation_space
+    assert envs.reset() in batch_space(env.observation_space, 2)

@@ -12,7 +12,7 @@ import pytest
 from gymnasium.envs.registration import EnvSpec
 
 import silverball as sb
-from silverball.envs import IDS, PinballEnv, PinballVectorEnv, engine
+from silverball.envs import IDS, REWARD_THRESHOLDS, PinballEnv, PinballVectorEnv, engine
 from silverball.table import Cylinder, Table, load_table
 
 CLASSIC = "silverball/PinballClassic-v0"
@@ -32,8 +32,8 @@ def options_of(id_: str) -> dict:
 )
 def test_the_spec_says_after_how_many_steps_an_episode_is_truncated(id_, options):
     env = gym.make(id_, **options_of(id_), **options)
-    ticks = options.get("time_limit", 300.0) * options.get("tick_rate", 60)
-    steps = max(1, -(-round(ticks, 6) // options.get("frame_skip", 1)))
+    given = {"time_limit": 300.0, "tick_rate": 60, "frame_skip": 1} | IDS[id_] | options
+    steps = max(1, -(-round(given["time_limit"] * given["tick_rate"], 6) // given["frame_skip"]))
     assert env.spec.max_episode_steps == steps
     assert gym.make_vec(id_, 2, **options_of(id_), **options).spec.max_episode_steps == steps
 
@@ -63,7 +63,7 @@ def test_a_shorter_limit_of_gymnasiums_own_holds_and_none_lengthens_an_episode()
     assert gym.make_vec(CLASSIC, 2, max_episode_steps=10**9).spec.max_episode_steps == 18_000
 
 
-@pytest.mark.parametrize("id_", IDS)
+@pytest.mark.parametrize("id_", REWARD_THRESHOLDS)
 def test_the_spec_has_a_threshold_that_chance_does_not_reach(id_):
     threshold = gym.spec(id_).reward_threshold
     assert gym.make(id_, **options_of(id_)).spec.reward_threshold == threshold
@@ -221,9 +221,9 @@ def test_a_spawned_process_imports_by_the_long_name(context):
 @pytest.mark.parametrize(("is_there", "folder"), [(True, "f"), (False, "f"), (False, None)])
 def test_the_first_environment_says_once_that_it_is_compiled(is_there, folder, monkeypatch, capsys):
     monkeypatch.setattr(engine.SETTINGS, "DISABLE_JIT", 0)
-    monkeypatch.setattr(engine, "is_compiled", lambda name, packages: is_there)
+    monkeypatch.setattr(engine, "is_compiled", lambda name, packages, layout: is_there)
     monkeypatch.setattr(engine, "cache_folder", lambda packages: folder)
-    engine._announce_compilation.cache_clear()
+    engine.announce_compilation.cache_clear()
     for _ in range(2):
         PinballEnv(table="classic")
     said = capsys.readouterr()

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import csv
 import importlib.util
+import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from silverball.benchmarks.agents.stored_policies import StoredPolicy
+from silverball.benchmarks.agents.trials import make_trial
+
 EXAMPLES = Path(__file__).parents[2] / "examples"
-RUNS = {
+RUNS: dict[str, tuple[tuple[str, ...], ...]] = {  # the packages that it needs, then the arguments of its runs
     "train_sb3.py": (
         ("stable_baselines3", "matplotlib"),
         ("--steps", "2048", "--envs", "16", "--boards", "2"),
@@ -18,6 +25,22 @@ RUNS = {
     "train_torch.py": (("torch",), ("--steps", "4096", "--envs", "32", "--boards", "2")),
     "collect_torchrl.py": (("torchrl",), ()),
     "train_rllib.py": (("ray", "torch"), ("--rounds", "1")),
+    "train_benchmark.py": (
+        ("torch",),
+        ("--steps", "8192", "--envs", "64"),
+        ("--steps", "2048", "--envs", "64", "--length", "16", "--option", "observation=pixels"),
+        ("--steps", "2048", "--envs", "64", "--length", "16", "--option", "sight=positions", "--memory"),
+    ),
+    "train_sb3_benchmark.py": (
+        ("stable_baselines3", "sb3_contrib"),
+        ("--steps", "6144", "--envs", "64", "--algorithm", "dqn", "--pictures"),
+        ("--steps", "6144", "--envs", "64", "--algorithm", "qr-dqn"),
+    ),
+    "train_missions.py": (
+        ("torch",),
+        ("--steps", "4096", "--envs", "64", "--length", "32", "--out", "m.npz"),
+    ),
+    "train_domain.py": ((), ("--episodes", "60")),
 }
 
 
@@ -26,13 +49,54 @@ def test_every_example_for_agents_is_run():
     assert sorted(path.name for path in for_agents) == sorted(RUNS)
 
 
-@pytest.mark.parametrize("name", RUNS)
-def test_an_example_runs(name, tmp_path):
-    packages, arguments = RUNS[name]
-    missing = [package for package in packages if importlib.util.find_spec(package) is None]
+def skip_without_packages(name):
+    """Skip the test where an example lacks a package."""
+    missing = [package for package in RUNS[name][0] if importlib.util.find_spec(package) is None]
     if missing:
         pytest.skip(f"{', '.join(missing)} is not installed")
-    run = [sys.executable, str(EXAMPLES / name), *arguments]
+
+
+@pytest.mark.parametrize(("name", "number"), [(name, n) for name in RUNS for n in range(1, len(RUNS[name]))])
+def test_an_example_runs(name, number, tmp_path):
+    skip_without_packages(name)
+    run = [sys.executable, str(EXAMPLES / name), *RUNS[name][number]]
     done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=500, check=False)
     assert done.returncode == 0, done.stderr
-    assert "points" in done.stdout or "wrote" in done.stdout
+    assert re.search("points|wrote|steps, in the target", done.stdout)
+
+
+def trained_outputs(example, observations):
+    """The outputs of the network that an example has trained, given what its names mean at its end."""
+    import torch
+
+    with torch.no_grad():
+        if "actor" in example:
+            state = torch.zeros(len(observations), example["chosen"].width)
+            return example["actor"](example["remember"](example["look"](observations), state)[0]).numpy()
+        model, envs = example["model"], example["envs"]
+        if hasattr(envs, "normalize_obs"):
+            observations = envs.normalize_obs(observations)
+        inputs, _ = model.policy.obs_to_tensor(observations)
+        outputs = model.q_net(inputs) if hasattr(model, "q_net") else model.quantile_net(inputs).mean(1)
+        return outputs.numpy()
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [(name, n) for name in RUNS if "_benchmark" in name for n in range(1, len(RUNS[name]))],
+)
+def test_a_stored_policy_has_the_outputs_of_the_trained_network(name, number, tmp_path, monkeypatch):
+    skip_without_packages(name)
+    files = ("--out", str(tmp_path / "policy.npz"), "--curve", str(tmp_path / "curve.csv"))
+    monkeypatch.setattr(sys, "argv", [name, *RUNS[name][number], *files])
+    example = runpy.run_path(str(EXAMPLES / name))
+    policy = StoredPolicy(tmp_path / "policy.npz")
+    envs = make_trial(policy.id, 16, "test", **policy.options)
+    envs.reset(seed=0)
+    for _ in range(10):
+        observations, *_ = envs.step(np.zeros(16, int))
+    outputs, _ = policy.outputs(observations, policy.first_state(16))
+    expected = trained_outputs(example, observations)
+    np.testing.assert_allclose(outputs, expected, atol=1e-3 * np.abs(expected).max())
+    with (tmp_path / "curve.csv").open(encoding="utf-8") as file:
+        assert next(csv.reader(file)) == ["steps", "seconds", "points_a_ball", "balls"]

@@ -9,6 +9,7 @@ import numpy as np
 
 from silverball.physics.records import PADDLE, PLAIN_BALL
 from silverball.world import World
+from silverball.world.saved_world import world_bytes
 
 BALLS_THEN = PADDLES_THEN = 2
 BALL_FIELDS = {name: "contact_part" if name == "contact_row" else name for name in PLAIN_BALL.names}
@@ -35,7 +36,7 @@ def record_bytes(world: World, version: int) -> bytes:
     """The record of a world in the layout of a version of the physics."""
     record = world.records[0]
     if version > 3:
-        return record.tobytes()
+        return world_bytes(record)
     then = np.zeros((), WORLD_3)
     for name, old in BALL_FIELDS.items():
         then["ball"][old] = record["ball"][name][:BALLS_THEN]

@@ -22,6 +22,17 @@ def play_all_balls(player, create) -> None:
     raise AssertionError("the game does not end")
 
 
+def choose(player, label: str, hands=None) -> None:
+    """Go to a row of the page that is open, and choose it."""
+    do = hands or with_keys(player)
+    for _ in player.menus.listing.rows:
+        if player.menus.listing.rows[player.menus.listing.chosen].label == label:
+            do["start"]()
+            return
+        do["right"]()
+    raise AssertionError(f"{label} is not on the page {player.menus.page}")
+
+
 def with_keys(player):
     return {
         "left": lambda: player.tap(pygame.K_a),
@@ -61,13 +72,9 @@ def test_a_game_from_the_menu_to_the_score_table(open_window, tmp_path, hands):
     do["start"]()
     do["start"]()  # END
     player.until(lambda: player.menus.page == "over", 5.0)
-    for _ in range(3):
-        do["right"]()
-    do["start"]()  # menu
+    choose(player, "MENU", do)
     assert player.menus.page == "main"
-    for _ in range(4):
-        do["right"]()
-    do["start"]()  # scores
+    choose(player, "SCORES", do)
     assert player.menus.page == "scores"
     shown = player.program._catalog.scores(player.program.settings.current.table, Mode.ARCADE)
     assert [(row.initials, row.score) for row in shown] == [("BAC", score)]
@@ -88,8 +95,7 @@ def test_a_game_is_watched_again_from_its_last_page(open_window):
     player.until(lambda: player.menus.page in ("over", "initials"), 5.0)
     while player.menus.page == "initials":
         player.tap(pygame.K_SPACE)
-    player.tap(pygame.K_d)
-    player.tap(pygame.K_SPACE)  # watch it
+    choose(player, "WATCH IT")
     assert player.menus.page == "transport"
     assert player.game.score == 0
     player.tap(pygame.K_d)
@@ -128,18 +134,9 @@ def test_a_replay_stands_still_and_goes_on_tick_by_tick(open_window):
 
 def test_a_remapped_key_works_at_once_and_at_the_next_start(open_window):
     player = open_window(mode=None)
-    for _ in range(5):
-        player.tap(pygame.K_d)
-    player.tap(pygame.K_SPACE)  # settings
-    while "keys" not in str(player.menus.signature):
-        before = player.menus.signature
-        player.tap(pygame.K_d)
-        if player.menus.page == "settings" and player.menus.signature[-1][1][0] == 6:
-            player.tap(pygame.K_SPACE)
-        assert player.menus.signature != before
-    player.tap(pygame.K_SPACE)  # the left paddle
-    player.tap(pygame.K_SPACE)
-    player.until(lambda: player.menus.wants_key or not player.tap(pygame.K_SPACE), 5.0)
+    for label in ("SETTINGS", "KEYS", "LEFT PADDLE", "NEW KEY"):
+        choose(player, label)
+    player.until(lambda: player.menus.wants_key, 5.0)
     player.tap(pygame.K_q)
     player.frames(2)
     assert "q" in player.program.settings.current.keys["left"]
@@ -287,7 +284,7 @@ def test_going_back_in_a_replay_leaves_no_ball_behind_that_is_not_lost_yet(open_
     again.until(lambda: again.program.session.has_ended)
     effects = again.window._picture.renderer.effects
     assert effects._sinking
-    again.program.jump(-0.5 * replay.ticks / replay.tick_rate)
+    again.program.watching.jump(-0.5 * replay.ticks / replay.tick_rate)
     again.frames(2)
     assert not effects._sinking
 

@@ -7,7 +7,15 @@ import pytest
 
 from silverball.app.bindings import ACTIONS
 from silverball.app.controls import Action, Controls, PaddleButtons
-from silverball.app.gamepad import BUTTON_NAMES, TRIGGER_DOWN, TRIGGER_UP, Gamepads
+from silverball.app.gamepad import (
+    BUTTON_NAMES,
+    STICK_DOWN,
+    STICK_NAMES,
+    STICK_UP,
+    TRIGGER_DOWN,
+    TRIGGER_UP,
+    Gamepads,
+)
 from silverball.app.settings import Settings
 from silverball.app.timing import TickClock
 
@@ -29,7 +37,8 @@ def test_every_default_key_and_button_is_one_that_pygame_names():
         for name in line.keys:
             assert pygame.key.name(pygame.key.key_code(name)) == name
         for name in line.pad:
-            assert name in {*BUTTON_NAMES.values(), "lefttrigger", "righttrigger"}
+            sticks = {way for ways in STICK_NAMES.values() for way in ways}
+            assert name in {*BUTTON_NAMES.values(), "lefttrigger", "righttrigger", *sticks}
         for name in line.joystick:
             thing, number, *way = name.split()
             assert int(number) >= 1
@@ -95,6 +104,22 @@ def test_a_trigger_is_a_button_that_does_not_chatter():
     for value in (0, TRIGGER_DOWN, TRIGGER_DOWN - 1, TRIGGER_UP + 1, 32767, TRIGGER_UP, 0):
         seen += [(button.name, button.down) for button in pads.read(axis(value))]
     assert seen == [("lefttrigger", True), ("lefttrigger", False)]
+
+
+def test_a_stick_is_a_button_in_each_direction_that_does_not_chatter():
+    pads = Gamepads()
+    seen = []
+    for value in (0, -STICK_DOWN, -STICK_DOWN + 1, -STICK_UP - 1, -32768, -STICK_UP, 0, 32767, 0):
+        event = pygame.Event(
+            pygame.CONTROLLERAXISMOTION, instance_id=3, axis=pygame.CONTROLLER_AXIS_LEFTX, value=value
+        )
+        seen += [(button.name, button.down) for button in pads.read(event)]
+    assert seen == [
+        ("stick left", True),
+        ("stick left", False),
+        ("stick right", True),
+        ("stick right", False),
+    ]
 
 
 def test_a_gamepad_that_is_pulled_out_lets_its_trigger_go():

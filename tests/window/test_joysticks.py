@@ -54,7 +54,7 @@ def gamepad_page(player) -> None:
 def find(player, label: str) -> None:
     for _ in range(40):
         player.seconds(0.3)
-        if reads(player.menus.draw(player.program._now), label, (BOLD, NORMAL)):
+        if reads(player.menus.draw(player.program.machine.now), label, (BOLD, NORMAL)):
             return
         player.tap(pygame.K_RIGHT)
     raise AssertionError(f"{label} is not on the page {player.menus.page}")
@@ -65,7 +65,10 @@ def choose(player, label: str) -> None:
     player.tap(pygame.K_SPACE)
 
 
-@pytest.mark.parametrize("line", [line for line in ACTIONS if line.joystick], ids=lambda line: line.action)
+WITH_BUTTONS = [line for line in ACTIONS if any(name.startswith("button") for name in line.joystick)]
+
+
+@pytest.mark.parametrize("line", WITH_BUTTONS, ids=lambda line: line.action)
 def test_the_buttons_of_an_unknown_joystick_have_a_use_at_first(player, plug_in, monkeypatch, line):
     asked = []
     monkeypatch.setattr(
@@ -76,7 +79,6 @@ def test_the_buttons_of_an_unknown_joystick_have_a_use_at_first(player, plug_in,
     for number in numbers:
         tap(player, device, number - 1)
     assert asked == [line.action] * len(numbers)
-    assert numbers
 
 
 def test_the_paddles_follow_the_buttons_the_lever_and_the_hat_of_an_unknown_joystick(player, plug_in):
@@ -130,7 +132,7 @@ def test_a_pedal_that_rests_at_its_end_presses_nothing_until_it_is_trodden():
 def test_any_button_of_an_unknown_joystick_can_be_chosen_and_is_kept_for_this_make(player, plug_in):
     one, other = plug_in(buttons=100, title="One make"), plug_in(buttons=20, title="Another")
     gamepad_page(player)
-    choose(player, "JITTER")
+    choose(player, "NUDGE LEFT")
     choose(player, "NEW BUTTON")
     tap(player, one, 98)
     settings = player.program.settings.current
@@ -163,7 +165,7 @@ def test_any_button_of_an_unknown_joystick_can_be_chosen_and_is_kept_for_this_ma
 def test_an_axis_or_a_hat_can_be_chosen_too(player, plug_in, name, move, back):
     device = plug_in(axes=4, hats=2)
     gamepad_page(player)
-    choose(player, "JITTER")
+    choose(player, "NUDGE LEFT")
     choose(player, "NEW BUTTON")
     for do in (move, back):
         do(device)
@@ -187,7 +189,7 @@ def test_the_page_names_the_joystick_and_obeys_nothing_in_its_name(player, plug_
     gamepad_page(player)
     for _ in range(80):  # a long name scrolls
         player.seconds(0.2)
-        if reads(player.menus.draw(player.program._now), read[:9], (BOLD, NORMAL)):
+        if reads(player.menus.draw(player.program.machine.now), read[:9], (BOLD, NORMAL)):
             break
     else:
         raise AssertionError("not named")

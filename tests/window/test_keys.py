@@ -203,7 +203,7 @@ def test_the_help_has_two_pages_that_paddles_space_and_arrows_turn(open_window, 
     assert player.window.input_handler.help_page == 0
 
 
-def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window, monkeypatch):
+def test_the_first_page_of_the_help_says_how_to_score_on_this_table(open_window, monkeypatch):
     from silverball.app import overlay
 
     written = []
@@ -212,7 +212,6 @@ def test_the_second_page_of_the_help_says_how_to_score_on_this_table(open_window
     player = open_window("classic", mode=Mode.ARCADE)
     overlay._rules.cache_clear()
     player.tap(pygame.K_F1)
-    player.tap(pygame.K_d)
     text = " ".join(written)
     arcade = player.program.board.table.arcade
     for word in ("HOW TO SCORE", f"×{arcade.double}", f"{arcade.ball_save:g} s", "paddles are dead"):
@@ -230,9 +229,8 @@ def test_the_help_fits_a_window_of_any_shape(player, size, page, monkeypatch):
     placed = []
     monkeypatch.setattr(overlay, "_place", lambda target, image, *rest: placed.append(image.get_size()))
     rules = how_to_score(player.program.board.table, Mode.ARCADE)
-    overlay.draw_help(
-        pygame.Surface(size), size[0] / 11.0, 7, player.window.input_handler.controls, page, rules
-    )
+    help_ = overlay.Help(page, 7, player.window.input_handler.controls, rules)
+    overlay.draw_help(pygame.Surface(size), size[0] / 11.0, help_)
     ((width, height),) = placed
     assert width <= size[0]
     assert height <= size[1]

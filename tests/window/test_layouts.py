@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import time
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pygame
 import pytest
@@ -28,9 +29,9 @@ pytestmark = pytest.mark.skipif(
     not all(map(shutil.which, PROGRAMS)), reason=f"needs the programs {', '.join(PROGRAMS)}"
 )
 LAYOUTS = """
-    us us:dvorak gb fr fr:bepo fr:geo be ch de de:neo es cz tr tr:f jp ru ua bg rs gr il ara ge am th in
+    us us:dvorak gb fr fr:bepo fr:geo gn be ch de de:neo es cz tr tr:f jp ru ua bg rs gr il ara ge am th in
 """.split()
-SPECIAL = {"left": 113, "right": 114, "left shift": 50, "right shift": 62, "space": 65}
+SPECIAL = {"up": 111, "left": 113, "right": 114, "left shift": 50, "right shift": 62, "space": 65}
 SPECIAL |= {"f1": 67, "f3": 69, "f11": 95, "return": 36}
 """X's numbers of the keys that are the same on every layout."""
 US_KEYS = {
@@ -40,6 +41,7 @@ US_KEYS = {
 }
 """X's numbers of the keys of a US keyboard."""
 A, COMMA_PLACE, SHIFT = 38, 59, 50
+SAMPLED = 8  # one layout in so many is a slow test
 
 
 class Typist:
@@ -61,10 +63,10 @@ class Typist:
     def do(self, *words: str | int) -> None:
         """Work the real keys as xdotool understands it."""
         environment = os.environ | {"DISPLAY": self.display}
-        subprocess.run(["xdotool", *map(str, words)], env=environment, timeout=60, check=True)
+        subprocess.run(["xdotool", *map(str, words)], env=environment, timeout=120, check=True)
         self.until(lambda: True)
 
-    def until(self, is_reached: Callable[[], bool], seconds: float = 20.0) -> None:
+    def until(self, is_reached: Callable[[], bool], seconds: float = 120.0) -> None:
         """Beats for a twentieth of a second, and on until something is reached."""
         start = time.monotonic()
         while time.monotonic() - start < 0.05 or not is_reached():
@@ -119,9 +121,11 @@ def keys_that_the_help_names(typist: Typist) -> list[tuple[int, Action]]:
             keys = [key for key, sign in bears.items() if sign == label]
             if name in SPECIAL:
                 keys = [SPECIAL[name]]
-            elif not keys:  # pygame's font has no such letters; these keyboards bear the Latin ones too
+            elif not keys:  # no font has its sign, or two keys do; these keyboards bear Latin letters too
                 keys = [US_KEYS[label]]
-                assert not can_show(bears.get(keys[0], "\ufffe")), f"{name} is said to be {label}"
+                sign = bears.get(keys[0], "\ufffe")
+                is_clear = can_show(sign) and list(bears.values()).count(sign) == 1
+                assert not is_clear, f"{name} is said to be {label}"
             found += [(key, action) for key in keys]
     return found
 
@@ -196,8 +200,15 @@ def test_no_input_method_gets_the_letters_whatever_is_done_to_the_window(typist)
     assert sdl._function("SDL_IsTextInputActive")() == 0
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("layout", all_layouts())
+def every_layout() -> list[Any]:
+    """All layouts: an even sample for the slow tests, the others for a campaign."""
+    return [
+        pytest.param(layout, marks=pytest.mark.slow if number % SAMPLED == 0 else pytest.mark.campaign)
+        for number, layout in enumerate(all_layouts())
+    ]
+
+
+@pytest.mark.parametrize("layout", every_layout())
 def test_every_command_is_given_on_every_keyboard_that_there_is(typist, asked, layout):
     try:
         typist.use(layout)

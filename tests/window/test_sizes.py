@@ -8,7 +8,8 @@ import pygame
 import pytest
 
 from silverball.app import sdl
-from silverball.app.picture import MAX_DRAWN, SETTLE_TIME, Picture, fitted
+from silverball.app.arrangement import fitted
+from silverball.app.picture import MAX_DRAWN, SETTLE_TIME, Picture
 from silverball.app.screen import DECORATION, FRAME_RATES, HIDE_AFTER, MIN_SIZE, TITLE_BAR, Screen
 from silverball.app.settings import Settings
 from silverball.drawing import Moment
@@ -59,7 +60,7 @@ def test_a_tiny_window_is_drawn_anew_when_its_size_has_stood_and_comes_back_well
     size = player.window.size
     for new in (shape, size):
         screen.resize(new)
-        limit = time.monotonic() + 60.0
+        limit = time.monotonic() + 120.0
         player.frames(1)
         while player.window._picture.renderer.camera.size != player.window._picture.area.size:
             assert time.monotonic() < limit

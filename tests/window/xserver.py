@@ -52,7 +52,7 @@ def signs(display: str) -> dict[int, str]:
 def choose_layout(display: str, layout: str, variant: str = "") -> None:
     """Give the server another keyboard."""
     command = ["setxkbmap", "-display", display, "-layout", layout, "-variant", variant]
-    subprocess.run(command, check=True, timeout=60)
+    subprocess.run(command, check=True, timeout=120)
 
 
 def all_layouts() -> list[str]:

@@ -62,7 +62,9 @@ ACTIONS = (
         ("button 2", "button 6", "button 8", "hat 1 right", "axis 1 +"),
     ),
     ActionBinding("create", "NEW BALL", ("space",), ("a",), True, ("button 1",)),
-    ActionBinding("jitter", "JITTER", ("z",), ("y", "x", "dpup"), joystick=("button 4", "hat 1 up")),
+    ActionBinding("jitter", "NUDGE LEFT", ("z",), ("y", "x", "stick left"), joystick=("button 4",)),
+    ActionBinding("nudge_right", "NUDGE RIGHT", ("x",), ("stick right",)),
+    ActionBinding("nudge_up", "NUDGE UP", ("up",), ("dpup", "stick up"), joystick=("hat 1 up",)),
     ActionBinding("launch", "LAUNCH BALL", ("return",), ("dpdown",), joystick=("button 11", "hat 1 down")),
     ActionBinding("pause", "PAUSE", ("p",), ("start",), joystick=("button 10",)),
     ActionBinding("new_board", "NEW BOARD", ("r",)),
@@ -102,6 +104,10 @@ _SHORT = {
     "dpright": "PAD →",
     "dpup": "PAD ↑",
     "dpdown": "PAD ↓",
+    "stick left": "STICK ←",
+    "stick right": "STICK →",
+    "stick up": "STICK ↑",
+    "stick down": "STICK ↓",
 }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from silverball.app.controls import MENU_BUTTONS, PADDLES, Action
+from silverball.app.controls import MENU_BUTTONS, NUDGES, PADDLES, Action
 from silverball.app.menus import Button
 from silverball.app.sessions import GameSession
 from silverball.errors import BoardFull, NoRoom, SilverballError
@@ -33,13 +33,14 @@ def press(program: Program, action: Action, *, same_board: bool = False) -> None
     elif isinstance(session, GameSession):
         _press_in_game(program, session, action, same_board)
     else:
-        program.stop_watching()  # any button ends a demo
+        program.watching.stop()  # any button ends a demo
 
 
 def release(program: Program, action: Action) -> None:
     """Handle a key or gamepad button that came up."""
     if action in MENU_BUTTONS:
         program.menus.release(MENU_BUTTONS[action])
+    program.dot_game.release(action)
 
 
 def _press_in_menu(program: Program, action: Action, same_board: bool) -> None:
@@ -49,25 +50,27 @@ def _press_in_menu(program: Program, action: Action, same_board: bool) -> None:
         program.press_menu(Button.BACK)  # any button ends the attract mode
     elif action is Action.NEW_BOARD and isinstance(program.session, GameSession):
         program.start_new_board(same_board)
-    elif action is Action.JITTER and program.is_paused:
+    elif action in NUDGES and program.is_paused:
         program.show_message("the game is paused")
 
 
 def _press_while_loading(program: Program, action: Action) -> None:
-    """Cancel the pending game, or show that the physics is still loading."""
+    """Cancel the pending game, play on the dots, or show that the physics is still loading."""
     if action is Action.BACK:
         program.cancel_pending()
+    elif program.is_compiling_for_game and action in (*PADDLES, Action.CREATE, Action.LAUNCH):
+        program.dot_game.press(action)
     else:
         program.show_loading_message()
 
 
 def _press_in_game(program: Program, session: GameSession, action: Action, same_board: bool) -> None:
     if session.has_ended and action in (Action.CREATE, Action.BACK, Action.PAUSE):
-        program.skip_game_over()
+        program.games.skip_game_over()
     elif action is Action.CREATE:
-        _try(program, lambda: program.create_ball(session))
-    elif action is Action.JITTER:
-        _try(program, session.game.jitter)
+        _try(program, lambda: program.games.create_ball(session))
+    elif action in NUDGES:
+        _try(program, lambda: session.game.nudge(NUDGES[action]))
     elif action is Action.PAUSE or action is Action.BACK:
         program.menus.open_pause()
     elif action is Action.NEW_BOARD:

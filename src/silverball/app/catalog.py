@@ -30,7 +30,7 @@ from silverball.plain import plain
 from silverball.table import Table, generate_table, load_table, table_digest, table_names
 
 if TYPE_CHECKING:
-    from silverball.game.scores.store import Store
+    from silverball.game.scores.store import Score, Store
 
 REPLAYS = "replays"  # subfolder of the data folder for replay files
 MAX_SCORES = 10
@@ -139,6 +139,27 @@ class Catalog:
         rows = self._best(key.digest, mode)
         return rows[0].score if rows else 0
 
+    def best_of_seed(self, name: str, mode: Mode, seed: int) -> list[ScoreRow]:
+        """Return the scores of one seed of a table, best first: the list of a day."""
+        digest = self._digest_of(name)
+        scores = self._store.scores(mode, digest, limit=MAX_SCORES, seed=seed) if digest else []
+        return [_row(score) for score in scores]
+
+    def best_score(self, name: str, seed: int | None = None) -> Score | None:
+        """Return the best arcade score on a table that has a replay, of all seeds or of one."""
+        digest = self._digest_of(name)
+        scores = self._store.scores(Mode.ARCADE, digest, seed=seed) if digest else []
+        return next((one for one in scores if one.has_replay and not one.is_rejected), None)
+
+    def rows(self, key: ScoreKey, mode: Mode) -> list[ScoreRow]:
+        """Return a list of scores, best first."""
+        return self._best(key.digest, mode)
+
+    def rank(self, name: str) -> int:
+        """Return the missions that all arcade games on a table have finished."""
+        digest = self._digest_of(name)
+        return self._store.rank(Mode.ARCADE, digest) if digest else 0
+
     def _digest_of(self, name: str) -> str:
         """Return the digest of a table; empty if it cannot be used or has not been read yet."""
         if is_path(name) and name not in self._given:
@@ -158,15 +179,8 @@ class Catalog:
         ) not in self._lists and not self._store.has_pending:  # otherwise a score may be pending
             return []
         if (digest, mode) not in self._rows:
-            self._rows[digest, mode] = [
-                ScoreRow(
-                    score.initials,
-                    score.score,
-                    score.played("%d.%m.%y"),
-                    str(score.id) if score.has_replay else "",
-                )
-                for score in self._store.scores(mode, digest, limit=MAX_SCORES)
-            ]
+            scores = self._store.scores(mode, digest, limit=MAX_SCORES)
+            self._rows[digest, mode] = [_row(score) for score in scores]
         return self._rows[digest, mode]
 
     def clear_score_cache(self) -> None:
@@ -178,6 +192,11 @@ class Catalog:
         """Save a replay as a file and return its path; None if it cannot be written."""
         name = f"{prefix}-{time.strftime('%Y-%m-%d-%H%M%S')}-{score}.replay"
         return write_user_file(text, name, self._folder / REPLAYS)
+
+
+def _row(score: Score) -> ScoreRow:
+    key = str(score.id) if score.has_replay else ""
+    return ScoreRow(score.initials, score.score, score.played("%d.%m.%y"), key)
 
 
 def file_name(name: str) -> str:

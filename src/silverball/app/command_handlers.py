@@ -23,7 +23,7 @@ def execute(command: object, program: Program) -> None:
 
 @execute.register(commands.Play)
 def _(command: commands.Play, program: Program) -> None:
-    program.play(command.mode, command.table, command.seed)
+    program.play(command.mode, command.table, command.seed, players=command.players, rival=command.rival)
 
 
 @execute.register(commands.WatchLast)
@@ -76,24 +76,24 @@ def _(command: commands.Resume, program: Program) -> None:
 @execute.register(commands.Restart)
 def _(command: commands.Restart, program: Program) -> None:
     if isinstance(program.session, GameSession):
-        program.begin(program.session.game.mode)
+        program.games.begin_again(program.session)
 
 
 @execute.register(commands.EndGame)
 def _(command: commands.EndGame, program: Program) -> None:
-    program.end_game()
+    program.games.end()
 
 
 @execute.register(commands.SaveReplay)
 def _(command: commands.SaveReplay, program: Program) -> None:
-    path = program.save_replay_file("game")
+    path = program.games.save_replay_file("game")
     program.menus.show_message("saved" if path else "could not be saved")
     program.show_message(f"the replay is at {path}" if path else "the data folder cannot be written")
 
 
 @execute.register(commands.Initials)
 def _(command: commands.Initials, program: Program) -> None:
-    program.archive.rename(program.result, command.text)
+    program.games.archive.rename(program.games.result, command.text, command.player)
 
 
 @execute.register(commands.ReplaySpeed)
@@ -103,17 +103,17 @@ def _(command: commands.ReplaySpeed, program: Program) -> None:
 
 @execute.register(commands.ReplayPause)
 def _(command: commands.ReplayPause, program: Program) -> None:
-    program.is_replay_paused = not program.is_replay_paused
+    program.machine.is_replay_paused = not program.machine.is_replay_paused
 
 
 @execute.register(commands.ReplayJump)
 def _(command: commands.ReplayJump, program: Program) -> None:
-    program.jump(command.seconds)
+    program.watching.jump(command.seconds)
 
 
 @execute.register(commands.EndReplay)
 def _(command: commands.EndReplay, program: Program) -> None:
-    program.end_watching()
+    program.watching.end()
 
 
 def watch_replay_text(program: Program, text: str, source: str) -> None:

@@ -25,6 +25,8 @@ class Action(StrEnum):
     RIGHT = "right"
     CREATE = "create"
     JITTER = "jitter"
+    NUDGE_RIGHT = "nudge_right"
+    NUDGE_UP = "nudge_up"
     LAUNCH = "launch"
     PAUSE = "pause"
     NEW_BOARD = "new_board"
@@ -41,6 +43,8 @@ class Action(StrEnum):
 PADDLES = (Action.LEFT, Action.RIGHT)
 HELD = (*PADDLES, Action.LAUNCH)
 """The actions whose buttons are held in play; all others act when they are pressed."""
+NUDGES = {Action.JITTER: "left", Action.NUDGE_RIGHT: "right", Action.NUDGE_UP: "up"}
+"""Where an action nudges the table; on a table without nudge each of them is the jitter."""
 MENU_BUTTONS = {
     Action.LEFT: Button.LEFT,
     Action.RIGHT: Button.RIGHT,
@@ -51,7 +55,7 @@ MENU_BUTTONS = {
 }
 """The menu button of an action while a menu is open."""
 MENU_KEYS = {"up": Button.LEFT, "down": Button.RIGHT, "return": Button.START, "enter": Button.START}
-"""Further keys for the menus, where the key has no other action."""
+"""Further keys for the menus, where the key has no other action than a nudge."""
 
 _SHORTCUT_MODIFIERS = pygame.KMOD_CTRL | pygame.KMOD_ALT | pygame.KMOD_META
 

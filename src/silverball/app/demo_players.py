@@ -7,10 +7,10 @@ mode. `demo_players` lists these and the registered players; the menu offers the
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 if TYPE_CHECKING:
-    from silverball.app.sessions import DemoSession
+    from silverball.game.core import GameCore
     from silverball.players import Player
 
 
@@ -21,7 +21,7 @@ class DemoPlayer(NamedTuple):
         name: Name for `make_player`.
         label: Its name on the score display.
         hint: A short description on the score display.
-        kernel: The kernel that must be compiled for it in addition to the physics; empty if none.
+        kernel: The last kernel that is compiled for it in addition to the physics; empty if there is none.
         max_speed: Seconds of play per second of real time that it can compute.
     """
 
@@ -49,6 +49,23 @@ def demo_players() -> tuple[DemoPlayer, ...]:
     return *DEMO_PLAYERS, *(DemoPlayer(name, name.upper(), REGISTERED_HINT) for name in registered_names())
 
 
+class Played(Protocol):
+    """What a player of the program plays: a demo, or the game of a rival.
+
+    Attributes:
+        player: The player, who may be replaced at any time.
+    """
+
+    player: Player
+
+
+def introduce(player: Player, game: GameCore) -> None:
+    """Tell a player which game it plays, if it wants to know: the planner then aims at what is lit."""
+    watch = getattr(player, "watch", None)
+    if watch is not None:
+        watch(game)
+
+
 class DemoPlayerSelector:
     """Selects the player of a demo: the requested one, or the fallback until that one is ready.
 
@@ -69,7 +86,7 @@ class DemoPlayerSelector:
         self.requested = next(one for one in demo_players() if one.name == name)
         return self._make()
 
-    def switch_when_ready(self, session: DemoSession) -> bool:
+    def switch_when_ready(self, session: Played) -> bool:
         """Switch to the requested player once it is ready; return whether this call switched."""
         if self.playing is self.requested or not self.is_ready(self.requested.name):
             return False

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.errors import SilverballError
+from silverball.game.scores.daily import day_of
 from silverball.game.view import Mode
 from silverball.table import dump_table
 
@@ -23,17 +24,33 @@ if TYPE_CHECKING:
     from silverball.table import Table
 
 
+class SavedScore(NamedTuple):
+    """A score of a finished game.
+
+    Attributes:
+        player: Whose it is, from 1.
+        score: Points.
+        rank: Its rank in the high scores, from 1; None if it has none.
+        id: Its id in the store.
+        rank_today: Its rank in the list of a daily board; None if it has none.
+    """
+
+    player: int
+    score: int
+    rank: int | None
+    id: int
+    rank_today: int | None = None
+
+
 class GameResult(NamedTuple):
     """The outcome of saving a finished game.
 
     Attributes:
-        rank: The rank of its score, from 1; None if it has none.
-        score_id: The id of its score in the store; None if it was not saved.
+        scores: The scores that were saved, in the order of the players.
         message: Message for the player; empty if there is none.
     """
 
-    rank: int | None = None
-    score_id: int | None = None
+    scores: tuple[SavedScore, ...] = ()
     message: str = ""
 
 
@@ -106,21 +123,36 @@ class GameArchive:
             return GameResult(message=f"{game.fault}: this board had to stop. {where} R makes a new one")
         if game.mode is not Mode.ARCADE or not is_ranked or game.score <= 0:
             return GameResult()
-        key, text = self._catalog.score_key(recipe), game.replay.to_text()
-        rank = self._store.high_score_rank(game.score, game.mode, key.digest)
-        table = dump_table(recipe.resolved())
-        number = self._store.add_score(
-            initials, game.score, game.mode, key.title, key.digest, game.seed, text, table_text=table
-        )
+        scores = self._save_scores(game, recipe, initials)
         self._catalog.clear_score_cache()
         self._is_score_pending = self._store.has_pending
         if self._is_score_pending:
-            return GameResult(rank, number, PENDING if self._store.is_spooled else NOT_YET_SAVED)
-        return GameResult(rank, number, "" if self._store.is_persistent else LOST)
+            return GameResult(scores, PENDING if self._store.is_spooled else NOT_YET_SAVED)
+        return GameResult(scores, "" if self._store.is_persistent else LOST)
 
-    def rename(self, result: GameResult, initials: str) -> None:
-        """Assign initials to the score of a game."""
-        if result.score_id is not None:
-            with suppress(SilverballError):  # another program may have removed the score
-                self._store.rename(result.score_id, initials)
-            self._catalog.clear_score_cache()
+    def _save_scores(self, game: Game, recipe: Table, initials: str) -> tuple[SavedScore, ...]:
+        """Save the scores of all players, the best first, so that each rank counts those before it."""
+        store, key, text = self._store, self._catalog.score_key(recipe), game.replay.to_text()
+        table, seed = dump_table(recipe.resolved()), game.seed
+        saved = []
+        for player, score in sorted(enumerate(game.scores, 1), key=lambda one: -one[1]):
+            if score <= 0:
+                continue
+            rank = store.high_score_rank(score, game.mode, key.digest)
+            today = None
+            if day_of(seed) is not None:
+                today = store.high_score_rank(score, game.mode, key.digest, seed)
+            id = store.add_score(
+                initials, score, game.mode, key.title, key.digest, seed, text,
+                table_text=table, player=player, rank=game.ranks[player - 1],
+            )  # fmt: skip
+            saved.append(SavedScore(player, score, rank, id, today))
+        return tuple(sorted(saved))
+
+    def rename(self, result: GameResult, initials: str, player: int = 0) -> None:
+        """Assign initials to the score of a player of a game; 0: the only one."""
+        for one in result.scores:
+            if player in (0, one.player):
+                with suppress(SilverballError):  # another program may have removed the score
+                    self._store.rename(one.id, initials)
+                self._catalog.clear_score_cache()

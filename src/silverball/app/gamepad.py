@@ -1,10 +1,10 @@
 """Gamepads and joysticks: which of their buttons go down and come up.
 
 SDL knows the layout of hundreds of gamepads and gives their buttons common names. A trigger is an axis; it
-counts as a button that is down while it is pulled more than a third. Devices without a mapping in SDL (arcade
-encoders, boards of pinball cabinets, old pads) are joysticks: their buttons are numbered from 1 ("button
-5"), and each direction of a hat or an axis is a button too ("hat 1 left", "axis 2 +"). Both kinds may be
-connected and removed at any time.
+counts as a button that is down while it is pulled more than a third, and a stick as one in each direction.
+Devices without a mapping in SDL (arcade encoders, boards of pinball cabinets, old pads) are joysticks: their
+buttons are numbered from 1 ("button 5"), and each direction of a hat or an axis is a button too ("hat 1
+left", "axis 2 +"). Both kinds may be connected and removed at any time.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from silverball.plain import plain
 
 TRIGGER_DOWN = 11_000  # of 32,767
 TRIGGER_UP = 8_000  # hysteresis against chatter
+STICK_DOWN, STICK_UP = 20_000, 10_000  # of 32,767
 AXIS_DOWN = 0.6  # share of the way from its rest position to its end
 AXIS_UP = 0.4
 
@@ -45,6 +46,14 @@ TRIGGER_NAMES = {
     pygame.CONTROLLER_AXIS_TRIGGERLEFT: "lefttrigger",
     pygame.CONTROLLER_AXIS_TRIGGERRIGHT: "righttrigger",
 }
+STICK_NAMES = {
+    pygame.CONTROLLER_AXIS_LEFTX: ("stick left", "stick right"),
+    pygame.CONTROLLER_AXIS_LEFTY: ("stick up", "stick down"),
+    pygame.CONTROLLER_AXIS_RIGHTX: ("stick left", "stick right"),
+    pygame.CONTROLLER_AXIS_RIGHTY: ("stick up", "stick down"),
+}
+"""Both sticks of a gamepad nudge: a flick of one is a button that goes down and comes up."""
+
 REMOVED = (pygame.CONTROLLERDEVICEREMOVED, pygame.JOYDEVICEREMOVED)
 
 
@@ -129,6 +138,7 @@ class Gamepads:
                 yield PadButton(event.instance_id, name, event.type == pygame.CONTROLLERBUTTONDOWN)
         elif event.type == pygame.CONTROLLERAXISMOTION:
             yield from self._read_trigger(event)
+            yield from self._read_stick(event)
         elif event.type == pygame.CONTROLLERDEVICEADDED:
             self._connect(event.device_index)
         elif event.type == pygame.JOYDEVICEADDED:
@@ -162,6 +172,14 @@ class Gamepads:
             yield PadButton(event.instance_id, name, True)
         elif event.value <= TRIGGER_UP and is_down:
             yield PadButton(event.instance_id, name, False)
+
+    def _read_stick(self, event: pygame.Event) -> Iterator[PadButton]:
+        for sign, name in zip((-1, 1), STICK_NAMES.get(event.axis, ()), strict=False):
+            is_down = (event.instance_id, name) in self._down
+            if sign * event.value >= STICK_DOWN and not is_down:
+                yield PadButton(event.instance_id, name, True)
+            elif sign * event.value <= STICK_UP and is_down:
+                yield PadButton(event.instance_id, name, False)
 
     def _read_joystick(self, event: pygame.Event, joystick: _Joystick) -> Iterator[PadButton]:
         pad, kind = event.instance_id, joystick.entry.guid

@@ -16,6 +16,7 @@ from silverball.app.bindings import upper_label
 from silverball.app.controls import (
     HELD,
     MENU_KEYS,
+    NUDGES,
     PADDLES,
     Action,
     Controls,
@@ -30,12 +31,17 @@ from silverball.app.overlay import HELP_PAGES
 from silverball.drawing.text import can_show
 
 if TYPE_CHECKING:
+    from silverball.app.backglass.list_view import ListView
     from silverball.app.overlay import Messages
     from silverball.app.program import Program
     from silverball.app.screen import Screen
     from silverball.app.sound import Sounds
     from silverball.app.timing import LatencyMeter
 
+
+MOUSE_EVENTS = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
+LEFT_BUTTON, RIGHT_BUTTON = 1, 3
+ARROWS = {"left": -1, "right": 1}  # keys that change the setting chosen in a list
 
 _SHIFT_KEYS = ("left shift", "right shift")
 
@@ -57,7 +63,7 @@ class InputHandler:
         keyboard: The keyboard.
         controls: The current key bindings.
         shows_help: Whether the help is shown, which pauses the game.
-        help_page: The visible page of the help: the keys, or how to score.
+        help_page: The visible page of the help: how to score, or the keys.
         shows_debug: Whether the debug view is shown.
     """
 
@@ -68,7 +74,9 @@ class InputHandler:
         sounds: Sounds,
         messages: Messages,
         latency: LatencyMeter,
+        list_view: ListView,
     ) -> None:
+        self._list_view = list_view
         self._program, self._screen, self._sounds = program, screen, sounds
         self._messages, self._latency = messages, latency
         self.buttons = PaddleButtons()
@@ -96,10 +104,12 @@ class InputHandler:
             self._key_down(event)
         elif event.type == pygame.KEYUP:
             self._key_up(event)
+        elif event.type in MOUSE_EVENTS:
+            self._mouse(event)
         elif event.type == pygame.KEYMAPCHANGED:
             self.keyboard.read_layout()
             self._update_key_labels()
-        elif event.type == pygame.WINDOWFOCUSLOST and self._screen.owns(event):
+        elif self._screen.has_lost_focus(event):
             self._keys.clear()
             self.buttons.release_all()
             self._program.lose_focus()
@@ -120,11 +130,17 @@ class InputHandler:
         name = self.keyboard.resolve(event, self.controls.key_names.union(MENU_KEYS))
         action = self.controls.action_of_key(name, event.mod)
         menus = self._program.menus
+        if action in NUDGES and name in MENU_KEYS and (menus.is_open or self.shows_help):
+            action = None  # in menus and in the help it moves
         scancode = event.scancode or event.key
         if menus.wants_key and name != "escape" and not is_shortcut(event.mod):
             self._program.capture(name or self.keyboard.new_name(event))
         elif menus.wants_text and self._type(event, action):
             self._sounds.play_menu("back" if name == "backspace" else "choose")
+        elif (
+            name in ARROWS and self._list_view.is_shown and not self.shows_help and menus.adjust(ARROWS[name])
+        ):
+            self._sounds.play_menu("move")
         elif action is not None:
             self._keys[scancode] = _PressedKey(name, action)
             if action in PADDLES:
@@ -157,10 +173,45 @@ class InputHandler:
         """Pass a key to the page with text input; return whether the page consumed the key."""
         if self.shows_help or is_shortcut(event.mod):
             return False
-        is_button = action in (*PADDLES, Action.CREATE)
+        # Beside a grid of letters, which arrows and mouse choose, keys with letters type at once.
+        is_button = action is Action.CREATE or (action in PADDLES and not self._list_view.is_shown)
         # SDL's text input is off, because an input method would swallow letters.
         letter = self.keyboard.letter(event) or event.unicode
         return self._program.menus.type(letter, self.keyboard.new_name(event), is_button=is_button)
+
+    def _mouse(self, event: pygame.Event) -> None:
+        """Handle the mouse: it chooses in lists, turns the pages of the help and ends the attract mode."""
+        menus = self._program.menus
+        if event.type == pygame.MOUSEWHEEL:
+            self._wheel(event.y)
+            return
+        place = self._screen.to_backglass(event)
+        hit = self._list_view.at(place) if menus.is_open and place is not None else None
+        if event.type == pygame.MOUSEMOTION:
+            has_moved = event.rel != (0, 0)  # otherwise a page has opened under a pointer at rest
+            if has_moved and hit is not None and not self.shows_help and menus.point(hit.row):
+                self._sounds.play_menu("move")
+        elif self.shows_help and event.button == LEFT_BUTTON:
+            self._turn_help()
+        elif self.shows_help and event.button == RIGHT_BUTTON:
+            self._press("mouse", Action.HELP)
+        elif event.button == RIGHT_BUTTON and menus.is_open:
+            self._press("mouse", Action.BACK)
+        elif event.button == LEFT_BUTTON and hit is not None:
+            self._program.click_menu(hit.row, hit.step)
+            self._sounds.play_menu("choose")
+        elif event.button == LEFT_BUTTON and menus.page == "attract":
+            self._press("mouse", Action.BACK)
+
+    def _wheel(self, steps: int) -> None:
+        """Turn the pages of the help, or move through the list that is shown."""
+        if self.shows_help and steps:
+            self._turn_help()
+        elif self._list_view.is_shown:
+            button = Button.LEFT if steps > 0 else Button.RIGHT
+            for _ in range(abs(steps)):
+                self._program.press_menu(button)
+                self._program.menus.release(button)
 
     def _gamepad_button(self, button: PadButton) -> None:
         action = self.controls.action_of_button(button.name, button.kind)
@@ -194,6 +245,8 @@ class InputHandler:
         elif action is Action.MUTE:
             program.settings.change(muted=not program.settings.current.muted)
             self._messages.show("sounds are off" if program.settings.current.muted else "sounds are on")
+        elif action is Action.CREATE and program.charges_plunger and not self.shows_help:
+            self.buttons.press(source, Action.LAUNCH)
         elif action in HELD:
             self.buttons.press(source, action)
             if program.is_playing and not self.shows_help:

@@ -105,13 +105,15 @@ class Keyboard:
     def labels(self, names: Iterable[str]) -> dict[str, str]:
         """Return the labels of the keys that some names mean, where they differ from the names.
 
-        A label that the fonts lack is replaced by that of a US keyboard, which such keyboards show as well,
-        unless another key has it.
+        A label that the fonts lack, or that keys of several names have, is replaced by that of a US keyboard,
+        which such keyboards show as well, unless another key has it.
         """
         labels = {}
-        for scancode, name in self._names_by_scancode(set(names)).items():
+        names_by_scancode = self._names_by_scancode(set(names))
+        for scancode, name in names_by_scancode.items():
             label = self._labels.get(scancode, name)
-            if not can_show(label):
+            same = {other for key, other in names_by_scancode.items() if self._labels.get(key) == label}
+            if len(same) > 1 or not can_show(label):
                 us_label = US_LABELS.get(scancode, name)
                 label = name if us_label in self._labels.values() else us_label
             if name not in (label, "space"):
@@ -129,8 +131,9 @@ class Keyboard:
                     break
                 scancode = US_SCANCODES.get(self._labels.get(scancode, ""), 0)
             if scancode and scancode not in found:
-                us_label = self._labels.get(scancode)
-                found |= {other: name for other in self._labels if self._labels[other] == us_label}
+                same = [other for other, label in self._labels.items() if label == self._labels.get(scancode)]
+                # Of several keys with one label, those whose place is another name's own are left to it.
+                found |= {other: name for other in same if US_LABELS.get(other, name) not in names - {name}}
                 found[scancode] = name
         return found
 

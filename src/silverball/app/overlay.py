@@ -1,19 +1,21 @@
-"""Text on top of the table: short messages, and the help pages with all keys and the scoring rules.
+"""Text on top of the table: short messages, and the help pages with the scoring rules and all keys.
 
-Every panel is composed once per size and then only blitted.
+Every panel is composed once per size and then only blitted. Beside a table with a backglass the help is shown
+there instead.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from typing import NamedTuple
 
 import pygame
 
 from silverball.app.bindings import ACTIONS, upper_label
 from silverball.app.controls import Action, Controls
 from silverball.app.scoring import Rule
-from silverball.app.widgets import column, in_columns, key_cap, panel, plate, row
+from silverball.app.widgets import column, in_columns, key_cap, panel, plate, row, side_by_side
 from silverball.drawing import themes
 from silverball.drawing.text import line, wrapped
 from silverball.plain import plain
@@ -24,6 +26,9 @@ MIN_MESSAGE_SIZE = 8  # [pixel]; a longer message outgrows its area instead of s
 MIN_HELP_SIZE = 7  # [pixel]; a larger help is scaled down as an image
 HELP_SHARE = 0.94  # share of the table's area that the help may cover
 HELP_PAGES = 2
+KEYS_SHAPE, MAX_KEY_COLUMNS = 0.9, 3  # width by height of a column of keys, and how many there are at most
+WIDE_SHAPE = 1.3  # width by height from which on the rules are in two columns
+SCORING_PAGE = 0  # how to score; the other page lists the keys
 DIM = (0, 0, 0, 120)  # over the table behind the help
 
 
@@ -39,24 +44,52 @@ def draw_message(target: pygame.Surface, apron: pygame.Rect, scale: float, text:
     target.blit(image, image.get_rect(midbottom=(target.get_width() // 2, target.get_height())))
 
 
-def draw_help(
-    target: pygame.Surface, scale: float, seed: int, controls: Controls, page: int, rules: Sequence[Rule]
-) -> None:
-    """Draw all keys and the seed; or, on the second page, how to score."""
-    _dim(target)
+class Help(NamedTuple):
+    """What the help says.
+
+    Attributes:
+        page: The visible page.
+        seed: The seed of the board.
+        controls: The current keys.
+        rules: How to score.
+    """
+
+    page: int
+    seed: int
+    controls: Controls
+    rules: Sequence[Rule]
+
+
+def draw_help(target: pygame.Surface, scale: float, help_: Help) -> None:
+    """Draw a page of the help over a darkened table."""
+    dim(target)
     available = (round(HELP_SHARE * target.get_width()), round(HELP_SHARE * target.get_height()))
-    size = text_size(scale)
+    _place(target, help_image(help_, text_size(scale), available), 0.5)
+
+
+def help_image(
+    help_: Help, size: int, available: tuple[int, int], *, has_frame: bool = True
+) -> pygame.Surface:
+    """Return a page of the help: how to score, or all keys and the seed.
+
+    Args:
+        help_: What it says.
+        size: Size of the text [pixel], which is smaller where that would not fit.
+        available: Width and height that it may have [pixel].
+        has_frame: Whether it is a panel of its own.
+    """
+    controls, padding = help_.controls, size if has_frame else 0
     turn_key, leave_key = _first_key(controls, Action.CREATE), _first_key(controls, Action.HELP)
-    if page:
-        _place(target, _rules(size, available, tuple(rules), _foot(turn_key, "keys", leave_key)), 0.5)
-        return
+    if help_.page == SCORING_PAGE:
+        return _rules(size, available, tuple(help_.rules), _foot(turn_key, "keys", leave_key), padding)
     keys = []
     for binding in ACTIONS:
         names = controls.key_labels(Action(binding.action))
         names = ("escape", *names) if binding.action == "back" else names
         if names:
             keys.append((binding.label.lower(), tuple(map(_cap_label, names))))
-    _place(target, _help(size, available, seed, tuple(keys), _foot(turn_key, "how to score", leave_key)), 0.5)
+    foot = _foot(turn_key, "how to score", leave_key)
+    return _keys(size, available, (help_.seed, tuple(keys)), foot, padding)
 
 
 def _first_key(controls: Controls, action: Action) -> str:
@@ -91,13 +124,15 @@ def _message(text: str, size: int, width: int, height: int) -> pygame.Surface:
 
 
 @lru_cache(maxsize=4)
-def _help(
+def _keys(
     size: int,
     available: tuple[int, int],
-    seed: int,
-    keys: tuple[tuple[str, tuple[str, ...]], ...],
+    seed_and_keys: tuple[int, tuple[tuple[str, tuple[str, ...]], ...]],
     foot: str,
+    padding: int,
 ) -> pygame.Surface:
+    seed, keys = seed_and_keys
+
     def build(size: int) -> pygame.Surface:
         gap = size // 2
         rows = [
@@ -105,18 +140,24 @@ def _help(
             for label, names in keys
         ]
         title = line("KEYS", round(1.2 * size), themes.SCORE)
-        listed = column(in_columns(rows, gap), gap // 2, centered=False)
+        count = min(max(round(available[0] / (KEYS_SHAPE * available[1])), 1), MAX_KEY_COLUMNS)
+        length = -(-len(rows) // count)
+        columns = [in_columns(rows[first : first + length], gap) for first in range(0, len(rows), length)]
+        listed = side_by_side([column(lines, gap // 2, centered=False) for lines in columns], 3 * gap)
         ends = (f"seed {seed}", *wrapped(foot, size, max(listed.get_width(), available[0] - 2 * size)))
         lines = [line(text, size, themes.FAINT_TEXT) for text in ends]
-        return panel(column([title, listed, *lines], gap), size)
+        return _framed(column([title, listed, *lines], gap), size, padding)
 
     return _fitting(build, size, available)
 
 
 @lru_cache(maxsize=4)
-def _rules(size: int, available: tuple[int, int], rules: tuple[Rule, ...], foot: str) -> pygame.Surface:
+def _rules(
+    size: int, available: tuple[int, int], rules: tuple[Rule, ...], foot: str, padding: int
+) -> pygame.Surface:
     def build(size: int) -> pygame.Surface:
-        gap, width = size // 2, min(available[0] - 2 * size, 34 * size)
+        gap, count = size // 2, 1 + (available[0] > WIDE_SHAPE * available[1])
+        width = min((available[0] - 2 * size) // count, 34 * size)
         blocks = [
             column(
                 [
@@ -130,9 +171,23 @@ def _rules(size: int, available: tuple[int, int], rules: tuple[Rule, ...], foot:
         ]
         title = line("HOW TO SCORE", round(1.2 * size), themes.SCORE)
         ends = [line(text, size, themes.FAINT_TEXT) for text in wrapped(foot, size, width)]
-        return panel(column([title, column(blocks, gap, centered=False), *ends], gap), size)
+        body = side_by_side(
+            _in_halves(blocks, gap) if count > 1 else [column(blocks, gap, centered=False)], size
+        )
+        return _framed(column([title, body, *ends], gap), size, padding)
 
     return _fitting(build, size, available)
+
+
+def _in_halves(blocks: Sequence[pygame.Surface], gap: int) -> list[pygame.Surface]:
+    """Place blocks in two columns of about the same height."""
+    heights = [block.get_height() + gap for block in blocks]
+    cut = min(range(1, len(blocks) + 1), key=lambda end: abs(2 * sum(heights[:end]) - sum(heights)))
+    return [column(part, gap, centered=False) for part in (blocks[:cut], blocks[cut:]) if part]
+
+
+def _framed(content: pygame.Surface, size: int, padding: int) -> pygame.Surface:
+    return panel(content, size) if padding else content
 
 
 def _fitting(build: Callable[[int], pygame.Surface], size: int, available: tuple[int, int]) -> pygame.Surface:
@@ -148,7 +203,8 @@ def _fitting(build: Callable[[int], pygame.Surface], size: int, available: tuple
     return pygame.transform.smoothscale(image, (width, height))
 
 
-def _dim(target: pygame.Surface) -> None:
+def dim(target: pygame.Surface) -> None:
+    """Darken what is behind the help."""
     target.blit(_veil(target.get_size()), (0, 0))
 
 

@@ -1,4 +1,4 @@
-"""The table in a window of any size: whole, centred, and drawn in every frame.
+"""The table in a window of any size: whole, and drawn in every frame.
 
 The renderer shows a sketch immediately and refines it in the background. While the window is being resized
 the last picture is stretched; a new renderer is made once the size has settled.
@@ -12,19 +12,19 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import pygame
 
+from silverball.app.arrangement import Arrangement, arranged
 from silverball.app.settings import Settings
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.sketch import rgb_surface
-from silverball.drawing.themes import ROOM
-from silverball.table import Board, Table
+from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.dotmatrix.canvas import Dots
+    from silverball.game.view import GameEvent
     from silverball.world import Event
 
 SETTLE_TIME = 0.25  # [s] without a change of size
 MAX_DRAWN = 2880  # [pixel] of height; larger pictures are stretched, since they would take a gigabyte
-MAX_HEIGHT = 4320  # [pixel] of a table
 
 
 class _Shown(NamedTuple):
@@ -41,15 +41,24 @@ class Picture:
 
     Args:
         window_size: Width and height of the window [pixel].
+        second_size: The same of the backglass on a screen of its own; None without one.
+
+    Attributes:
+        arrangement: Where table and backglass are in the window.
     """
 
-    def __init__(self, window_size: tuple[int, int]) -> None:
-        self._window_size = window_size
+    def __init__(self, window_size: tuple[int, int], second_size: tuple[int, int] | None = None) -> None:
+        self._window_size, self._second_size = window_size, second_size
         self._resized: float | None = None  # time of the last change of size
         self._shown: _Shown | None = None
         self._renderer: Renderer | None = None
         self._stretched: pygame.Surface | None = None
-        self.area = pygame.Rect((0, 0), window_size)
+        self.arrangement = Arrangement(pygame.Rect((0, 0), window_size))
+
+    @property
+    def area(self) -> pygame.Rect:
+        """The part of the window that the table fills."""
+        return self.arrangement.table
 
     @property
     def renderer(self) -> Renderer:
@@ -76,20 +85,25 @@ class Picture:
     @property
     def is_sharp(self) -> bool:
         """Whether the table is drawn in full quality at its current size."""
-        return self.renderer.is_sharp and self.renderer.camera.size == self._drawn_size
+        return self.renderer.is_sharp and not self._is_outdated
 
     def show(self, table: Table, board_seed: int | None, settings: Settings) -> None:
         """Select the table, its seed and the settings that `draw` uses."""
         shown = _Shown(table, board_seed, settings.theme, settings.effects)
         if shown != self._shown:
             self._shown = shown
-            self.area = fitted(table.board, self._window_size)
+            self.arrangement = arranged(table.board, self._window_size, self._second_size)
             self._renew()
 
     def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
         """Pass the events since the last frame on to the renderer."""
         if self._renderer is not None:
             self._renderer.add_events(events, tick_rate)
+
+    def add_game_events(self, events: Iterable[GameEvent], tick_rate: int) -> None:
+        """Pass the events of the game since the last frame on to the renderer."""
+        if self._renderer is not None:
+            self._renderer.add_game_events(events, tick_rate)
 
     def reset(self) -> None:
         """Reset the effects, because another session begins."""
@@ -98,9 +112,7 @@ class Picture:
 
     def draw(self, moment: Moment, window: pygame.Surface, dots: Dots | None = None) -> pygame.Surface:
         """Draw a moment into a window of any size; return the part of it that the table fills."""
-        self._fit(window.get_size())
-        if window.get_size() != self.area.size:
-            window.fill(ROOM)
+        self.fit(window.get_size(), self._second_size)
         target = window.subsurface(self.area)
         size = self.renderer.camera.size
         if size == self.area.size:
@@ -117,22 +129,33 @@ class Picture:
         if self._renderer is not None:
             self._renderer.close()
 
-    def _fit(self, window_size: tuple[int, int]) -> None:
+    def fit(self, window_size: tuple[int, int], second_size: tuple[int, int] | None = None) -> None:
+        """Arrange the parts of windows of other sizes; the renderer follows once the sizes have settled."""
         now = time.monotonic()
-        if window_size != self._window_size:
-            self._window_size, self._resized = window_size, now
-            self.area = fitted(self.renderer.table.board, window_size)
+        if (window_size, second_size) != (self._window_size, self._second_size):
+            self._window_size, self._second_size, self._resized = window_size, second_size, now
+            self.arrangement = arranged(self.renderer.table.board, window_size, second_size)
         elif self._resized is not None and now - self._resized >= SETTLE_TIME:
             self._resized = None
-            if self._drawn_size != self.renderer.camera.size:
+            if self._is_outdated:
                 self._renew()
+
+    @property
+    def _has_panel(self) -> bool:
+        return self.arrangement.backglass is None
+
+    @property
+    def _is_outdated(self) -> bool:
+        """Whether the renderer is one for another arrangement."""
+        camera = self.renderer.camera
+        return camera.size != self._drawn_size or camera.has_panel != self._has_panel
 
     @property
     def _drawn_size(self) -> tuple[int, int]:
         """The size of the picture before stretching."""
         if self.area.height <= MAX_DRAWN or self._shown is None:
             return self.area.size
-        return best_size(self._shown.table.board, MAX_DRAWN)
+        return best_size(self._shown.table.board, MAX_DRAWN, has_panel=self._has_panel)
 
     def _renew(self) -> None:
         assert self._shown is not None
@@ -140,7 +163,13 @@ class Picture:
         before, self._renderer = (
             self._renderer,
             Renderer(
-                table, self._drawn_size, theme=theme, effects=effects, board_seed=board_seed, background=True
+                table,
+                self._drawn_size,
+                theme=theme,
+                effects=effects,
+                board_seed=board_seed,
+                background=True,
+                has_panel=self._has_panel,
             ),
         )
         if before is not None:
@@ -158,14 +187,3 @@ class Picture:
             round(box.width * scale_x),
             round(box.height * scale_y),
         )
-
-
-def fitted(board: Board, window_size: tuple[int, int]) -> pygame.Rect:
-    """Return the largest area in the middle of a window into which the whole table fits."""
-    window_width, window_height = window_size
-    width, height = best_size(board, min(max(window_height, 2), MAX_HEIGHT))
-    if width > window_width:
-        height = max(2, height * window_width // width)
-        width = best_size(board, height)[0]
-    width, height = min(width, window_width), min(height, window_height)  # in windows of a few pixels
-    return pygame.Rect((window_width - width) // 2, (window_height - height) // 2, width, height)

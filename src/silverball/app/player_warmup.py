@@ -15,15 +15,17 @@ import threading
 import warnings
 from typing import TYPE_CHECKING
 
-from silverball.app.demo_players import DEMO_PLAYERS, FALLBACK_PLAYER, DemoPlayer, demo_players
+from silverball.app.demo_players import DEMO_PLAYERS, FALLBACK_PLAYER, DemoPlayer, demo_players, introduce
+from silverball.app.startup import TABLES, warm_up
 from silverball.background_process import Compiler
+from silverball.background_thread import BackgroundThread
 
 if TYPE_CHECKING:
     from silverball.table import Table
 
 START_DELAY = 2.0  # [s], since loading would delay the first frames of a game by about 0.15 s
 NICENESS = 10  # lower priority than the game and the drawing
-COMPILE_TIMEOUT = 1800.0  # [s]; compiling takes 17 s on an idle processor
+COMPILE_TIMEOUT = 1800.0  # [s]; compiling takes 35 s on an idle processor
 
 
 class PlayerWarmup:
@@ -37,7 +39,7 @@ class PlayerWarmup:
         self._table = table
         self._ready = {FALLBACK_PLAYER.name}
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._work, name="silverball player warm-up", daemon=True)
+        self._thread = BackgroundThread(self._work, "player warm-up", self._stop)
         self._thread.start()
 
     def is_ready(self, name: str) -> bool:
@@ -78,10 +80,10 @@ class PlayerWarmup:
 
 
 def is_compiled_on_disk(demo_player: DemoPlayer) -> bool:
-    """Return whether all compiled code of a player is on disk."""
+    """Return whether all compiled code of a player is on disk, whatever table it plays on."""
     from silverball.physics.kernel import is_compiled
 
-    return not demo_player.kernel or is_compiled(demo_player.kernel)
+    return not demo_player.kernel or all(is_compiled(demo_player.kernel, layout=one) for one in TABLES)
 
 
 def warm_up_player(demo_player: DemoPlayer, table: Table) -> None:
@@ -92,16 +94,20 @@ def warm_up_player(demo_player: DemoPlayer, table: Table) -> None:
     game = Game(table, 0)
     game.create_ball()
     game.step(False, False, 1)
-    make_player(demo_player.name).press(game.world)
+    player = make_player(demo_player.name)
+    introduce(player, game)
+    player.press(game.world)
 
 
 def compile_all() -> None:
-    """Compile all players that are not on disk."""
+    """Compile what is not on disk of all players, and of games on tables with either record."""
     from silverball.table import load_table
 
-    for demo_player in DEMO_PLAYERS:
-        if not is_compiled_on_disk(demo_player):
-            warm_up_player(demo_player, load_table("classic"))
+    for table in map(load_table, TABLES.values()):
+        warm_up(table)
+        for demo_player in DEMO_PLAYERS:
+            if demo_player.kernel:
+                warm_up_player(demo_player, table)
 
 
 _compiler = Compiler("silverball.app.player_warmup")

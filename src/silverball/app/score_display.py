@@ -1,19 +1,26 @@
 """The score display during a game: the score, the ball, and recent events.
 
-Most events are shown beside the score. A few animations fill the display, but never for longer than
-`MAX_HIDDEN_TIME`; then the score must be visible again before anything else may hide it. Time comes only from
-`frame`, so the same events at the same times draw the same dots.
+`frame` draws the display above a board. Most events are shown beside the score. A few animations fill the
+display, but never for longer than `MAX_HIDDEN_TIME`; then the score must be visible again before anything
+else may hide it. `wide_frame` draws the large display of a backglass in two halves: the upper one always
+shows the score, the lower one whatever has the highest rank.
+
+Time comes only from these two, so the same events at the same times draw the same dots.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
+import numpy as np
+
+from silverball.app.announcements import HIGH_SCORE, NO_WORDS, Announcements, Rank, TableWords, bonus
 from silverball.drawing.dotmatrix import animations
-from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots
-from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, TINY, fitting
+from silverball.drawing.dotmatrix.canvas import FULL, HEIGHT, WIDTH, Dots, Levels
+from silverball.drawing.dotmatrix.fonts import BOLD, HUGE, NORMAL, TINY, fitting
 from silverball.game.view import GameEvent, GameEventKind, GameView, Mode, Phase
+from silverball.plain import plain
 
 MAX_HIDDEN_TIME = 0.85  # [s] without the score
 MIN_VISIBLE_TIME = 0.6  # [s] with the score before it may be hidden again
@@ -22,36 +29,30 @@ POINTS_TIME = 0.7  # [s] for which the points of a hit are shown
 MESSAGE_TIME = 2.5  # [s]
 SCROLL_SPEED = 45.0  # [dot/s] of long messages
 MAX_MESSAGES = 4  # in the queue; late messages are useless
-MAX_DELAY = 3.5  # [s] an announcement may wait before it is dropped
-MIN_COMBO_SHOWN = 3  # hits in a row that are announced
 COMBO_FULL = 8  # hits in a row that fill the meters
 
 STATUS_Y = 24  # [dot] top of the status line
 HALF = 130  # brightness of secondary text
+SCORE_ROWS = 23  # [dot] height of the upper half of the wide display
+WIDE_ROWS = SCORE_ROWS + HEIGHT  # [dot] height of the wide display
+HURRY = 5.5  # [s] before the end of a mode, in which its time blinks
+RULE = 60  # brightness of the line between its halves
 
-Scene = Callable[[Dots, float], None]
 
+class _Mission(NamedTuple):
+    """A mission that runs, and the time that it has left [s]."""
 
-class Announcement(NamedTuple):
-    """An event to announce.
-
-    Attributes:
-        name: Identifier; a new announcement replaces a queued one with the same name.
-        rank: Higher ranks go first.
-        text: Written above the score.
-        length: Total duration [s].
-        full: Animation that fills the display at first, for `full_time`; None if there is none.
-        full_time: Duration of that animation [s].
-        draw_text: Draws the moving text.
-    """
-
+    left: float
     name: str
-    rank: int
-    text: str
-    length: float
-    full: Scene | None = None
-    full_time: float = 0.0
-    draw_text: Callable[[Dots, float, str, int], None] = animations.growing_text
+
+    @property
+    def clock(self) -> int:
+        """The seconds on its clock."""
+        return int(self.left) + 1
+
+    def is_lit(self, seconds: float) -> bool:
+        """Whether its clock is bright now: it blinks at the end."""
+        return self.left > HURRY or seconds % 0.5 < 0.3
 
 
 class ScoreDisplay:
@@ -61,15 +62,19 @@ class ScoreDisplay:
         start_key: Label of the key that creates a ball.
         player_label: Name of the player of a demo, written beside the balls.
         is_calm: Whether full-display animations are off, for sensitive eyes.
+        note: What stands in the lowest line while nothing happens: a rival's score, or who is up.
+
+    Args:
+        words: What the messages of the table's rules are about.
     """
 
-    def __init__(self, start_key: str = "SPACE", is_calm: bool = False) -> None:
+    def __init__(self, start_key: str = "SPACE", is_calm: bool = False, words: TableWords = NO_WORDS) -> None:
         self.start_key = start_key
         self.player_label = ""
         self.is_calm = is_calm
-        self._queue: list[tuple[Announcement, float | None]] = []  # each with the time when it was queued
-        self._current: Announcement | None = None
-        self._began = 0.0
+        self.note = ""
+        self._words = words
+        self._announcements = Announcements(words)
         self._messages = _Messages()
         self._points = 0  # of the last hit; shown from the next frame on
         self._points_began: float | None = None
@@ -80,18 +85,23 @@ class ScoreDisplay:
         self._phase_since = (Phase.READY, 0.0)
         self._beats_high_score = False
         self._best = 0
+        self._mission: _Mission | None = None  # on the display above a board
 
     def add_events(self, events: Iterable[GameEvent]) -> None:
         """Add events of the game, shown from the next frame on."""
         for event in events:
             if event.kind is GameEventKind.SCORED and event.value:
                 self._points, self._points_began = event.value, None
-            elif event.kind is GameEventKind.UNSTUCK:
+            if event.kind is GameEventKind.UNSTUCK:
                 self.show_message("STUCK BALL SHOVED")
+            elif event.kind is GameEventKind.PLAYER_UP:
+                self.show_message(f"PLAYER {event.value}", replace=True)
             else:
-                announcement = _announcement_of(event)
-                if announcement is not None:
-                    self._enqueue(announcement)
+                self._announcements.add_event(event)
+
+    def count_bonus(self, points: int) -> None:
+        """Count out the bonus at the end of a ball."""
+        self._announcements.add(bonus(points))
 
     def show_message(self, text: str, *, replace: bool = False) -> None:
         """Show a short message below the score, in capitals; a long one scrolls.
@@ -104,35 +114,97 @@ class ScoreDisplay:
             self._messages = _Messages()
         self._messages.add(text.upper())
 
-    def frame(self, view: GameView, seconds: float, high_score: int = 0) -> Dots:
+    @property
+    def is_telling(self) -> bool:
+        """Whether a message below the score is shown, or waits."""
+        return self._messages.are_left
+
+    def frame(
+        self,
+        view: GameView,
+        seconds: float,
+        high_score: int = 0,
+        modes: Mapping[str, float | None] | None = None,
+    ) -> Dots:
         """Draw a frame.
 
         Args:
             view: The state of the game.
             seconds: Time of a monotonic clock [s].
             high_score: The best score so far; 0 if there is none.
+            modes: The modes that run, and how long they still do [s]; the missions among them are shown.
 
         Returns:
             A new picture.
         """
+        self._advance(view, seconds, high_score)
+        message = self._messages.at(seconds)
+        self._mission = next(iter(self._timed_missions(modes)), None)
+        dots = self._picture(view, seconds, message is not None)
+        self._draw_message(dots, message, seconds)
+        return dots
+
+    def wide_frame(
+        self,
+        view: GameView,
+        seconds: float,
+        high_score: int = 0,
+        modes: Mapping[str, float | None] | None = None,
+    ) -> Levels:
+        """Draw a frame of the wide display: the score, and below it what has the highest rank.
+
+        Args:
+            view: The state of the game.
+            seconds: Time of a monotonic clock [s].
+            high_score: The best score so far; 0 if there is none.
+            modes: The modes that run, and how long they still do [s]; the missions among them are shown.
+
+        Returns:
+            Brightness of `WIDE_ROWS` rows of dots.
+        """
+        self._advance(view, seconds, high_score)
+        message = self._messages.at(seconds)
+        below = self._news(view, seconds, self._timed_missions(modes), message is not None)
+        self._draw_message(below, message, seconds)
+        return stacked(self._displayed_score(seconds), below)
+
+    def _timed_missions(self, modes: Mapping[str, float | None] | None) -> list[_Mission]:
+        """The missions that run and end by themselves, the one that ends first at the beginning."""
+        return sorted(
+            _Mission(left, name)
+            for name, left in (modes or {}).items()
+            if name in self._words.missions and left is not None
+        )
+
+    def _advance(self, view: GameView, seconds: float, high_score: int) -> None:
+        """Bring what is shown up to date."""
         self._start_counting(view.score, seconds)
         self._best = high_score
         if view.phase is not self._phase_since[0]:
             self._phase_since = (view.phase, seconds)
         if 0 < high_score < view.score and not self._beats_high_score and view.phase is not Phase.OVER:
             self._beats_high_score = True
-            self._enqueue(_HIGH_SCORE)
+            self._announcements.add(HIGH_SCORE)
         if not view.tilted:
             self._tilted_since = None
         elif self._tilted_since is None:
-            self._tilted_since, self._current, self._queue = seconds, None, []
-        self._advance(seconds)
-        message = self._messages.at(seconds)
-        dots = self._picture(view, seconds, message is not None)
-        if message is not None:
-            dots.box(0, STATUS_Y - 1, WIDTH, HEIGHT - STATUS_Y + 1, 0)
-            dots.text(message[0], message[1], STATUS_Y, NORMAL)
-        return dots
+            self._tilted_since = seconds
+            self._announcements.clear()
+        if self._points_began is None and self._points:
+            self._points_began = seconds
+        self._announcements.advance(seconds)
+
+    def _draw_message(self, dots: Dots, message: tuple[str, int] | None, seconds: float) -> None:
+        """Draw a message in the lowest line, left of the clock of a mission."""
+        if message is None:
+            return
+        text, x = message
+        dots.box(0, STATUS_Y - 1, WIDTH, HEIGHT - STATUS_Y + 1, 0)
+        end = WIDTH
+        if self._mission is not None:
+            end -= self._draw_time(dots, self._mission, WIDTH, seconds) + 4
+            x = min(x, max((end - NORMAL.width(text)) // 2, 0))
+        dots.text(text, x, STATUS_Y, NORMAL, window=(0, end))
 
     def _picture(self, view: GameView, seconds: float, has_message: bool) -> Dots:
         """Draw a full-display animation if one is due, otherwise the score and the announcements."""
@@ -144,17 +216,17 @@ class ScoreDisplay:
         if self._hidden_since is not None:
             self._hidden_since, self._seen_since = None, seconds
         headline, is_lit = self._headline(view, seconds)
-        if not headline:
+        if not headline or self._is_minor:
             self._draw_play(dots, view, seconds)
         elif has_message:
             # Three lines, with the message in the lowest.
             dots.text(headline, WIDTH // 2, 0, NORMAL, "center", FULL if is_lit else HALF)
             self._draw_score(dots, 10, seconds)
-        elif self._current is not None:
-            at = seconds - self._began
-            if self._current is _HIGH_SCORE:
+        elif self._announcements.current is not None:
+            at = seconds - self._announcements.began
+            if self._announcements.current is HIGH_SCORE:
                 animations.fireworks(dots, at % 2.4, bottom=16)
-            self._current.draw_text(dots, at, headline, 2)
+            self._announcements.current.draw_text(dots, at, headline, 2)
             self._draw_score(dots, 19, seconds)
         elif view.tilted:
             dots.text(headline, WIDTH // 2, 2, BOLD, "center", FULL if is_lit else HALF)
@@ -166,10 +238,71 @@ class ScoreDisplay:
             dots.number(self._displayed_score(seconds), WIDTH // 2, 10)
         return dots
 
+    @property
+    def _is_minor(self) -> bool:
+        """Whether the announcement is written beside the clock of a mission, which is worth more."""
+        current = self._announcements.current
+        return current is not None and self._mission is not None and current.rank < Rank.MISSION
+
+    def _news(self, view: GameView, seconds: float, timed: list[_Mission], has_message: bool) -> Dots:
+        """Draw the lower half of the wide display: the announcement of the highest rank, or how it stands."""
+        dots = Dots()
+        scene, current = self._scene(seconds), self._announcements.current
+        if current is not None and timed and current.rank < Rank.MISSION:
+            self._draw_mission(dots, timed[0], seconds)
+            dots.text(current.text, 2, STATUS_Y, NORMAL)
+        elif scene is not None:
+            scene(dots)
+        elif current is not None:
+            at = seconds - self._announcements.began
+            if current is HIGH_SCORE:
+                animations.fireworks(dots, at % 2.4)
+            current.draw_text(dots, at, current.text, 3 if current.detail or has_message else 10)
+            if current.detail and not has_message:
+                dots.text(current.detail, WIDTH // 2, 18, BOLD, "center")
+        elif view.tilted or view.phase is not Phase.PLAY:
+            headline, is_lit = self._headline(view, seconds)
+            font = fitting(headline, WIDTH)
+            dots.text(headline, WIDTH // 2, 4, font, "center", FULL if is_lit else HALF // 2)
+            dots.text(self._foot(view, seconds), WIDTH // 2, STATUS_Y, NORMAL, "center", HALF)
+        else:
+            text, light = self._middle(view, seconds)
+            if timed:
+                self._draw_mission(dots, timed[0], seconds)
+                dots.text(text, 2, STATUS_Y, NORMAL, "left", light)
+            else:
+                self._draw_standing(dots, view, seconds)
+        return dots
+
+    def _draw_mission(self, dots: Dots, mission: _Mission, seconds: float) -> None:
+        """Draw a mission and the time that it has left."""
+        text = plain(mission.name).upper()
+        font = fitting(text, WIDTH - 44)
+        dots.text(text, 2, 4 + (11 - font.height) // 2, font, window=(0, WIDTH - 42))
+        light = FULL if mission.is_lit(seconds) else HALF
+        dots.number(mission.clock, WIDTH - 2, 1, 40, (HUGE, BOLD), "right", light)
+
+    def _draw_standing(self, dots: Dots, view: GameView, seconds: float) -> None:
+        """Draw combos and points."""
+        text, light = self._middle(view, seconds)
+        _draw_combo_meters(dots, view.combo, seconds)
+        if text:
+            dots.text(text, WIDTH // 2, 10, fitting(text, WIDTH), "center", light)
+        elif self.player_label:
+            dots.text(self.player_label, WIDTH // 2, 12, NORMAL, "center", HALF)
+
+    def _foot(self, view: GameView, seconds: float) -> str:
+        """Return the line below a headline while no ball is in play."""
+        if self._best and (seconds - self._phase_since[1]) % 4.0 >= 2.0:
+            return f"BEST {self._best:,}"
+        if view.phase is Phase.OVER:
+            return ""
+        return f"BALL {view.ball} OF {view.balls}" if view.balls else "FREE PLAY"
+
     def _headline(self, view: GameView, seconds: float) -> tuple[str, bool]:
         """Return the text above the score, and whether it is bright; empty during normal play."""
-        if self._current is not None:
-            return self._current.text, True
+        if self._announcements.current is not None:
+            return self._announcements.current.text, True
         if view.tilted:
             return "TILT", seconds % 0.5 < 0.25
         if view.phase is Phase.READY:
@@ -188,14 +321,14 @@ class ScoreDisplay:
             at = seconds - self._tilted_since
             period = MAX_HIDDEN_TIME + MIN_VISIBLE_TIME
             return (lambda dots: animations.tilt(dots, at)) if at % period < MAX_HIDDEN_TIME else None
-        announcement = self._current
+        announcement = self._announcements.current
         if (
             announcement is None
             or announcement.full is None
-            or seconds - self._began >= announcement.full_time
+            or seconds - self._announcements.began >= announcement.full_time
         ):
             return None
-        full, since = announcement.full, seconds - self._began
+        full, since = announcement.full, seconds - self._announcements.began
         return lambda dots: full(dots, since)
 
     def _may_hide(self, seconds: float) -> bool:
@@ -213,14 +346,38 @@ class ScoreDisplay:
         _draw_balls(dots, view)
         if self.player_label:
             dots.text(self.player_label, 7 * view.max_balls + 4, STATUS_Y, NORMAL, brightness=HALF)
+        right = WIDTH
         if view.multiplier > 1:
             text = f"×{view.multiplier}"
             width = NORMAL.width(text) + 4
             is_lit = seconds % 0.6 < 0.4
             dots.box(WIDTH - width, STATUS_Y - 1, width, 8, FULL if is_lit else 0)
             dots.text(text, WIDTH - 2, STATUS_Y, NORMAL, "right", 0 if is_lit else FULL)
+            right -= width + 3
         middle, light = self._middle(view, seconds)
-        dots.text(middle, WIDTH // 2 + 4, STATUS_Y, NORMAL, "center", light)
+        if self._mission is None:
+            dots.text(middle, WIDTH // 2 + 4, STATUS_Y, NORMAL, "center", light)
+        else:
+            self._draw_clock(dots, self._mission, right, middle, light, seconds)
+
+    def _draw_time(self, dots: Dots, mission: _Mission, right: int, seconds: float) -> int:
+        """Draw the time that a mission has left, which ends at a column; return its width."""
+        light = FULL if mission.is_lit(seconds) else HALF // 2
+        return dots.text(str(mission.clock), right, STATUS_Y, NORMAL, "right", light)
+
+    def _draw_clock(
+        self, dots: Dots, mission: _Mission, right: int, text: str, light: int, seconds: float
+    ) -> None:
+        """Draw the time that a mission has left, and beside it a text or else its name."""
+        width = self._draw_time(dots, mission, right, seconds)
+        current = self._announcements.current
+        if current is not None:
+            text, light = current.text, FULL
+        elif not text:
+            text, light = plain(mission.name).upper(), HALF
+        left, end = NORMAL.width("BALL 0/0") + 4, right - width - 4
+        x = max(end - NORMAL.width(text), left)
+        dots.text(text, x, STATUS_Y, NORMAL, "left", light, window=(left, end))
 
     def _middle(self, view: GameView, seconds: float) -> tuple[str, int]:
         """Return the text in the middle of the lowest line, and its brightness."""
@@ -230,13 +387,15 @@ class ScoreDisplay:
         if self._points_began is not None and seconds - self._points_began < POINTS_TIME:
             fraction = (seconds - self._points_began) / POINTS_TIME
             return f"+{self._points:,}", round(FULL * (1.0 - 0.7 * fraction))
-        if view.combo > 1:
+        if view.combo > 1 and not self.note:
             return f"COMBO {view.combo}", 200
-        return "", 0
+        return self.note, HALF
 
     def _draw_ready(self, dots: Dots, view: GameView, headline: str, seconds: float) -> None:
         dots.text(headline, WIDTH // 2, 4, fitting(headline, WIDTH), "center")
         text = f"BALL {view.ball} OF {view.balls}" if view.balls else "FREE PLAY"
+        if view.scores:
+            text = f"PLAYER {view.player}, BALL {view.ball}"
         if self._best and not view.score and (seconds - self._phase_since[1]) % 4.0 >= 2.0:
             text = f"BEST {self._best:,}"
         dots.text(text, 1, STATUS_Y, NORMAL, "left", HALF)
@@ -258,32 +417,14 @@ class ScoreDisplay:
         fraction = min(max((seconds - self._score_changed) / COUNT_TIME, 0.0), 1.0)
         return self._score_from + round(fraction * (self._score_to - self._score_from))
 
-    def _enqueue(self, announcement: Announcement) -> None:
-        self._queue = [entry for entry in self._queue if entry[0].name != announcement.name]
-        self._queue.append((announcement, None))
-        self._queue.sort(key=lambda entry: -entry[0].rank)  # stable: equal ranks stay in order
 
-    def _advance(self, seconds: float) -> None:
-        """End the current announcement if it is over, and begin the next or a more important one."""
-        if self._points_began is None and self._points:
-            self._points_began = seconds
-        if self._current is not None and seconds - self._began >= self._current.length:
-            self._current = None
-        self._queue = [
-            (announcement, seconds if since is None else since) for announcement, since in self._queue
-        ]
-        self._queue = [
-            (announcement, since)
-            for announcement, since in self._queue
-            if seconds - (since or 0.0) <= MAX_DELAY
-        ]
-        if not self._queue:
-            return
-        first = self._queue[0][0]
-        now = self._current
-        if now is None or first.rank > now.rank or first.name == now.name:
-            self._current, self._began = first, seconds
-            self._queue.pop(0)
+def stacked(score: int | None, below: Dots) -> Levels:
+    """Return the wide display with a score (None: no score) above other dots."""
+    above = Dots()
+    if score is not None:
+        above.number(score, WIDTH // 2, 1, WIDTH - 2)
+    above.box(0, SCORE_ROWS - 1, WIDTH, 1, RULE)
+    return np.concatenate((above.pixels[:SCORE_ROWS], below.pixels))
 
 
 class _Messages:
@@ -292,6 +433,11 @@ class _Messages:
     def __init__(self) -> None:
         self._texts: list[str] = []
         self._began: float | None = None
+
+    @property
+    def are_left(self) -> bool:
+        """Whether there is a message that is shown or waits."""
+        return bool(self._texts)
 
     def add(self, text: str) -> None:
         """Add a message unless it repeats the last one; a full queue drops its oldest waiting message."""
@@ -313,68 +459,6 @@ class _Messages:
             self._texts.pop(0)
             self._began = None
         return None
-
-
-def _combo_scene(value: int) -> Scene:
-    def scene(dots: Dots, at: float) -> None:
-        animations.ring(dots, at, speed=170.0)
-        animations.burst(dots, at)
-        dots.text(f"{value} HITS", WIDTH // 2, 5, BOLD, "center", scale=2)
-
-    return scene
-
-
-def _high_scene(dots: Dots, at: float) -> None:
-    animations.fireworks(dots, at + 0.3)
-    dots.box(14, 9, 132, 14, 0)
-    animations.growing_text(dots, at, "HIGH SCORE!", 11)
-
-
-MILESTONE_HITS = 5  # a combo of every so many hits is announced with an animation
-_HIGH_SCORE = Announcement("high", rank=6, text="HIGH SCORE!", length=3.2, full=_high_scene, full_time=0.8)
-_SAVED = Announcement(
-    "saved", rank=5, text="BALL SAVED", length=2.2, full=animations.saved_ball, full_time=0.85
-)
-_DOUBLE = Announcement(
-    "double", rank=3, text="DOUBLE POINTS", length=2.2, full=animations.two_balls, full_time=0.8
-)
-
-
-def _announcement_of(event: GameEvent) -> Announcement | None:
-    """Return how an event is announced; None if it is not."""
-    if event.kind is GameEventKind.COMBO and event.value >= MIN_COMBO_SHOWN:
-        is_milestone = event.value % MILESTONE_HITS == 0
-        scene = _combo_scene(event.value) if is_milestone else None
-        return Announcement(
-            "combo",
-            rank=2,
-            text=f"COMBO {event.value}",
-            length=1.2 if is_milestone else 0.8,
-            full=scene,
-            full_time=0.55,
-        )
-    if event.kind is GameEventKind.BALL_SAVED:
-        return _SAVED
-    if event.kind is GameEventKind.DOUBLE_ON:
-        return _DOUBLE
-    if event.kind is GameEventKind.WARNING:
-        return Announcement(
-            "warning",
-            rank=4,
-            text="WARNING" + "!" * min(event.value, 3),
-            length=1.2,
-            draw_text=animations.shaking_text,
-        )
-    if event.kind is GameEventKind.BALL_LOST and event.value:
-        return Announcement(
-            "lost",
-            rank=1,
-            text=f"BALL {event.value} LOST",
-            length=1.4,
-            full=animations.falling_ball,
-            full_time=0.45,
-        )
-    return None
 
 
 def _draw_combo_meters(dots: Dots, combo: int, seconds: float) -> None:

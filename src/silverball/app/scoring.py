@@ -1,4 +1,4 @@
-"""The scoring rules of a table as sentences with its own numbers, for the second page of the help."""
+"""The scoring rules of a table as sentences with its own numbers, for the help."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ import re
 from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
-from silverball.game import tilt
+from silverball.app.rule_words import RuleWords
 from silverball.game.mechanisms import points_by_part
 from silverball.game.view import Mode
+from silverball.plain import plain
+from silverball.referee import tilt
 from silverball.table import Arcade, Table
 
 FIRST_KINDS = ("cylinder", "triangular_prism", "slant_wall", "paddle")
 """The order in which kinds of parts are listed; others follow in the order of the table file."""
 TIMES = {1: "once", 2: "twice"}
+MAX_NAMED = 6  # of each kind of a table's own rules that are listed
 MAX_SHOVES = 1002  # more than any table allows
 
 
@@ -35,7 +38,8 @@ def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
     Args:
         table: A board.
         mode: Mode of the game.
-        shove_key: Label of the key that shoves the table; empty if there is none.
+        shove_key: Label of the key that shoves the table, or labels of those that nudge it; empty if there is
+            none.
     """
     hits = Rule("Hits", _hits(table))
     most = table.board.max_balls
@@ -44,8 +48,8 @@ def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
         more = "Shoves cost nothing. Combos, tilt and high scores belong to arcade"
         return [hits, Rule("Free play", f"As many balls as you like, {balls}. {more}")]
     arcade = table.arcade
-    rules = [hits, Rule("Combo", _combo(arcade))]
-    if arcade.double > 1 and arcade.balls > 1 and most > 1:
+    rules = _own_rules(table) if table.rule else [hits, Rule("Combo", _combo(arcade))]
+    if not table.rule and arcade.double > 1 and arcade.balls > 1 and most > 1:
         two = "two" if most == 2 else "two or more"
         text = f"While {two} balls are on the board every hit counts ×{arcade.double}"
         rules.append(Rule("Double", f"{text}; the second ball is one of your {arcade.balls}"))
@@ -53,9 +57,23 @@ def how_to_score(table: Table, mode: Mode, shove_key: str = "Z") -> list[Rule]:
     return [
         *rules,
         Rule("Ball save", _ball_save(arcade)),
-        Rule("Tilt", _tilt(arcade, shove_key)),
+        Rule("Tilt", _tilt(arcade, shove_key, "table" if table.board.nudge else "balls")),
         Rule("Game", f"{balls}. The ten best scores of a table are saved with their replays"),
     ]
+
+
+def _own_rules(table: Table) -> list[Rule]:
+    """The rules of a table in words: missions, what lamps promise, multiballs, and rules that have a name."""
+    words = RuleWords(table)
+    names = [plain(rule.name) for rule in table.rule if rule.name]
+    titled = {
+        "Missions": words.goals(),
+        "While lit": words.lit_shots(),
+        "Multiball": words.multiballs(),
+        "Rules": names,
+    }
+    rules = [Rule(title, "; ".join(lines[:MAX_NAMED])) for title, lines in titled.items() if lines]
+    return rules or [Rule("Rules", f"{table.name} has {len(table.rule)} rules of its own")]
 
 
 def _hits(table: Table) -> str:
@@ -96,8 +114,8 @@ def _ball_save(arcade: Arcade) -> str:
     return f"A ball lost within {arcade.ball_save:g} s of its start comes back, {times}"
 
 
-def _tilt(arcade: Arcade, shove_key: str) -> str:
-    shove = f"{shove_key} shoves the balls" if shove_key else "A shove moves the balls"
+def _tilt(arcade: Arcade, shove_key: str, what: str) -> str:
+    shove = f"{shove_key} shoves the {what}" if shove_key else f"A shove moves the {what}"
     warns, tilts = quick_shoves(arcade)
     if warns is None:
         words = f"the {_ordinal(tilts)} of quick ones tilts"

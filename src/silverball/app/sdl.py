@@ -43,6 +43,16 @@ def display_bounds(screen: int) -> pygame.Rect | None:
     return _area("SDL_GetDisplayBounds", screen)
 
 
+def screens() -> list[pygame.Rect]:
+    """Return position and size of all screens on the desktop; side by side if the library is not found."""
+    sizes = pygame.display.get_desktop_sizes()
+    found = [display_bounds(screen) for screen in range(len(sizes))]
+    lefts = [sum(width for width, _ in sizes[:number]) for number in range(len(sizes))]
+    return [
+        area or pygame.Rect((left, 0), size) for area, left, size in zip(found, lefts, sizes, strict=True)
+    ]
+
+
 def usable_bounds(screen: int) -> pygame.Rect | None:
     """Return the part of a screen without task bar, dock and menu bar."""
     return _area("SDL_GetDisplayUsableBounds", screen)

@@ -9,11 +9,14 @@ from __future__ import annotations
 import contextlib
 from typing import TYPE_CHECKING, Protocol
 
+from silverball.app.automatic_game import AutomaticGame
 from silverball.app.controls import PaddleInput
 from silverball.errors import BoardFull, NoRoom
+from silverball.game.tally import Tally
 from silverball.game.view import GameView, Mode, Phase
 
 if TYPE_CHECKING:
+    from silverball.app.rival import Rival
     from silverball.game.core import GameCore
     from silverball.game.game import Game
     from silverball.game.replay.player import ReplayPlayer
@@ -47,12 +50,22 @@ class Session(Protocol):
 
 
 class GameSession:
-    """A game of the player."""
+    """A game of the player, or a match of several in turn.
+
+    Args:
+        game: The game.
+        rival: Who plays beside the player, if anybody.
+
+    Attributes:
+        tally: What has made the points.
+    """
 
     is_played = True
 
-    def __init__(self, game: Game) -> None:
+    def __init__(self, game: Game, rival: Rival | None = None) -> None:
         self.game = game
+        self.rival = rival
+        self.tally = Tally(game.table, game.players)
         self._created_at = 0  # the tick of the last new ball
         self._requested_at: int | None = None  # the tick of a press that awaits confirmation
 
@@ -94,49 +107,61 @@ class GameSession:
             return
         launch_first, launch_rest = held.launch
         if held.first != held.rest or launch_first != launch_rest:
-            self.game.step(*held.first, 1, launch=launch_first)
+            self._step(held.first, 1, launch_first)
             ticks -= 1
         if ticks > 0:
-            self.game.step(*held.rest, ticks, launch=launch_rest)
+            self._step(held.rest, ticks, launch_rest)
+
+    def _step(self, held: tuple[bool, bool], ticks: int, launch: bool) -> None:
+        is_in_play = self.game.phase is Phase.PLAY
+        self.game.step(*held, ticks, launch=launch)
+        self.tally.add(self.game.events)
+        if self.rival is not None and is_in_play:
+            self.rival.advance(ticks)
 
 
-class DemoSession:
-    """A free-play game that the program plays for spectators.
+class DemoSession(AutomaticGame):
+    """A game that the program plays for spectators: arcade on tables with rules of their own, else free play.
+
+    Args:
+        table: The board.
+        seed: The seed.
+        player: Presses the paddle buttons.
+        is_attract: Whether the attract mode has started it.
 
     Attributes:
-        player: Presses the paddle buttons; may be replaced at any time.
+        is_attract: Whether the attract mode has started it.
     """
 
     is_played = False
-    has_ended = False
+    game: Game
 
-    def __init__(self, table: Table, seed: int, player: Player) -> None:
+    def __init__(self, table: Table, seed: int, player: Player, *, is_attract: bool = False) -> None:
         from silverball.game.game import Game
-        from silverball.game.mechanisms import plungers
 
-        self.game = Game(table, seed, Mode.FREE)
-        self.player = player
-        self._has_plunger = bool(plungers(self.game.table))
+        super().__init__(Game(table, seed, Mode.ARCADE if table.rule else Mode.FREE), player)
+        self.is_attract = is_attract
         self._delay = 0.0  # [s] until the next ball may be created
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the game is over; free play never is."""
+        return self.game.is_over
 
     def advance(self, held: PaddleInput, ticks: int) -> None:
         """Advance by a number of ticks; `held` is ignored."""
         for _ in range(ticks):
+            if self.has_ended:
+                return
             self._create_balls()
-            self.game.step(*self.player.press(self.game.world), 1, launch=self._holds_launch())
-
-    def _holds_launch(self) -> bool:
-        """Whether the launch button is held in the next tick; a player presses the paddle buttons only."""
-        from silverball.players.simple import holds_launch
-
-        world = self.game.world
-        return self._has_plunger and bool(holds_launch(world.records[0], 1.0 / world.tick_rate))
+            self.play_tick()
 
     def _create_balls(self) -> None:
         world = self.game.world
         self._delay = max(0.0, self._delay - 1.0 / world.tick_rate)
-        count = len(world.balls)
-        if count >= min(world.table.board.max_balls, DEMO_BALLS) or self._delay > 0.0:
+        count, is_arcade = len(world.balls), self.game.mode is Mode.ARCADE
+        most = 1 if is_arcade else min(world.table.board.max_balls, DEMO_BALLS)
+        if count >= most or self._delay > 0.0 or (is_arcade and self.game.phase is not Phase.READY):
             return
         with contextlib.suppress(BoardFull, NoRoom):
             self.game.create_ball()
@@ -174,7 +199,7 @@ def _allows_extra_ball(view: GameView) -> bool:
 def why_no_single_tick(session: Session | None) -> str:
     """Return why the session cannot be advanced by a single tick now."""
     if session is not None and session.has_ended:
-        return "the game is over" if isinstance(session, GameSession) else "the replay has ended"
+        return "the replay has ended" if isinstance(session, ReplaySession) else "the game is over"
     if isinstance(session, ReplaySession):
         return "single ticks are only possible while the replay is paused"
     return "single ticks are only possible while the game is paused"

@@ -20,6 +20,8 @@ from pydantic import (
     model_validator,
 )
 
+from silverball.app.cabinet_mode import CabinetMode
+
 if TYPE_CHECKING:
     from silverball.game.scores.store import Store
 
@@ -38,16 +40,20 @@ class Settings(BaseModel):
     """Name of the colour theme (see `silverball.drawing.themes`)."""
     volume: Annotated[int, Field(ge=0, le=10)] = 7
     """Volume of all sounds; 0 is silence."""
+    music: Annotated[int, Field(ge=0, le=10)] = 7
+    """Volume of the music among all sounds; 0 is none."""
     muted: bool = False
     """Whether all sounds are off."""
     effects: Literal["full", "less"] = "full"
     """Sparks, trails and flashes; "less" for slow machines and sensitive eyes."""
     frame_rate: Literal["screen", "60", "120", "144"] = "screen"
     """Frames per second; "screen": the refresh rate of the screen."""
+    cabinet: Annotated[CabinetMode, BeforeValidator(_text)] = CabinetMode.OFF
+    """Whether the game runs in a cabinet, and how the picture stands on its screen."""
     full_screen: bool = False
     """Whether the game starts in full screen."""
     # A path may contain bytes that are not valid text, which `str` rejects.
-    arcade_table: InstanceOf[str] = "classic"
+    arcade_table: InstanceOf[str] = "silver_comet"
     """The table chosen last for arcade games: a built-in name or a path."""
     free_table: InstanceOf[str] = "original"
     """The table chosen last for free play, at first the original."""
@@ -55,6 +61,10 @@ class Settings(BaseModel):
     """The mode chosen last."""
     initials: Annotated[str, Field(pattern=r"^[A-Z0-9 .\-]{3}$")] = "AAA"
     """The initials entered last, suggested for the next score."""
+    dot_game_best: Annotated[int, Field(ge=0)] = 0
+    """The best score of the tiny game that is played while the physics is compiled."""
+    is_guided: bool = False
+    """Whether the hints of the first game have been given."""
     keys: dict[str, tuple[str, ...]] = {}
     """Keys by action where they differ from the defaults, by the names of `app/keyboard.py`."""
     pad: dict[str, tuple[str, ...]] = {}

@@ -16,6 +16,7 @@ from collections import deque
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
+from silverball.background_thread import BackgroundThread
 from silverball.errors import Problem, SilverballError, TableError
 from silverball.table import Table, load_table, table_digest
 from silverball.table.file import SIZE_LIMIT
@@ -93,7 +94,7 @@ class TableFiles:
                 )
             if not self._stale:
                 return
-            self._thread = threading.Thread(target=self._read_all, daemon=True)
+            self._thread = BackgroundThread(self._read_all, "table files")
             self._thread.start()
         self._thread.join(wait)
 

@@ -24,6 +24,17 @@ def row(images: Sequence[pygame.Surface], gap: int) -> pygame.Surface:
     return result
 
 
+def side_by_side(images: Sequence[pygame.Surface], gap: int) -> pygame.Surface:
+    """Place images side by side, their tops at one height."""
+    height = max(image.get_height() for image in images)
+    result = _transparent(sum(image.get_width() for image in images) + gap * (len(images) - 1), height)
+    left = 0
+    for image in images:
+        result.blit(image, (left, 0))
+        left += image.get_width() + gap
+    return result
+
+
 def column(images: Sequence[pygame.Surface], gap: int, *, centered: bool = True) -> pygame.Surface:
     """Place images one below the other."""
     width = max(image.get_width() for image in images)

@@ -16,17 +16,22 @@ from typing import TYPE_CHECKING
 import pygame
 
 from silverball.app import overlay
+from silverball.app.arrangement import opening_size
+from silverball.app.backglass.backglass import Backglass, places
+from silverball.app.backglass.content import ContentReader
 from silverball.app.bindings import upper_label
+from silverball.app.cabinet_mode import CabinetMode
 from silverball.app.catalog import Catalog
 from silverball.app.controls import Action
 from silverball.app.debug import DebugView
+from silverball.app.ghost_balls import draw_ghost_balls
 from silverball.app.input_handler import InputHandler
-from silverball.app.overlay import Messages
-from silverball.app.picture import Picture, fitted
+from silverball.app.overlay import Help, Messages
+from silverball.app.picture import Picture
 from silverball.app.player_warmup import PlayerWarmup
 from silverball.app.program import Program
-from silverball.app.scoring import how_to_score
 from silverball.app.screen import Screen
+from silverball.app.sessions import GameSession
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.mixdown import rolling_balls
@@ -34,6 +39,7 @@ from silverball.app.sound.part_sounds import PartSound, sounds_of_parts
 from silverball.app.startup import Startup, compiling_message
 from silverball.app.timing import FrameTimes, LatencyMeter, TickClock
 from silverball.drawing import Moment, best_size
+from silverball.drawing.light_shows import Running
 from silverball.drawing.themes import THEMES
 from silverball.errors import SilverballError, TableError
 from silverball.game.scores.store import Store
@@ -44,14 +50,24 @@ from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.app.sessions import Session
+    from silverball.drawing.dotmatrix.canvas import Dots
     from silverball.game.replay.format import Replay
 
 TICK_RATE = 240
 LOADING_FRAME_RATE = 20  # [1/s] while the physics is loaded, which needs the processor
+DOT_GAME_FRAME_RATE = 25  # [1/s] while the game on the dots is played meanwhile
 POLL_INTERVAL = 0.001  # [s]
 PAGE_SOUNDS = {"initials": "high_score", "attract": "attract"}
 RUMBLE_SPEED = 12.0  # [u/s] of an impact that rumbles at full strength
 RUMBLE_SECONDS = 0.08
+_REDRAWN_AFTER = (
+    pygame.WINDOWEXPOSED,
+    pygame.WINDOWSHOWN,
+    pygame.WINDOWSIZECHANGED,
+    pygame.WINDOWRESTORED,
+    pygame.WINDOWDISPLAYCHANGED,
+)
+"""Events after which the window may show something else than what was drawn."""
 
 
 class Window:
@@ -63,7 +79,9 @@ class Window:
         seed: Seed of the first board; None draws one.
         mode: Begin a game of this mode; None: begin in the menu.
         replay: Begin with this replay.
-        height: Height of the window [pixel]; None: as high as fits the screen.
+        height: Height of a window that is as wide as the table [pixel].
+        size: Width and height of the picture [pixel]; None: by the height, or as large as fits the screen.
+        cabinet: How the picture stands on the screen; None: as chosen last.
         without_display: Whether SDL drivers without output are accepted, as in tests.
         folder: Folder of scores, settings and replays; None: the user's data folder.
         on_compile: Called (from a thread) if the physics must be compiled first.
@@ -82,6 +100,8 @@ class Window:
         mode: Mode | None = None,
         replay: Replay | None = None,
         height: int | None = None,
+        size: tuple[int, int] | None = None,
+        cabinet: CabinetMode | None = None,
         without_display: bool = False,
         folder: Path | None = None,
         on_compile: Callable[[], None] = lambda: None,
@@ -91,8 +111,9 @@ class Window:
         self.messages = Messages()
         self.store = Store(self._folder, nonblocking=True)
         try:
-            self.program = self._new_program(table, seed, mode)
-            self._screen = Screen("Silverball", without_display=without_display)
+            self.program = self._new_program(table, seed, mode, cabinet)
+            stands = self.program.settings.current.cabinet
+            self._screen = Screen("Silverball", stands, without_display=without_display)
         except SilverballError:
             self.store.close()
             raise
@@ -101,12 +122,16 @@ class Window:
         self._startup: Startup | None = Startup(self.program.board.table, on_compile)
         self.player_warmup: PlayerWarmup | None = None
         board = self.program.board.table.board
-        self._screen.open(
-            best_size(board, height) if height else fitted(board, self._screen.max_initial_size).size
-        )
+        if size is None:
+            room = self._screen.max_initial_size
+            size = best_size(board, height) if height else opening_size(board, room)
+        self._screen.open(size)
         if settings.full_screen:
             self._screen.toggle_fullscreen()
-        self._picture = Picture(self._screen.surface.get_size())
+        self._picture = Picture(self._screen.surface.get_size(), self._screen.second_size)
+        self._backglass = Backglass()
+        self._surroundings = Backglass()  # of the table, while the backglass is on a second screen
+        self._content = ContentReader(self.program)
         self.sounds = Sounds(settings)
         self.sounds.open()
         self._clock = TickClock(TICK_RATE)
@@ -114,7 +139,7 @@ class Window:
         self.latency = LatencyMeter()
         self.debug = DebugView()
         self.input_handler = InputHandler(
-            self.program, self._screen, self.sounds, self.messages, self.latency
+            self.program, self._screen, self.sounds, self.messages, self.latency, self._backglass.list_view
         )
         self.program.settings.subscribe(self._apply_settings)
         self._session: Session | None = None
@@ -129,7 +154,9 @@ class Window:
         elif mode is not None:
             self.program.play(mode, settings.table, self.program.board.seed)
 
-    def _new_program(self, table: Table | str | None, seed: int | None, mode: Mode | None) -> Program:
+    def _new_program(
+        self, table: Table | str | None, seed: int | None, mode: Mode | None, cabinet: CabinetMode | None
+    ) -> Program:
         """Create the program on a table, or on the default one if the stored table no longer exists."""
         settings = Settings.of(self.store.settings())
         given = {}  # tables made in Python, by name
@@ -141,6 +168,8 @@ class Window:
             settings = settings.changed(**{f"{each}_table": name for each in modes})
         if mode is not None:
             settings = settings.changed(mode=mode)
+        if cabinet is not None:
+            settings = settings.changed(cabinet=cabinet)
         catalog = Catalog(self.store, self._folder, given)
         try:
             return Program(self.store, settings, catalog, seed, self.messages.show, tuple(THEMES))
@@ -171,6 +200,8 @@ class Window:
         self._seconds += elapsed
         self._finish_startup()
         for event in pygame.event.get():
+            if event.type in _REDRAWN_AFTER:
+                self._redraw_all()
             self.input_handler.handle(event)
         self._advance_session(elapsed)
 
@@ -218,7 +249,8 @@ class Window:
 
     def close(self) -> None:
         """Save the current game and close the window."""
-        self.program.save_last_game()
+        self.program.games.save_last_game()
+        self.program.keep_best_of_dots()
         self.program.session = self._session = None
         self._picture.close()
         if self.player_warmup is not None:
@@ -244,7 +276,7 @@ class Window:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height [pixel]."""
+        """Width and height of the picture [pixel]."""
         return self._screen.surface.get_size()
 
     @property
@@ -256,7 +288,8 @@ class Window:
     def frame_rate(self) -> int:
         """The target number of frames per second."""
         if not self.is_ready:
-            return LOADING_FRAME_RATE
+            is_played = self.program.is_compiling_for_game and self.program.dot_game.is_begun
+            return DOT_GAME_FRAME_RATE if is_played else LOADING_FRAME_RATE
         rate = self.program.settings.current.frame_rate
         return self._screen.refresh_rate if rate == "screen" else int(rate)
 
@@ -287,14 +320,18 @@ class Window:
     # --- playing ----------------------------------------------------------------------------------
 
     def _finish_startup(self) -> None:
+        if self._startup is None and self.program.loading.waiting is not None:
+            self._startup = Startup(self.program.loading.waiting.table)
         if self._startup is not None and self._startup.is_done:
-            self._startup = None
+            startup, self._startup = self._startup, None
             self.program.progress = None
             self.messages.clear()
             self._on_ready()
-            self.player_warmup = PlayerWarmup(self.program.board.table)
+            if self.player_warmup is not None:
+                self.player_warmup.close()
+            self.player_warmup = PlayerWarmup(startup.table)
             self.program.demo_players.is_ready = self.player_warmup.is_ready
-            self.program.finish_loading()
+            self.program.finish_loading(startup.layout)
         elif self._startup is not None:
             self.program.progress = self._startup.progress
             if self.program.progress is not None and self.messages.opacity < 1.0:
@@ -317,7 +354,7 @@ class Window:
             if ticks > 1:
                 session.advance(held, ticks - 1)
                 held = held.later
-            self._before = Moment.of(session.game.world)
+            self._before = Moment.of_game(session.game)
             session.advance(held, 1)
         self.latency.record_tick()
         self._collect_events()
@@ -330,6 +367,7 @@ class Window:
         game_events, events = session.game.take_game_events(), session.game.take_world_events()
         program.display.add_events(game_events)
         self._picture.add_events(events, world.tick_rate)
+        self._picture.add_game_events(game_events, world.tick_rate)
         self.debug.add_events(events, world.tick_rate)
         if program.is_audible:
             self.sounds.play_game_events(game_events)
@@ -359,6 +397,14 @@ class Window:
         self.sounds.apply_settings(settings)
         if settings.full_screen not in (before.full_screen, self._screen.is_fullscreen):
             self._screen.toggle_fullscreen()
+        if settings.cabinet is not self._screen.cabinet:
+            self._screen.change_cabinet(settings.cabinet)
+            self._redraw_all()
+
+    def _redraw_all(self) -> None:
+        """Draw what is around the table anew in the next frame."""
+        self._backglass.invalidate()
+        self._surroundings.invalidate()
 
     def _update_sounds(self, elapsed: float) -> None:
         program, sounds, session = self.program, self.sounds, self._session
@@ -373,6 +419,7 @@ class Window:
         sounds.set_buttons(*held, game.is_launch_held)
         width = game.world.table.board.width
         sounds.set_rolling(rolling_balls(game.world), elapsed * program.speed, width)
+        sounds.follow(game, elapsed)
 
     # --- drawing ----------------------------------------------------------------------------------
 
@@ -380,7 +427,7 @@ class Window:
         program, session = self.program, self._session
         moment = Moment.before(program.board.table)
         if session is not None:
-            moment = Moment.of(session.game.world)
+            moment = Moment.of_game(session.game)
             if session.has_ended:
                 # The board no longer moves, but the last animations still play: a lost ball, sparks, lights.
                 moment = moment._replace(time=moment.time + self._seconds - self._moved_at)
@@ -388,9 +435,16 @@ class Window:
                 self._moved_at = self._seconds
             if self._before is not None and program.is_moving:
                 moment = Moment.between(self._before, moment, self._clock.fraction)
+        if program.has_attract_lights:
+            moment = moment._replace(show=Running("attract", self._seconds))
         self._picture.show(program.board.table, program.board.random_seed, program.settings.current)
-        target = self._picture.draw(moment, self._screen.surface, program.dots(self._seconds))
+        self._picture.fit(self.size, self._screen.second_size)
+        dots = self._draw_backglass()
+        target = self._picture.draw(moment, self._screen.surface, dots)
         renderer = self._picture.renderer
+        rival = session.rival if isinstance(session, GameSession) else None
+        if rival is not None and renderer.camera.size == target.get_size():
+            draw_ghost_balls(target, renderer.camera, rival)
         scale, apron = self._picture.scale, self._picture.apron
         if self.input_handler.shows_debug and session is not None:
             self.debug.draw(target, renderer.camera, session.game.world)
@@ -398,26 +452,49 @@ class Window:
                 target, session.game.world, self._frame_times, self.latency, program.speed,
                 self._picture.figures_area, overlay.small_text_size(scale),
             )  # fmt: skip
-        if self.input_handler.shows_help:
-            jitter_keys = self.input_handler.controls.key_labels(Action.JITTER)
-            jitter_key = upper_label(jitter_keys[0]) if jitter_keys else ""
-            rules = how_to_score(program.board.table, program.mode, jitter_key)
-            overlay.draw_help(
-                target,
-                scale,
-                program.board.seed,
-                self.input_handler.controls,
-                self.input_handler.help_page,
-                rules,
-            )
+        if self.input_handler.shows_help and self._picture.arrangement.backglass is None:
+            overlay.draw_help(target, scale, self._help)
+        elif self.input_handler.shows_help:
+            overlay.dim(target)
         if self.messages.opacity > 0.0:
             overlay.draw_message(target, apron, scale, self.messages.text, self.messages.opacity)
+
+    def _draw_backglass(self) -> Dots | None:
+        """Draw what is around the table; return the dots of the table's own panel if it has one."""
+        surface, arrangement = self._screen.surface, self._picture.arrangement
+        theme = THEMES[self.program.settings.current.theme]
+        picture = None
+        if arrangement.backglass is not None and self.input_handler.shows_help:
+            at = places(arrangement.backglass)
+            image = overlay.help_image(self._help, at.text, at.inner_body.size, has_frame=False)
+            picture = image, id(image)  # the images are cached, so the same page is the same image
+        if arrangement.backglass is not None:
+            content = self._content.read(self._seconds, picture, self._shove_key)
+            if self._screen.second is not None:
+                self._surroundings.draw_around(surface, arrangement, theme)
+                surface = self._screen.second.surface
+            self._backglass.draw(surface, arrangement, content, self._seconds)
+            return None
+        self._backglass.draw_around(surface, arrangement, theme)
+        return self.program.dots(self._seconds)
+
+    @property
+    def _help(self) -> Help:
+        """What the help says."""
+        handler = self.input_handler
+        rules = self._content.rules(self._shove_key)
+        return Help(handler.help_page, self.program.board.seed, handler.controls, rules)
+
+    @property
+    def _shove_key(self) -> str:
+        keys = self.input_handler.controls.key_labels(Action.JITTER)
+        return upper_label(keys[0]) if keys else ""
 
     # --- crash report ----------------------------------------------------------------------------
 
     def _save_crash_replay(self) -> None:
         session = self._session
         if session is not None and session.is_played:
-            path = self.program.save_replay_file("crash")
+            path = self.program.games.save_replay_file("crash")
             where = f"A replay for a report is at {plain(str(path))}." if path else "Its replay is lost."
             print(f"silverball: the game ended unexpectedly. {where}", file=sys.stderr)

@@ -17,6 +17,7 @@ from silverball.benchmarks.speed import Figure
 from silverball.drawing import Moment, Renderer, best_size
 from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.sketch import rgb_surface
+from silverball.errors import NoRoom
 from silverball.table import Table, generate_table, load_table
 from silverball.world import World
 
@@ -59,6 +60,8 @@ def measure_drawing(rounds: int, advance: Callable[[str], None] = lambda _: None
         figures.append(Figure("picture of a cached board", known, "s"))
         advance("drawing frames")
         figures += _frames(_bake(first, size, cache), rounds)
+        advance("drawing lamps")
+        figures += _lamp_frames(Renderer(load_table("silver_comet"), size, cache=cache), rounds)
     return figures
 
 
@@ -108,10 +111,39 @@ def _frames(renderer: Renderer, rounds: int) -> list[Figure]:
     ]
 
 
+def _lamp_frames(renderer: Renderer, rounds: int) -> list[Figure]:
+    """The same game on a table with lamps, of which all or none change from frame to frame."""
+    play = list(_play(renderer.table))
+    target = rgb_surface(renderer.camera.size)
+    count = len(renderer.table.lamp)
+    figures = []
+    for name, states in (("no lamp changes", (0, 0)), ("all lamps change", (0, 1))):
+        times = []
+        for _ in range(max(rounds, 3)):
+            renderer.effects.clear()
+            before = time.process_time()
+            for number, (moment, events) in enumerate(play):
+                renderer.add_events(events, TICK_RATE)
+                renderer.draw(moment._replace(lamps=(states[number % 2],) * count), target)
+            times.append((time.process_time() - before) / len(play))
+        figures.append(
+            Figure(f"frames drawn, {count} lamps, {name}", 1.0 / statistics.median(times), "frames/s")
+        )
+    return figures
+
+
 def _play(table: Table) -> Iterator[tuple[Moment, Any]]:
     world = World(table, 5, TICK_RATE)
     for frame in range(FRAMES):
-        while len(world.balls) < table.board.max_balls:
-            world.create_ball()
-        world.step(left=frame // 7 % 2 == 0, right=frame // 9 % 2 == 0, ticks=TICK_RATE // FRAME_RATE)
+        while len(world.balls) < min(table.board.max_balls, 2):
+            try:
+                world.create_ball()
+            except NoRoom:  # the last one has not left the plunger yet
+                break
+        world.step(
+            left=frame // 7 % 2 == 0,
+            right=frame // 9 % 2 == 0,
+            ticks=TICK_RATE // FRAME_RATE,
+            launch=frame % 90 < 60,
+        )
         yield Moment.of(world), world.events

@@ -1,7 +1,8 @@
 """Smoothness, input latency and start-up time of the window.
 
-The real window is opened, and the reflex player plays two balls with key events; or a player plays in attract
-mode, and its decisions are timed instead of the latency. Scores go to a temporary folder.
+The real window is opened, and the reflex player plays two balls of free play, or arcade games with their
+rules, lamps and music, with key events; or a player plays in attract mode, and its decisions are timed
+instead of the latency. Scores go to a temporary folder.
 """
 
 from __future__ import annotations
@@ -20,12 +21,18 @@ from silverball.benchmarks.speed import Figure
 
 FRAME = 1 / 60  # [s]
 PERCENTILES = (50, 90, 99, 99.9)
+PULL_TIME = 0.8  # [s] for which the plunger is held
 MIN_DECISION_TIME = 1e-4  # [s]; a shorter call only looks up the plan of the player
 IMPORTED = time.time()
 
 
 def measure_window(
-    seconds: float, player: str | None, advance: Callable[[str], None] = lambda _: None
+    seconds: float,
+    player: str | None,
+    advance: Callable[[str], None] = lambda _: None,
+    table: str = "random",
+    size: tuple[int, int] | None = None,
+    is_arcade: bool = False,
 ) -> list[Figure]:
     """Open the window, play, and measure.
 
@@ -33,6 +40,9 @@ def measure_window(
         seconds: Length of the measurement [s].
         player: Player to watch in attract mode; None to play with key events.
         advance: Called with the name of what is measured next.
+        table: The table to play on.
+        size: Width and height of the window [pixel]; None: as it opens.
+        is_arcade: Whether arcade games are played instead of free play.
     """
     import pygame
 
@@ -42,7 +52,8 @@ def measure_window(
 
     advance("starting")
     with tempfile.TemporaryDirectory() as folder:
-        window = Window("random", seed=7, mode=None if player else Mode.FREE, folder=Path(folder))
+        mode = Mode.ARCADE if is_arcade else Mode.FREE
+        window = Window(table, seed=7, mode=None if player else mode, size=size, folder=Path(folder))
         window.frame(0.0)
         first_picture = seconds_since_python_started()
         while not window.is_ready:
@@ -53,16 +64,17 @@ def measure_window(
         driver: KeyDriver | AttractDriver
         driver = AttractDriver(player, window) if player else KeyDriver(make_player("reflex"), window)
         advance(f"playing {seconds:g} s")
-        starts, work = [], []
+        starts, work, processor = [], [], []
         sharp = 0.0
         end = time.perf_counter() + seconds
         before = time.perf_counter()
         while before < end:
-            now = time.perf_counter()
+            now, processor_start = time.perf_counter(), time.thread_time()
             due = now + FRAME
             before = window.render_frame(before)
             starts.append(now)
             work.append(time.perf_counter() - now)
+            processor.append(time.thread_time() - processor_start)
             if not sharp and window.is_sharp:
                 sharp = seconds_since_python_started()
             # A key is pressed at a random moment of the wait for the next picture.
@@ -78,6 +90,7 @@ def measure_window(
             Figure(f"frames, {pygame.display.get_driver()}", len(work) / seconds, "frames/s"),
             Figure("balls, mean", float(np.mean(driver.balls)), ""),
             *percentiles("work per frame", work),
+            *percentiles("processor time per frame", processor),
             *percentiles("between frames", np.diff(starts)),
         ]
         if isinstance(driver, AttractDriver):
@@ -110,7 +123,9 @@ def percentiles(name: str, seconds: Iterable[float]) -> list[Figure]:
 
 
 class KeyDriver:
-    """Posts key events for the buttons that a player presses, and keeps two balls on the board.
+    """Posts key events for the buttons that a player presses, and keeps balls on the board.
+
+    In free play there are two balls; in an arcade game the next ball follows, and the next game.
 
     Args:
         player: A player for a single world.
@@ -120,6 +135,7 @@ class KeyDriver:
     def __init__(self, player: Any, window: Any) -> None:
         self._player, self._window = player, window
         self._down = [False, False]
+        self._pulled = 0.0  # since when the plunger is held, by time.perf_counter; 0: it is not
         self.balls: list[int] = []
         player.press(window.program.session.game.world)  # load its kernel before the first frame
 
@@ -127,16 +143,47 @@ class KeyDriver:
         """Post the key events of all buttons that changed."""
         import pygame
 
-        world = self._window.program.session.game.world
+        session = self._window.program.session
+        if session is None or session.game.is_over:
+            self._play_again()
+            return
+        world = session.game.world
         self.balls.append(len(world.balls))
-        if len(world.balls) < 2:
-            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_SPACE, mod=0, scancode=0))
+        self._serve(session.game)
         for side, held in enumerate(self._player.press(world)):
             if held != self._down[side]:
                 self._down[side] = held
-                kind = pygame.KEYDOWN if held else pygame.KEYUP
-                key = (pygame.K_a, pygame.K_d)[side]
-                pygame.event.post(pygame.Event(kind, key=key, mod=0, scancode=0))
+                post_key((pygame.K_a, pygame.K_d)[side], held)
+
+    def _serve(self, game: Any) -> None:
+        """Start a ball where one is missing, and let go of the plunger when it has been drawn back."""
+        import pygame
+
+        now = time.perf_counter()
+        if self._pulled:
+            if now - self._pulled > PULL_TIME:
+                post_key(pygame.K_SPACE, False)
+                self._pulled = 0.0
+        elif game.has_ball_to_launch:
+            post_key(pygame.K_SPACE, True)
+            self._pulled = now
+        elif len(game.world.balls) < (1 if game.mode == "arcade" else 2):
+            post_key(pygame.K_SPACE, True)
+            post_key(pygame.K_SPACE, False)
+
+    def _play_again(self) -> None:
+        """Begin the next arcade game."""
+        program = self._window.program
+        self._down, self._pulled = [False, False], 0.0
+        program.play("arcade", program.board.table.name, program.board.seed)
+
+
+def post_key(key: int, is_down: bool) -> None:
+    """Post the event of a key that goes down or up."""
+    import pygame
+
+    kind = pygame.KEYDOWN if is_down else pygame.KEYUP
+    pygame.event.post(pygame.Event(kind, key=key, mod=0, scancode=0))
 
 
 class AttractDriver:

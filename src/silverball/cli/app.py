@@ -12,14 +12,19 @@ from typing import Any
 import typer
 import typer.main
 
+from silverball.cli import bench_agents  # noqa: F401  (adds commands to bench)
 from silverball.cli.ball_time import ball_time
 from silverball.cli.bench import bench
 from silverball.cli.cache import cache
 from silverball.cli.check import check
+from silverball.cli.dataset import dataset
 from silverball.cli.demo import demo
+from silverball.cli.design import design
 from silverball.cli.feel import feel
 from silverball.cli.generate import generate
 from silverball.cli.info import info
+from silverball.cli.marks import marks
+from silverball.cli.page import page
 from silverball.cli.play import play
 from silverball.cli.replay import replay
 from silverball.cli.scores import scores
@@ -28,6 +33,7 @@ from silverball.cli.signals import STOPPED, stopped
 from silverball.cli.simulate import simulate
 from silverball.cli.soak import soak
 from silverball.cli.streams import discard_output, is_broken_pipe
+from silverball.cli.study import study
 from silverball.cli.tables import tables
 from silverball.errors import SilverballError
 from silverball.plain import plain
@@ -44,7 +50,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 for command in (
-    play, replay, scores, demo, tables, show, check, generate, simulate, ball_time, feel, soak, info, cache,
+    play, replay, page, scores, demo, tables, show, check, generate, simulate, study, ball_time, feel, marks,
+    soak, design, dataset, info, cache,
 ):  # fmt: skip
     app.command()(command)
 app.add_typer(bench, name="bench")

@@ -16,7 +16,17 @@ from silverball.cli.console import (
     print_table,
     progress_bar,
 )
-from silverball.cli.shared_options import LAST_SEED, AsJson, TableName, check_output, file_name
+from silverball.cli.shared_options import (
+    LAST_SEED,
+    AsJson,
+    Music,
+    PlayerName,
+    TableName,
+    ThemeName,
+    check_output,
+    file_name,
+    theme_named,
+)
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
@@ -81,8 +91,8 @@ def marks(rounds: Rounds = 9, as_json: AsJson = False) -> None:
     Example: `silverball bench marks`
     """
     with compiling():
-        from silverball.benchmarks.marks import measure_marks
-    show_figures(lambda advance: measure_marks(rounds, advance), as_json)
+        from silverball.benchmarks.step_costs import measure_step_costs
+    show_figures(lambda advance: measure_step_costs(rounds, advance), as_json)
 
 
 @bench.command()
@@ -119,6 +129,25 @@ def planner(
 
 
 @bench.command()
+def rules(
+    worlds: BatchWorlds = 4096,
+    rounds: Annotated[int, typer.Option(min=1, max=100_000, help="Rounds of six timed frames.")] = 100,
+    table: TableName = "silver_comet",
+    as_json: AsJson = False,
+) -> None:
+    """Measure what the rules of games add to the time of a frame, at 240 ticks per second.
+
+    Example: `silverball bench rules --table classic`
+    """
+    from silverball.table import load_table
+
+    loaded = load_table(table)
+    with compiling("run_games"):
+        from silverball.benchmarks.rules_cost import measure_rules
+    show_figures(lambda advance: measure_rules(loaded, worlds, rounds, advance=advance), as_json)
+
+
+@bench.command()
 def replays(
     minutes: Annotated[
         float,
@@ -143,17 +172,77 @@ def window(
     player: Annotated[
         str | None, typer.Option(help="Watch this player in attract mode instead: planner or reflex.")
     ] = None,
+    table: TableName = "random",
+    size: Annotated[
+        tuple[int, int] | None,
+        typer.Option(min=1, max=8192, metavar="WIDTH HEIGHT", help="Size of the window [pixel]."),
+    ] = None,
+    is_arcade: Annotated[
+        bool, typer.Option("--arcade", help="Play arcade games with their rules instead of free play.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Measure frame rate, input latency and start-up of the real window, which opens and plays by itself.
 
     For a first start, set SILVERBALL_CACHE to an empty folder. Without a display, run it under `xvfb-run -a`.
 
-    Example: `silverball bench window --seconds 20 --player planner`
+    Example: `silverball bench window --seconds 20 --arcade --table silver_comet --size 1920 1080`
     """
     from silverball.benchmarks.window_smoothness import measure_window
 
-    show_figures(lambda advance: measure_window(seconds, player, advance), as_json)
+    show_figures(lambda advance: measure_window(seconds, player, advance, table, size, is_arcade), as_json)
+
+
+@bench.command("page")
+def page_(
+    table: TableName = "silver_comet",
+    size: Annotated[
+        tuple[int, int],
+        typer.Option(min=100, max=8192, metavar="WIDTH HEIGHT", help="Size of the browser's window [pixel]."),
+    ] = (1280, 900),
+    pictures: Annotated[int, typer.Option(min=2, max=100_000, help="Pictures that are timed.")] = 600,
+    as_json: AsJson = False,
+) -> None:
+    """Measure the page of a table in Chromium: its start, pictures per second, and the work of a picture.
+
+    Example: `silverball bench page --table classic --size 390 844`
+    """
+    from silverball.table import load_table
+
+    loaded = load_table(table)
+    with compiling():
+        from silverball.benchmarks.page_smoothness import measure_page
+    show_figures(lambda advance: measure_page(loaded, size, pictures, advance), as_json)
+
+
+@bench.command()
+def sound(
+    table: TableName = "silver_comet",
+    seed: Annotated[int, typer.Option(min=0, max=LAST_SEED, help="Seed of the game.")] = 3,
+    seconds: Annotated[float, typer.Option(min=1.0, max=3600.0, help="Length of the game [s].")] = 60.0,
+    player: PlayerName = "reflex",
+    theme: ThemeName = "neon",
+    music: Music = True,
+    out: Annotated[
+        Path | None,
+        typer.Option(parser=file_name, metavar="FILE.wav", help="File for the recording."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Measure the sound of an arcade game: loudness, peaks, and the level of every octave.
+
+    Example: `silverball bench sound --table parts --out parts.wav`
+    """
+    from silverball.table import load_table
+
+    loaded = load_table(table)
+    theme_named(theme)  # an unknown one is refused
+    if out is not None:
+        check_output(out, (".wav",), force=True)
+    with compiling():
+        from silverball.benchmarks.sound_levels import Recording, measure_sound
+    recording = Recording(loaded, seed, seconds, player, theme, has_music=music)
+    show_figures(lambda advance: measure_sound(recording, out, advance), as_json)
 
 
 @bench.command()
@@ -170,6 +259,36 @@ def thresholds(
     with compiling():
         from silverball.benchmarks.thresholds import measure_thresholds
     show_figures(lambda advance: measure_thresholds(episodes, advance), as_json)
+
+
+@bench.command()
+def domain(
+    board: Annotated[str, typer.Option(help="A built-in board, or a .cfg file.")] = "open",
+    rounds: Rounds = 5,
+    as_json: AsJson = False,
+) -> None:
+    """Measure the PinBall domain on the exact engine, and its published rules in NumPy.
+
+    Example: `silverball bench domain --board rooms`
+    """
+    with compiling():
+        from silverball.benchmarks.domain_speed import measure_domain
+    show_figures(lambda advance: measure_domain(board, rounds, advance), as_json)
+
+
+@bench.command()
+def shots(
+    table: Annotated[str, typer.Option(help="A table with shots: classic or silver_comet.")] = "classic",
+    episodes: Annotated[int, typer.Option(min=2, max=1_000_000, help="Episodes of each player.")] = 1000,
+    as_json: AsJson = False,
+) -> None:
+    """Measure how often simple players hit the wanted part next, and the best press that there is.
+
+    Example: `silverball bench shots --table silver_comet --episodes 300`
+    """
+    with compiling():
+        from silverball.benchmarks.shot_rates import measure_shots
+    show_figures(lambda advance: measure_shots(table, episodes, advance), as_json)
 
 
 @bench.command()

@@ -31,7 +31,7 @@ OTHER = "other versions"
 PICTURES = "pictures"
 KINDS = {
     "play": "compiled code: physics and players",
-    "study": "compiled code: feel, ball-time, soak",
+    "study": "compiled code: feel, marks, ball-time, soak",
     "environments": "compiled code: environments for agents",
     "drawing": "compiled code: drawing",
     OTHER: "compiled code of other versions",

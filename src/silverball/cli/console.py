@@ -69,9 +69,9 @@ def compiling(kernel: str = "run_worlds", duration: str = "ten seconds") -> Iter
         kernel: The kernel that takes longest to compile; no bar is shown if it is in the cache.
         duration: The approximate time that the compilation takes, in words.
     """
-    from silverball.physics.kernel import cache_folder, evict_old_code, is_compiled
+    from silverball.physics.kernel import PLAY, STUDY, cache_folder, evict_old_code, is_compiled
 
-    if is_compiled(kernel):
+    if any(is_compiled(kernel, packages) for packages in (PLAY, STUDY)):
         yield
         return
     evict_old_code()

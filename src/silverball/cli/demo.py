@@ -11,6 +11,7 @@ from silverball.cli.console import baking, compiling
 from silverball.cli.shared_options import (
     BoardSeed,
     Force,
+    Music,
     PlayerName,
     Size,
     TableName,
@@ -36,11 +37,12 @@ def demo(
         float,
         typer.Option(min=0.1, max=600.0, help="Length of the recording [s]; a PNG shows its last frame."),
     ] = 20.0,
-    table: TableName = "classic",
+    table: TableName = "silver_comet",
     seed: BoardSeed = SEED,
     player: PlayerName = "planner",
     size: Size = None,
     theme: ThemeName = "neon",
+    music: Music = True,
     force: Force = False,
 ) -> None:
     """Film a game that the program plays by itself; an MP4 has sound. No display is needed.
@@ -48,19 +50,28 @@ def demo(
     Example: `silverball demo --out demo.mp4 --seconds 20`
     """
     make_demo(
-        out or free_name("demo.gif"), seconds, table, seed, size, player=player, theme=theme, force=force
+        out or free_name("demo.gif"),
+        seconds,
+        table,
+        seed,
+        size,
+        player=player,
+        theme=theme,
+        music=music,
+        force=force,
     )
 
 
 def make_demo(
     out: Path,
     seconds: float = 20.0,
-    table: str = "classic",
+    table: str = "silver_comet",
     seed: int = SEED,
     size: int | None = None,
     *,
     player: str = "planner",
     theme: str = "neon",
+    music: bool = True,
     force: bool = False,
 ) -> None:
     """Film a game, or draw its last frame, and print the name of the file.
@@ -73,6 +84,7 @@ def make_demo(
         size: Height of the picture [pixel]; None: the default of the format.
         player: Name of the player.
         theme: Name of the theme.
+        music: Whether an MP4 has music.
         force: Whether an existing file is overwritten.
     """
     from silverball.cli.filming import ENDINGS, film_size, record
@@ -100,7 +112,7 @@ def make_demo(
         chosen_player.press(session.game.world)
     with baking() as progress:
         renderer = Renderer(board, picture_size, theme=look, board_seed=board_seed, progress=progress)
-    record(out, session, renderer, seconds)
+    record(out, session, renderer, seconds, theme=theme, has_music=music)
     renderer.close()
 
 

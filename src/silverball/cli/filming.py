@@ -43,12 +43,32 @@ def film_size(out: Path, table: Table, seconds: float, height: int | None) -> tu
     return size
 
 
-def record(out: Path, session: Session, renderer: Renderer, seconds: float, *, quiet: bool = False) -> None:
-    """Record a session to a file with a progress bar: a GIF, an MP4 with sound, or its last moment as PNG."""
+def record(
+    out: Path,
+    session: Session,
+    renderer: Renderer,
+    seconds: float,
+    *,
+    theme: str = "neon",
+    has_music: bool = True,
+    quiet: bool = False,
+) -> None:
+    """Record a session to a file with a progress bar: a GIF, an MP4 with sound, or its last moment as PNG.
+
+    Args:
+        out: File to write; its ending selects the format.
+        session: The session to record.
+        renderer: A renderer of its table.
+        seconds: Length of the recording [s].
+        theme: Name of the theme, which has a sound set of its own.
+        has_music: Whether an MP4 has music.
+        quiet: Whether not to print the name of the file.
+    """
     from rich.markup import escape
     from rich.progress import Progress
 
     from silverball.app.sound.mixdown import FilmSound
+    from silverball.app.sound.sound_sets import sound_set
     from silverball.cli.console import error_console
     from silverball.export.film import FILM_RATES, write_film, write_picture
 
@@ -60,7 +80,10 @@ def record(out: Path, session: Session, renderer: Renderer, seconds: float, *, q
             bar.update(task, completed=done)
 
         rate = FILM_RATES.get(ending, FILM_RATES[".mp4"])
-        sound = FilmSound(session.game.table, session.game.tick_rate, rate) if ending == ".mp4" else None
+        sound = None
+        if ending == ".mp4":
+            game = session.game
+            sound = FilmSound(game.table, game.tick_rate, rate, sound_set(theme), has_music=has_music)
         pictures = session_pictures(
             session, renderer, seconds, rate, advance, sound, only_last=ending == ".png"
         )
@@ -93,22 +116,25 @@ def session_pictures(
         sound: Collects the sound of each picture.
         only_last: Whether to yield the last picture only.
     """
+    from silverball.app.announcements import TableWords
     from silverball.app.controls import PaddleInput
     from silverball.app.score_display import ScoreDisplay
     from silverball.drawing import Moment
 
     no_buttons = PaddleInput((False, False), (False, False))
-    display, world = ScoreDisplay(), session.game.world
+    display, world = ScoreDisplay(words=TableWords.of(session.game.table)), session.game.world
     start, count = world.tick, max(round(seconds * rate), 1)
     for number in range(1, count + 1):
         session.advance(no_buttons, start + round(number * world.tick_rate / rate) - world.tick)
         events, game_events = session.game.take_world_events(), session.game.take_game_events()
         display.add_events(game_events)
         renderer.add_events(events, world.tick_rate)
+        renderer.add_game_events(game_events, world.tick_rate)
         if sound is not None:
             game = session.game
-            sound.add_picture(world, events, (*game.held, game.is_launch_held), game_events)
-        dots, moment = display.frame(session.game.view, number / rate), Moment.of(world)
+            sound.add_picture(world, events, (*game.held, game.is_launch_held), game_events, game)
+        dots = display.frame(session.game.view, number / rate, modes=session.game.modes)
+        moment = Moment.of_game(session.game)
         if not only_last or number == count:
             yield renderer.array(moment, dots)
         else:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from silverball.app.cabinet_mode import CabinetMode
 from silverball.cli.completion import complete_table
 from silverball.cli.shared_options import LAST_SEED
 from silverball.errors import NoDisplay
@@ -33,12 +34,19 @@ def play(
         Mode | None,
         typer.Option(help="Start a game of this mode, arcade or free (the original). [default: the menu]"),
     ] = None,
+    cabinet: Annotated[
+        CabinetMode | None,
+        typer.Option(
+            help="The screen of a cabinet: upright, or the top of the table to its left or right; the "
+            "backglass goes to a second screen. [default: as in the settings]"
+        ),
+    ] = None,
 ) -> None:
     """Play in a window: A and D move the paddles, Space selects and launches a ball, F1 shows all keys.
 
     Example: `silverball play --table random --seed 7 --mode free`
     """
-    open_window(table, seed, mode)
+    open_window(table, seed, mode, cabinet=cabinet)
 
 
 def open_window(
@@ -46,6 +54,7 @@ def open_window(
     seed: int | None = None,
     mode: Mode | None = None,
     replay: Replay | None = None,
+    cabinet: CabinetMode | None = None,
 ) -> None:
     """Open the window and play; a message in the terminal says when the physics is being compiled."""
     from silverball.app.startup import compiling_message
@@ -58,7 +67,15 @@ def open_window(
         status.update(compiling_message())
         status.start()
 
-    window = Window(table, seed, mode=mode, replay=replay, on_compile=show_status, on_ready=status.stop)
+    window = Window(
+        table,
+        seed,
+        mode=mode,
+        replay=replay,
+        cabinet=cabinet,
+        on_compile=show_status,
+        on_ready=status.stop,
+    )
     try:
         window.run()
     finally:

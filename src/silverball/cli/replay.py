@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from silverball.cli.browser_page import ENDING, make_replay_page
 from silverball.cli.completion import LAST_REPLAY, complete_replay
 from silverball.cli.console import baking, compiling, error_console, print_json, print_lines, progress_bar
-from silverball.cli.shared_options import Force, Size, ThemeName, check_output, file_name, theme_named
+from silverball.cli.shared_options import Force, Music, Size, ThemeName, check_output, file_name, theme_named
 from silverball.errors import SilverballError
 
 if TYPE_CHECKING:
@@ -37,7 +38,11 @@ def replay(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(parser=file_name, metavar="FILE", help="Film to write, .gif, .mp4 or .png."),
+        typer.Option(
+            parser=file_name,
+            metavar="FILE",
+            help="Film to write, .gif, .mp4 or .png; or .html, a page for a browser.",
+        ),
     ] = None,
     start: Annotated[
         float, typer.Option("--from", min=0.0, max=86_400.0, help="Where in the game the film begins [s].")
@@ -52,6 +57,7 @@ def replay(
     ] = None,
     size: Size = None,
     theme: ThemeName = "neon",
+    music: Music = True,
     force: Force = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object on one line.")] = False,
 ) -> None:
@@ -60,6 +66,8 @@ def replay(
     Exit codes: 0 success, 1 the replay differs, 2 it cannot be played.
 
     Example: `silverball replay last --out game.gif --from 10 --seconds 8`
+
+    Example: `silverball replay last --out game.html`
     """
     game = load(file)
     report = replay_summary(file, game)
@@ -72,8 +80,11 @@ def replay(
         verdict = compared(game, load(against))
         report["against"] = {"file": against} | verdict._asdict()
         print_unless(as_json, f"{file} and {against}: {verdict.message}")
-    if out is not None and (verdict is None or verdict.ok):
-        make_film(out, game, start, seconds, size, theme=theme, force=force, quiet=as_json)
+    if out is not None and out.suffix.lower() == ENDING and (verdict is None or verdict.ok):
+        make_page(out, game, start, seconds, size, theme=theme, force=force)
+        report["out"] = str(out)
+    elif out is not None and (verdict is None or verdict.ok):
+        make_film(out, game, start, seconds, size, theme=theme, music=music, force=force, quiet=as_json)
         report["out"] = str(out)
     if as_json:
         print_json(report, indent=None)
@@ -114,6 +125,7 @@ def replay_summary(file: str, game: Replay) -> dict[str, Any]:
         "file": file,
         "program": game.program,
         "mode": str(game.mode),
+        "players": game.players,
         "table": game.table.name,
         "seed": game.seed,
         "tick_rate": game.tick_rate,
@@ -154,6 +166,27 @@ def watch(game: Replay) -> None:
     open_window(replay=game)
 
 
+def make_page(
+    out: Path,
+    game: Replay,
+    start: float,
+    seconds: float | None,
+    size: int | None,
+    *,
+    theme: str,
+    force: bool,
+) -> None:
+    """Write a page in which the whole replay is watched.
+
+    Raises:
+        SilverballError: A part of it is asked for, or the file cannot be written.
+    """
+    check_output(out, (ENDING,), force=force)
+    if start > 0.0 or seconds is not None:
+        raise SilverballError("a page shows the whole game; leave --from and --seconds out")
+    make_replay_page(out, game, size, theme)
+
+
 def make_film(
     out: Path,
     game: Replay,
@@ -162,6 +195,7 @@ def make_film(
     size: int | None,
     *,
     theme: str = "neon",
+    music: bool = True,
     force: bool,
     quiet: bool = False,
 ) -> None:
@@ -185,5 +219,5 @@ def make_film(
         )
     session = ReplaySession(ReplayPlayer(game))
     session.player.seek(round(start * game.tick_rate))
-    record(out, session, renderer, length, quiet=quiet)
+    record(out, session, renderer, length, theme=theme, has_music=music, quiet=quiet)
     renderer.close()

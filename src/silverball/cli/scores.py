@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Annotated, Any
+from datetime import date
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from silverball.cli.console import compiling, error_console, progress_bar
+from silverball.cli.score_tables import ShownList, print_rest, short_name
+from silverball.game.scores.daily import daily_seed
 from silverball.game.view import Mode
 from silverball.plain import plain
 
@@ -15,7 +18,7 @@ if TYPE_CHECKING:
     from silverball.game.scores.store import Score, ScoreList, Store
     from silverball.game.scores.verify_score import ScoreVerdict
 
-NAME_LENGTH = 60  # printed characters of a name
+TODAY = "today"
 
 
 def scores(
@@ -24,6 +27,13 @@ def scores(
         str, typer.Option(help="Only scores of this table, by the name in its heading. [default: all]")
     ] = "",
     mode: Annotated[Mode | None, typer.Option(help="Only scores of this mode. [default: both]")] = None,
+    day: Annotated[
+        str,
+        typer.Option(
+            metavar="DATE",
+            help="Only the daily board of a day, as 2026-11-29 or 'today'. [default: all]",
+        ),
+    ] = "",
     limit: Annotated[
         int, typer.Option(min=1, max=1_000_000, help="Scores shown per table, best first.")
     ] = 10,
@@ -44,14 +54,18 @@ def scores(
 ) -> None:
     """List the best scores of every table, or verify them by their replays.
 
-    Scores on random boards share one list, which shows the seed of each board. A score is proven if its
-    replay is complete, was played on the table of its list, reaches the score, and does not count twice. With
-    --verify, all other scores are listed last, with the reason; without it, the list shows the result of the
-    last verification.
+    Scores on random boards share one list, which shows the seed of each board. Above a list are the rank (the
+    missions finished in all its games) and the medals of its table; a score on a daily board has its date.
+
+    A score is proven if its replay is complete, was played on the table of its list, reaches the score, and
+    does not count twice. With --verify, all other scores are listed last, with the reason; without it, the
+    list shows the result of the last verification.
 
     Exit codes: 0 success, 1 a score is not proven, 2 the scores cannot be read or changed.
 
     Example: `silverball scores --table random`
+
+    Example: `silverball scores --day today`
 
     Example: `silverball scores --replay 12 --export best.replay`
     """
@@ -59,6 +73,7 @@ def scores(
     from silverball.game.scores.store import Store
 
     refuse_conflicts(ctx)
+    seed = seed_of_day(day)
     with Store() as store:
         if store.warning and not store.is_unreadable:
             error_console.print(
@@ -78,7 +93,7 @@ def scores(
         else:
             lists = select_lists(store, table, mode)
             proofs = verify_all(store, lists, as_json) if verify else None
-            show(store, lists, limit, as_json, proofs)
+            show(store, lists, limit, as_json, proofs, seed)
             raise typer.Exit(1 if any(not one.verified for one in (proofs or {}).values()) else 0)
 
 
@@ -106,6 +121,24 @@ def refuse_conflicts(ctx: typer.Context) -> None:
         if first in given and others:
             other = others[0].removeprefix("as_")
             raise SilverballError(f"silverball scores: --{other} does not go with --{first}; leave one out")
+
+
+def seed_of_day(day: str) -> int | None:
+    """The seed of a day's board; None if no day was given.
+
+    Raises:
+        SilverballError: It is not a date.
+    """
+    from silverball.errors import SilverballError
+
+    if not day:
+        return None
+    try:
+        return daily_seed(date.today() if day == TODAY else date.fromisoformat(day))
+    except ValueError:
+        raise SilverballError(
+            f"--day: expected a date such as 2026-11-29, or '{TODAY}', got '{short_name(day)}'"
+        ) from None
 
 
 def select_lists(store: Store, table: str, mode: Mode | None) -> list[ScoreList]:
@@ -192,84 +225,45 @@ def by_score(one: tuple[Score, int]) -> tuple[int, int]:
 
 
 def show(
-    store: Store, lists: list[ScoreList], limit: int, as_json: bool, proofs: dict[int, ScoreVerdict] | None
+    store: Store,
+    lists: list[ScoreList],
+    limit: int,
+    as_json: bool,
+    proofs: dict[int, ScoreVerdict] | None,
+    seed: int | None = None,
 ) -> None:
-    """Print the best scores of some lists."""
+    """Print the best scores of some lists; with a seed, those of its board only."""
+    ranked_lists = [(one, ranked(store, one, proofs, seed)) for one in lists]
+    shown = [(ShownList(store, one), rows) for one, rows in ranked_lists if rows]
     if as_json:
-        rows = [
-            as_object(place, score) for one in lists for place, score in ranked(store, one, limit, proofs)
-        ]
-        typer.echo(json.dumps(rows, indent=2))
+        objects = [one.as_object(place, score) for one, rows in shown for place, score in rows[:limit]]
+        typer.echo(json.dumps(objects, indent=2))
         return
-    if not lists:
-        typer.echo("there are no scores yet: play a game with `silverball`")
-    for one in lists:
-        versions = sum((other.mode, other.table_name) == (one.mode, one.table_name) for other in lists)
-        print_list(one, ranked(store, one, limit, proofs), versions > 1, proofs is not None)
+    if not shown:
+        which = "there are no scores on that board" if lists and seed is not None else "there are no scores"
+        typer.echo(f"{which} yet: play a game with `silverball`")
+    for one, rows in shown:
+        heading = one.heading
+        versions = sum(
+            (other.mode, other.table_name) == (heading.mode, heading.table_name) for other in lists
+        )
+        one.print(rows[:limit], is_one_of_several=versions > 1, is_verified=proofs is not None)
+        if len(rows) > limit:
+            print_rest(len(rows) - limit)
 
 
 def ranked(
-    store: Store, one: ScoreList, limit: int, proofs: dict[int, ScoreVerdict] | None
+    store: Store, one: ScoreList, proofs: dict[int, ScoreVerdict] | None, seed: int | None
 ) -> list[tuple[int, Score]]:
-    """The best scores of a list with their places; new proofs take precedence over stored ones."""
-    if proofs is None:
-        return list(enumerate(store.scores(list_id=one.id, limit=limit), 1))
-    scores = [
-        score._replace(verified=proofs[score.id].verified, why=proofs[score.id].why)
-        for score in store.scores(list_id=one.id, limit=-1)
-        if score.id in proofs
-    ]
-    return list(enumerate(sorted(scores, key=lambda score: score.order)[:limit], 1))
-
-
-def as_object(place: int, score: Score) -> dict[str, Any]:
-    """A score for JSON."""
-    values = score._asdict() | {"when": score.when.isoformat()}
-    del values["damage"]  # `why` contains it
-    return {"place": place} | values
-
-
-def print_list(
-    one: ScoreList, rows: list[tuple[int, Score]], is_one_of_several: bool, is_verified: bool
-) -> None:
-    """Print a list as a table; the digest of the table distinguishes lists of one name."""
-    from rich import box
-    from rich.console import Console
-    from rich.table import Table
-    from rich.text import Text
-
-    from silverball.game.scores.verify_score import is_built_in
-
-    words = [short_name(one.table_name), short_name(one.mode)]
-    words += ["built-in"] * is_built_in(one.table_digest)
-    words += [f"version {short_name(one.table_digest[:8])}"] * is_one_of_several
-    grid = Table(title=Text(" · ".join(words)), title_justify="left", box=box.SIMPLE_HEAD)
-    for head in ("place", "score"):
-        grid.add_column(head, justify="right")
-    grid.add_column("by")
-    grid.add_column("seed", justify="right")
-    grid.add_column("when")
-    grid.add_column("proof")
-    grid.add_column("ID", justify="right")
-    for place, score in rows:
-        cells = (
-            str(place), f"{score.score:,}", short_name(score.initials), str(score.seed),
-            score.played("%Y-%m-%d %H:%M"), proof_words(score, is_verified), str(score.id),
-        )  # fmt: skip
-        grid.add_row(*map(Text, cells), style="red" if score.is_rejected else None)
-    Console().print(grid)
-    if len(rows) < one.length:
-        typer.echo(f"  and {one.length - len(rows)} more (see --limit)")
-
-
-def proof_words(score: Score, is_verified: bool) -> str:
-    """The state of the proof in words; that of an earlier verification is in the past tense."""
-    if score.verified is None:
-        return "not verified" if score.has_replay else "no replay"
-    words = "proven" if score.verified else "not proven"
-    return words if is_verified or score.damage else f"was {words}"
-
-
-def short_name(text: str) -> str:
-    """Text from a file or the command line, escaped and shortened to be printed on one line."""
-    return plain(text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}…")
+    """The scores of a list with their places; new proofs take precedence over stored ones."""
+    scores = store.scores(list_id=one.id, limit=-1, seed=seed)
+    if proofs is not None:
+        scores = sorted(
+            (
+                score._replace(verified=proofs[score.id].verified, why=proofs[score.id].why)
+                for score in scores
+                if score.id in proofs
+            ),
+            key=lambda score: score.order,
+        )
+    return list(enumerate(scores, 1))

@@ -99,7 +99,7 @@ PlayerName = Annotated[
     str,
     typer.Option(
         "--player",
-        help="The player: idle, random, reflex, hold, planner, trained, or a registered one.",
+        help="The player: idle, random, blind, reflex, hold, planner, trained, or a registered one.",
         autocompletion=complete_player,
     ),
 ]
@@ -120,6 +120,7 @@ ThemeName = Annotated[
         autocompletion=complete_theme,
     ),
 ]
+Music = Annotated[bool, typer.Option("--music/--no-music", help="Whether an MP4 has music.")]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
 

@@ -30,7 +30,7 @@ UNINTERRUPTIBLE = {  # functions of the standard library, by file; "" stands for
     "subprocess.py": ("__init__",),
     "weakref.py": ("remove", "_commit_removals", "__call__"),
     "_weakrefset.py": ("_remove", "_commit_removals"),
-    "": ("__del__",),
+    "": ("__del__", "__getattr__", "__get__"),  # called from C code, which may discard what they raise
 }
 
 

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
 from silverball.cli.completion import complete_table
 from silverball.cli.console import compiling, print_json, print_lines, progress_bar
+from silverball.cli.ray_option import RayAddress, rounds_at
 from silverball.cli.shared_options import AsJson, FirstSeed, TickRate, Worlds
 from silverball.errors import SilverballError, StateError
+
+if TYPE_CHECKING:
+    from silverball.soak.campaign import RoundSource
 
 SHOWN_FINDINGS = 10
 
@@ -42,6 +46,7 @@ def soak(
         Path | None,
         typer.Option(metavar="FILE", help="Repeat a finding instead, and report whether it still happens."),
     ] = None,
+    ray: RayAddress = None,
     as_json: AsJson = False,
 ) -> None:
     """Try to break the solver: random boards, buttons and speeds, every tick checked independently.
@@ -56,7 +61,7 @@ def soak(
         repeat(again, as_json)
     if hostile and table is not None:
         raise SilverballError("silverball soak: --table does not go with --hostile, which makes its own")
-    report = run_soak(table, seed, worlds, tick_rate, hostile, frames, progress)
+    report = run_soak(table, seed, worlds, tick_rate, hostile, frames, progress, rounds_at(ray))
     if as_json:
         print_json(report)
     else:
@@ -72,6 +77,7 @@ def run_soak(
     hostile: bool,
     frames: int,
     progress: Path | None,
+    rounds: RoundSource | None = None,
 ) -> dict[str, Any]:
     """Soak until the total of frames is reached; returns the report."""
     from silverball.game.user_folder import data_folder
@@ -91,7 +97,7 @@ def run_soak(
     try:
         with progress_bar() as bar:
             task = bar.add_task(f"soaking {frames:,} frames", total=frames, completed=earlier.totals.frames)
-            log = campaign.soak(options, frames, path, lambda done: bar.update(task, completed=done))
+            log = campaign.soak(options, frames, path, lambda done: bar.update(task, completed=done), rounds)
     except KeyboardInterrupt:
         print_lines(f"progress is saved in {path}; the same command continues from there", err=True)
         raise

@@ -13,6 +13,7 @@
     sketch.py                             a picture without compiled code, until the table is baked
     background.py, warm_up.py             baking and compiling while a game is played
     compose.py, effects.py                one frame: flashes, moving parts, shadows, trails, balls, sparks
+    lamp_levels.py, light_shows.py        how bright each lamp is; lamp_lights.py adds its light
     text.py, dotmatrix/                   texts, and the score display
 
 `Renderer(table, height=480).render(world)` is an RGB array.

@@ -12,6 +12,7 @@ import threading
 from typing import TYPE_CHECKING
 
 from silverball.background_process import Compiler
+from silverball.background_thread import BackgroundThread
 from silverball.drawing.camera import Camera
 from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.themes import Theme
@@ -50,7 +51,7 @@ class Background:
         self._cache = cache
         self._is_random = is_random
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._work, name="silverball drawing", daemon=True)
+        self._thread = BackgroundThread(self._work, "drawing", self._stop)
         self._thread.start()
 
     @property

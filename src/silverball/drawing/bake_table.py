@@ -15,14 +15,16 @@ from silverball.drawing.bake_threads import BakeThreads
 from silverball.drawing.camera import Camera
 from silverball.drawing.kernels import bake
 from silverball.drawing.kernels.bake import Canvas, new_canvas
+from silverball.drawing.kernels.inserts import LAMP_REACH
 from silverball.drawing.kernels.stage import HALO, Material, Scene
 from silverball.drawing.layout import Layout
 from silverball.drawing.looks import LOOKS
-from silverball.drawing.pictures import BakedTable, HitFlash
+from silverball.drawing.pictures import AddedLight, BakedTable
 from silverball.drawing.scene import TableScene
 from silverball.drawing.themes import Theme
 
 SLACK = 0.05  # [u] added to a reach, for the heights between two that are tested
+FAINT = 2  # of 255: added light that is weaker at the edge of its picture is left out
 RECIPE_MATERIALS = (Material.ACRYLIC, Material.BUMPER)
 """Materials of what a recipe places at random, see `Layout.without_obstacles`."""
 
@@ -52,7 +54,8 @@ def bake_table(
     if empty is not None and inner is not None:
         pixels = np.where(inner[:, :, None], pixels, empty.pixels)
         height = np.where(inner, height, empty.height)
-    return BakedTable(pixels, height, _flashes(layout, table, camera, canvas, bake_threads))
+    flashes = _flashes(layout, table, camera, canvas, bake_threads)
+    return BakedTable(pixels, height, flashes, _lamps(table.scene, camera, canvas, bake_threads))
 
 
 def to_bytes(shown: NDArray[np.float32]) -> NDArray[np.uint8]:
@@ -116,13 +119,13 @@ def _one_wider(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 def _flashes(
     layout: Layout, table: TableScene, camera: Camera, canvas: Canvas, bake_threads: BakeThreads
-) -> dict[str, tuple[HitFlash, ...]]:
+) -> dict[str, tuple[AddedLight, ...]]:
     reaches = {
         row.part: LOOKS[row.primitive.finish].flash_reach
         for row in layout.rows
         if LOOKS[row.primitive.finish].flashes
     }
-    flashes: dict[str, tuple[HitFlash, ...]] = {}
+    flashes: dict[str, tuple[AddedLight, ...]] = {}
     for index, name in enumerate(table.parts):
         if name not in reaches or table.scene.solids[index]["glow"] == 0.0:
             continue
@@ -130,9 +133,33 @@ def _flashes(
         left, top, right, bottom = _box(camera, table.scene.solids[index], reach)
         pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
         arguments = (table.scene, canvas, index, left, top, pixels)
-        bake_threads.rows(bake.bake_flash, arguments, 0, bottom - top)
-        flashes[name] = (*flashes.get(name, ()), HitFlash(left, top, _smoothed(pixels)))
+        bake_threads.rows(bake.bake_light, arguments, 0, bottom - top)
+        flashes[name] = (*flashes.get(name, ()), AddedLight(left, top, _smoothed(pixels)))
     return flashes
+
+
+def _lamps(scene: Scene, camera: Camera, canvas: Canvas, bake_threads: BakeThreads) -> tuple[AddedLight, ...]:
+    """Bake the light of every lamp that lies in the playfield."""
+    lights = []
+    for index, insert in enumerate(scene.inserts):
+        x, z, size = insert["x"], insert["z"], insert["size"] + LAMP_REACH * camera.dimensions.unit
+        box = camera.box(x - size, x + size, z - size, z + size, 0.0, camera.dimensions.wall_height)
+        left, top, right, bottom = box
+        pixels = np.zeros((bottom - top, right - left, 3), np.uint8)
+        arguments = (scene, canvas, len(scene.solids) + index, left, top, pixels)
+        bake_threads.rows(bake.bake_light, arguments, 0, bottom - top)
+        lights.append(_cropped(AddedLight(left, top, _smoothed(pixels))))
+    return tuple(lights)
+
+
+def _cropped(light: AddedLight) -> AddedLight:
+    """Return a light without the edges that hardly shine."""
+    shines: NDArray[np.bool_] = np.any(light.pixels >= FAINT, axis=2)
+    if not shines.any():
+        return light._replace(pixels=np.zeros((0, 0, 3), np.uint8))
+    rows, columns = (np.flatnonzero(np.any(shines, axis=axis)) for axis in (1, 0))
+    pixels = light.pixels[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    return AddedLight(light.left + int(columns[0]), light.top + int(rows[0]), np.ascontiguousarray(pixels))
 
 
 def _smoothed(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:

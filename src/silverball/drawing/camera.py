@@ -57,15 +57,17 @@ class Camera:
         size: Width and height of the picture [pixel].
         board: The board.
         dimensions: The heights of its parts.
-        panel: The area of the score panel [pixel].
+        panel: The area of the score panel [pixel]; without one, a line at the top.
+        has_panel: Whether there is one above the board.
         frustum: The camera's numbers.
     """
 
-    def __init__(self, board: Board, size: tuple[int, int]) -> None:
+    def __init__(self, board: Board, size: tuple[int, int], *, has_panel: bool = True) -> None:
         self.size = size
         self.board = board
+        self.has_panel = has_panel
         self.dimensions = Dimensions.of(board)
-        content = _Content(board)
+        content = _Content(board, has_panel)
         scale = min(size[0] / content.width, size[1] / content.height)
         left = 0.5 * (size[0] - content.width * scale)
         top = 0.5 * (size[1] - content.height * scale)
@@ -74,9 +76,9 @@ class Camera:
             round(0.5 * (size[0] - panel_width)),
             round(top + content.gap * scale),
             max(round(panel_width), 1),
-            max(round(panel_width / PANEL_SHAPE), 1),
+            max(round(content.panel_height * scale), 1),
         )
-        board_top = top + (content.panel_height + 2.0 * content.gap) * scale
+        board_top = top + (content.height - content.board_height) * scale
         low_u, high_v = content.view[0], content.view[3]
         across = left + 0.5 * (content.width - content.board_width) * scale - low_u * scale
         eye_x, eye_y, sine, cosine = _pose(board)
@@ -122,16 +124,16 @@ class Camera:
         return left, top, right, bottom
 
 
-def best_size(board: Board, height: int) -> tuple[int, int]:
+def best_size(board: Board, height: int, *, has_panel: bool = True) -> tuple[int, int]:
     """Return width and height [pixel], both even, of a picture that the table just fills."""
-    content = _Content(board)
+    content = _Content(board, has_panel)
     return max(2, 2 * round(0.5 * height * content.width / content.height)), height - height % 2
 
 
 class _Content:
-    """The size of what must be visible, in units of (d·r)/(d·f): the board, and the panel above it."""
+    """The size of what must be visible, in units of (d·r)/(d·f): the board, and any panel above it."""
 
-    def __init__(self, board: Board) -> None:
+    def __init__(self, board: Board, has_panel: bool) -> None:
         dimensions = Dimensions.of(board)
         pose = _pose(board)
         long, wide = dimensions.half_length + dimensions.rail, dimensions.half_width + dimensions.rail
@@ -149,13 +151,15 @@ class _Content:
         margin = BOARD_MARGIN * (max(us) - min(us))
         self.view = (min(us) - margin, max(us) + margin, min(vs) - margin, max(vs) + margin)
         self.board_width = self.view[1] - self.view[0]
-        board_height = self.view[3] - self.view[2]
-        self.panel_width = min(max(self.board_width, PANEL_MIN * board_height), PANEL_MAX * board_height)
-        self.width = max(self.board_width, self.panel_width)
+        self.board_height = self.view[3] - self.view[2]
+        self.panel_width = min(
+            max(self.board_width, PANEL_MIN * self.board_height), PANEL_MAX * self.board_height
+        )
+        self.width = max(self.board_width, self.panel_width) if has_panel else self.board_width
         self.gap = MARGIN * self.panel_width
         self.panel_width -= 2.0 * self.gap
-        self.panel_height = self.panel_width / PANEL_SHAPE
-        self.height = board_height + self.panel_height + 2.0 * self.gap
+        self.panel_height = self.panel_width / PANEL_SHAPE if has_panel else 0.0
+        self.height = self.board_height + (self.panel_height + 2.0 * self.gap if has_panel else 0.0)
 
 
 def _pose(board: Board) -> tuple[float, float, float, float]:

@@ -1,11 +1,12 @@
 """Composing of a frame: the baked table, and on it everything that moves.
 
-    flashes of hits → moving parts → shadows of balls → trails → balls    on the playfield,
+    lamps → flashes of hits → moving parts → shadows of balls → trails → balls    on the playfield,
     the translucent level, and the same again                             for each upper level
     sparks
 
 Each layer sees what lies below it, heights included, so a ball is hidden by a raised paddle and its shadow
-climbs onto an obstacle. Between two frames only the dirty rectangles of the first are restored.
+climbs onto an obstacle. Between two frames only the dirty rectangles of the first are restored, and those in
+which lamps have changed.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ from silverball.drawing.effects import Effects, Spot
 from silverball.drawing.kernels.chrome import Sphere, cast_shadow, draw_ball
 from silverball.drawing.kernels.patches import add_light, add_spots, lay_over, lay_sprite
 from silverball.drawing.kernels.stage import Box
+from silverball.drawing.lamp_levels import Lamps
+from silverball.drawing.lamp_lights import LampLights
 from silverball.drawing.layout import Layout
 from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.moving import MovingPart, moving_parts
@@ -113,6 +116,7 @@ class Composer:
         self._is_tinted = table.board.max_balls > UNTINTED_BALLS
         scene = TableScene(layout._replace(rows=()), camera, theme).scene
         self._stage, self._inks = scene.stage, scene.inks
+        self._lamps, self._lights = Lamps(layout), LampLights(baked)
         self._layers = [_Layer(0, 0.0, baked.pixels, baked.height, None)]
         for number, over in sorted(levels.items()):
             base = number * LEVEL_RISE * camera.dimensions.unit
@@ -131,12 +135,12 @@ class Composer:
 
     def compose(self, moment: Moment, effects: Effects) -> pygame.Surface:
         """Draw a moment; the surface, 24 bits RGB, is used again for the next one."""
-        stale = self._changed
+        stale = [*self._changed, *self._lights.update(self._lamps.light_levels(moment, effects))]
         self._changed = []
         lowest = self._layers[0]
         for box in stale:
             at = _within(box)
-            lowest.frame[at] = self._baked.pixels[at]
+            lowest.frame[at] = self._lights.pixels[at]
         for name, strength in effects.flashes(moment.time):
             self._light_up(name, strength)
         balls = [*moment.balls, *effects.sinking_balls(moment.time)]

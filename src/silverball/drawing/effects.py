@@ -1,4 +1,4 @@
-"""Effects that last for a moment: flashes of parts that were hit, sparks, and trails of balls.
+"""Effects that last for a moment: flashes of parts that were hit, sparks, trails of balls, light shows.
 
 All are functions of the world's time, so films of the same game are equal and a paused game stands still.
 """
@@ -10,7 +10,9 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+from silverball.drawing.light_shows import ALWAYS, EVENT_SHOWS, SHOWS, Running
 from silverball.drawing.moment import BallAt, Moment
+from silverball.game.view import GameEvent, GameEventKind
 
 if TYPE_CHECKING:
     from silverball.world import Event
@@ -55,6 +57,13 @@ class _SinkingBall(NamedTuple):
     speed: float
 
 
+class _Begun(NamedTuple):
+    """The light show that began last, and when [s]."""
+
+    name: str
+    time: float
+
+
 class _Hit(NamedTuple):
     time: float
     number: int
@@ -80,6 +89,8 @@ class Effects:
         self._sparks: deque[_Hit] = deque(maxlen=MAX_HITS)
         self._sinking: list[_SinkingBall] = []
         self._paths: dict[int, deque[tuple[float, float, float]]] = {}
+        self._show: _Begun | None = None
+        self._is_ball_ready = False
 
     def clear(self) -> None:
         """Discard everything, because another game begins."""
@@ -88,6 +99,7 @@ class Effects:
         self._sparks.clear()
         self._sinking.clear()
         self._paths.clear()
+        self._show, self._is_ball_ready = None, False
 
     def add_events(self, events: Iterable[Event], tick_rate: int) -> None:
         """Remember events of a world; `tick_rate` is in ticks per second."""
@@ -96,6 +108,9 @@ class Effects:
             if event.kind in LIT_BY:
                 self._hits[event.part] = time
                 self._kicks[event.part] = Kick(time, event.position[0], event.position[2])
+            elif event.kind == "created" and self._is_ball_ready:
+                self._is_ball_ready = False
+                self._show = _Begun("ball start", time)
             elif event.kind == "gutter":
                 speed = max(event.speed, MIN_SINK_SPEED)
                 self._sinking.append(_SinkingBall(time, event.position[0], event.position[2], speed))
@@ -104,6 +119,28 @@ class Effects:
                 x, z = event.position[0] - nx * self._radius, event.position[2] - nz * self._radius
                 number = event.tick + 7 * event.ball
                 self._sparks.append(_Hit(time, number, x, z, math.atan2(nx, nz), event.speed))
+
+    def add_game_events(self, events: Iterable[GameEvent], tick_rate: int) -> None:
+        """Remember the light show that events of a game begin; `tick_rate` is in ticks per second."""
+        for event in events:
+            name = event.part if event.kind is GameEventKind.CUE else EVENT_SHOWS.get(event.kind)
+            time = event.tick / tick_rate
+            if event.kind is GameEventKind.BALL_READY:
+                self._is_ball_ready = True
+            if name not in SHOWS or (event.kind is GameEventKind.BALL_READY and event.tick == 0):
+                continue
+            running = self.show(time)
+            if event.kind in ALWAYS or running is None or SHOWS[name].rank >= SHOWS[running.name].rank:
+                self._show = _Begun(name, time)
+
+    def show(self, time: float) -> Running | None:
+        """Return the light show that runs at a time [s]; None if none does."""
+        if self._show is None:
+            return None
+        age = time - self._show.time
+        if not -MAX_AHEAD < age < SHOWS[self._show.name].seconds:
+            return None
+        return Running(self._show.name, max(age, 0.0))
 
     def flashes(self, time: float) -> Iterator[tuple[str, float]]:
         """Yield the parts that flash at a time [s], with a strength from 1 to 0."""

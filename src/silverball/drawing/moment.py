@@ -13,6 +13,8 @@ from silverball.drawing.moving import Motion, moving_parts, pose_angle
 from silverball.table import Table
 
 if TYPE_CHECKING:
+    from silverball.drawing.light_shows import Running
+    from silverball.game.core import GameCore
     from silverball.world import World
 
 CAPTURED = 4  # `physics.records.Motion.CAPTURED`, repeated here because that module needs the compiler
@@ -57,6 +59,10 @@ class Moment(NamedTuple):
             has fallen, a gate that is open).
         blades: The spinners in their order.
         launch_held: How long the launch button has been held [s].
+        cabinet: How far a nudge has moved the cabinet, up and to the right [u].
+        lamps: The state of each lamp of the table, 0 off, 1 on, 2 blinking; empty: as when a game begins.
+        color: The colour of lamps that have that of the mode that runs.
+        show: A light show that runs whatever happens; None: those that events begin.
     """
 
     time: float
@@ -66,6 +72,15 @@ class Moment(NamedTuple):
     off: int = 0
     blades: tuple[BladeAt, ...] = ()
     launch_held: float = 0.0
+    cabinet: tuple[float, float] = (0.0, 0.0)
+    lamps: tuple[int, ...] = ()
+    color: str = "white"
+    show: Running | None = None
+
+    @classmethod
+    def of_game(cls, game: GameCore) -> Self:
+        """The present moment of a game: that of its world, with its lamps."""
+        return cls.of(game.world)._replace(lamps=game.lamp_states, color=game.mode_color)
 
     @classmethod
     def of(cls, world: World) -> Self:
@@ -89,6 +104,7 @@ class Moment(NamedTuple):
             int(record["off"]) if has_devices else 0,
             blades,
             int(record["launch_held"]) * tick if has_devices else 0.0,
+            (float(record["cabinet_x"]), float(record["cabinet_z"])) if has_devices else (0.0, 0.0),
         )
 
     @classmethod
@@ -106,7 +122,8 @@ class Moment(NamedTuple):
         angles = tuple(_lerp(a, b, share) for a, b in zip(first.angles, second.angles, strict=True))
         held = max(second.launch_held - (1.0 - share) * (second.time - first.time), 0.0)
         time = _lerp(first.time, second.time, share)
-        return cls(time, balls, angles, second.score, second.off, second.blades, held)
+        x, z = (_lerp(a, b, share) for a, b in zip(first.cabinet, second.cabinet, strict=True))
+        return cls(*second)._replace(time=time, balls=balls, angles=angles, launch_held=held, cabinet=(x, z))
 
     @classmethod
     def before(cls, table: Table) -> Self:

@@ -53,7 +53,7 @@ class PictureProvider:
         self._cache = cache
         self._bake_threads = bake_threads
         self._parts = moving_parts(self._layout)
-        self._mirrored = _mirror_images(self._parts, camera)
+        self._mirrored = mirror_images(self._parts, camera)
         self._key = sprites_key(self._layout, camera, theme)
         self._sprites = load_sprites(cache, self._key)
         self._stored = len(self._sprites)
@@ -136,7 +136,7 @@ class PictureProvider:
         self._sprites[part, pose] = self._baker.bake(self._parts[part], pose)
 
 
-def _mirror_images(parts: tuple[MovingPart, ...], camera: Camera) -> dict[int, int]:
+def mirror_images(parts: tuple[MovingPart, ...], camera: Camera) -> dict[int, int]:
     """Return for each paddle that is the mirror image of an earlier one, and looks so, the earlier one."""
     if abs(2.0 * camera.frustum.across - camera.size[0]) > 1e-6:
         return {}

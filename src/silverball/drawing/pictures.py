@@ -5,6 +5,7 @@ Nothing here needs compiled code, so a cached picture is on screen before any co
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -16,8 +17,8 @@ from silverball.drawing.picture_cache import PictureCache, key_of
 from silverball.drawing.themes import Theme
 
 
-class HitFlash(NamedTuple):
-    """The light that a hit of a part adds to the picture, at its brightest.
+class AddedLight(NamedTuple):
+    """The light that a hit of a part or a lit lamp adds to the picture, at its brightest.
 
     Attributes:
         left: First column.
@@ -37,11 +38,13 @@ class BakedTable(NamedTuple):
         pixels: RGB, uint8 [row, column, 3].
         height: Of the visible surface above the playfield [u], float32 [row, column].
         flashes: Of the parts that light up when they are hit, by their path in the table.
+        lamps: Of the lamps that lie in the playfield, in the order of the lights of the layout.
     """
 
     pixels: NDArray[np.uint8]
     height: NDArray[np.float32]
-    flashes: dict[str, tuple[HitFlash, ...]]
+    flashes: dict[str, tuple[AddedLight, ...]]
+    lamps: tuple[AddedLight, ...] = ()
 
 
 class Sprite(NamedTuple):
@@ -78,31 +81,31 @@ Sprites: TypeAlias = dict[tuple[int, int], Sprite]
 
 def table_key(layout: Layout, camera: Camera, theme: Theme) -> str:
     """Return the key of a table's playfield without moving parts."""
-    return key_of("table", layout, camera.size, theme)
+    return key_of("table", layout, camera.size, camera.has_panel, theme)
 
 
 def sprites_key(layout: Layout, camera: Camera, theme: Theme) -> str:
     """Return the key of a table's moving parts, which do not depend on prisms and cylinders."""
-    return key_of("sprites", layout.without_obstacles(), camera.size, theme)
+    return key_of("sprites", layout.without_obstacles(), camera.size, camera.has_panel, theme)
 
 
 def levels_key(layout: Layout, camera: Camera, theme: Theme) -> str:
     """Return the key of a table's upper levels."""
-    return key_of("levels", layout, camera.size, theme)
+    return key_of("levels", layout, camera.size, camera.has_panel, theme)
 
 
 def load_baked_table(cache: PictureCache, key: str) -> BakedTable | None:
     """Load a baked table; None if it is not cached."""
     arrays = cache.load(key)
-    if arrays is None or not {"pixels", "height"} <= arrays.keys():
+    if arrays is None or not {"pixels", "height", "lamps", "lamp boxes"} <= arrays.keys():
         return None
-    flashes: dict[str, tuple[HitFlash, ...]] = {}
+    flashes: dict[str, tuple[AddedLight, ...]] = {}
     for name, pixels in arrays.items():
         if name.startswith("flash "):
             _, number, part = name.split(" ", 2)
             left, top = arrays[f"at {number}"]
-            flashes[part] = (*flashes.get(part, ()), HitFlash(int(left), int(top), pixels))
-    return BakedTable(arrays["pixels"], arrays["height"].astype(np.float32), flashes)
+            flashes[part] = (*flashes.get(part, ()), AddedLight(int(left), int(top), pixels))
+    return BakedTable(arrays["pixels"], arrays["height"].astype(np.float32), flashes, _lamps(arrays))
 
 
 def save_baked_table(cache: PictureCache, key: str, table: BakedTable) -> None:
@@ -112,7 +115,23 @@ def save_baked_table(cache: PictureCache, key: str, table: BakedTable) -> None:
     for number, (part, flash) in enumerate(each):
         arrays[f"flash {number} {part}"] = flash.pixels
         arrays[f"at {number}"] = np.array((flash.left, flash.top))
+    arrays["lamp boxes"] = np.array(
+        [(light.left, light.top, *light.pixels.shape[:2]) for light in table.lamps], np.int64
+    ).reshape(-1, 4)
+    arrays["lamps"] = np.concatenate(
+        [np.zeros(0, np.uint8), *(light.pixels.ravel() for light in table.lamps)]
+    )
     cache.save(key, arrays)
+
+
+def _lamps(arrays: Mapping[str, NDArray[Any]]) -> tuple[AddedLight, ...]:
+    """Return the lights of lamps: saved one after the other in one array, because opening many takes long."""
+    lights, first = [], 0
+    for left, top, rows, columns in arrays["lamp boxes"].tolist():
+        end = first + 3 * rows * columns
+        lights.append(AddedLight(left, top, arrays["lamps"][first:end].reshape(rows, columns, 3)))
+        first = end
+    return tuple(lights)
 
 
 def load_sprites(cache: PictureCache, key: str) -> Sprites:

@@ -25,12 +25,13 @@ from silverball.drawing.moment import Moment
 from silverball.drawing.picture_cache import PictureCache
 from silverball.drawing.pictures import load_baked_table, table_key
 from silverball.drawing.sketch import SketchPainter, rgb_surface
-from silverball.drawing.themes import THEMES, Theme
+from silverball.drawing.themes import ROOM, THEMES, Theme
 from silverball.table import Table
 
 if TYPE_CHECKING:
     from silverball.drawing.background import Background
     from silverball.drawing.picture_provider import PictureProvider
+    from silverball.game.view import GameEvent
     from silverball.world import Event, World
 
 DEFAULT_HEIGHT = 480  # [pixel]
@@ -58,6 +59,7 @@ class Renderer:
         effects: "full", or "less" for weaker flashes and neither sparks nor trails.
         board_seed: Shown with the score, if the board was made from it.
         background: Return at once and draw a sketch until the table is baked. Call `close` in the end.
+        has_panel: Whether there is a score panel above the board.
         progress: Called with the share of the baking that is done, 0 to 1; not in the background.
         cache: Where baked pictures are kept; by default the user's cache folder.
 
@@ -91,16 +93,17 @@ class Renderer:
         effects: Literal["full", "less"] = "full",
         board_seed: int | None = None,
         background: bool = False,
+        has_panel: bool = True,
         progress: Callable[[float], None] = lambda share: None,
         cache: PictureCache | None = None,
     ) -> None:
         self.table = table
         self.theme = _theme(theme)
-        self.camera = Camera(table.board, _size(table, size, height))
+        self.camera = Camera(table.board, _size(table, size, height, has_panel), has_panel=has_panel)
         self.effects = Effects(table.board.ball_radius, is_full=effects == "full")
         self.score_panel = self.camera.panel
         self.apron = _apron_area(self.camera)
-        self._panel = ScorePanel(self.score_panel, self.theme, table, board_seed)
+        self._panel = ScorePanel(self.score_panel, self.theme, table, board_seed) if has_panel else None
         self._cache = cache or PictureCache()
         self._provider: PictureProvider | None = None
         self._background: Background | None = None
@@ -134,6 +137,15 @@ class Renderer:
         """
         self.effects.add_events(events, tick_rate)
 
+    def add_game_events(self, events: Iterable[GameEvent], tick_rate: int) -> None:
+        """Add events of a game whose light shows the next pictures show.
+
+        Args:
+            events: What happened since the last picture, such as `Game.events`.
+            tick_rate: Ticks per second of the game.
+        """
+        self.effects.add_game_events(events, tick_rate)
+
     def draw(self, moment: Moment, target: pygame.Surface, dots: Dots | None = None) -> None:
         """Draw a moment onto a surface of the renderer's size.
 
@@ -142,7 +154,7 @@ class Renderer:
             target: Any surface; one of 24 bits whose bytes are RGB is fastest.
             dots: What the score panel shows; by default the moment's score.
         """
-        target.blit(self._compose(moment, dots), (0, 0))
+        target.blit(self._shifted(moment, dots), (0, 0))
 
     def surface(self, moment: Moment, dots: Dots | None = None) -> pygame.Surface:
         """Draw a moment onto a new surface of 24 bits, whose bytes are RGB."""
@@ -161,7 +173,7 @@ class Renderer:
     def array(self, moment: Moment, dots: Dots | None = None) -> NDArray[np.uint8]:
         """Draw a moment: RGB, uint8 `[height, width, 3]`, read-only."""
         width, height = self.camera.size
-        pixels = np.frombuffer(pygame.image.tobytes(self._compose(moment, dots), "RGB"), np.uint8)
+        pixels = np.frombuffer(pygame.image.tobytes(self._shifted(moment, dots), "RGB"), np.uint8)
         return pixels.reshape(height, width, 3)
 
     def wait(self, seconds: float | None = None) -> None:
@@ -176,10 +188,23 @@ class Renderer:
         if self._provider is not None:
             self._provider.save_sprites()
 
+    def _shifted(self, moment: Moment, dots: Dots | None) -> pygame.Surface:
+        """The picture of a moment, moved as far as a nudge has moved the cabinet."""
+        surface = self._compose(moment, dots)
+        x, z = moment.cabinet
+        across, down = round(z * self.camera.scale), round(-x * self.camera.scale)
+        if across == down == 0:
+            return surface
+        moved = rgb_surface(self.camera.size)
+        moved.fill(ROOM)
+        moved.blit(surface, (across, down))
+        return moved
+
     def _compose(self, moment: Moment, dots: Dots | None) -> pygame.Surface:
         self._adopt_background()
         surface = self._painter.compose(moment, self.effects)
-        self._panel.draw(surface, moment, dots)
+        if self._panel is not None:
+            self._panel.draw(surface, moment, dots)
         return surface
 
     def _adopt_background(self) -> None:
@@ -226,14 +251,14 @@ def _theme(theme: str | Theme) -> Theme:
     return THEMES[theme]
 
 
-def _size(table: Table, size: tuple[int, int] | None, height: int | None) -> tuple[int, int]:
+def _size(table: Table, size: tuple[int, int] | None, height: int | None, has_panel: bool) -> tuple[int, int]:
     if size is not None and height is not None:
         raise ValueError(f"give either size or height, got size {size} and height {height}")
     if size is None:
         height = DEFAULT_HEIGHT if height is None else height
         if height < 2:
             raise ValueError(f"height must be at least 2 pixels, got {height}")
-        return best_size(table.board, height)[0], height
+        return best_size(table.board, height, has_panel=has_panel)[0], height
     if min(size) < 1:
         raise ValueError(f"size must be at least 1 by 1 pixel, got {size}")
     return size

@@ -19,18 +19,20 @@ from silverball.drawing.kernels.solids import list_cells
 from silverball.drawing.kernels.stage import (
     CELL,
     HALO,
+    INSERT,
     LIGHT,
     MANY,
     MAX_CELLS,
     NEAR,
     NEAR_IF_MANY,
     STAGE,
+    Lens,
     Scene,
 )
 from silverball.drawing.layout import Layout
 from silverball.drawing.moving import MovingPart
 from silverball.drawing.text import lettering
-from silverball.drawing.themes import Theme
+from silverball.drawing.themes import Theme, lamp_color
 from silverball.physics.records import records
 
 
@@ -54,8 +56,11 @@ class TableScene:
         self._still.add_layout(layout, level)
         solids, corners, self.parts = self._still.finished()
         stage = _stage(camera, theme, level)
+        stage[0]["has_lamps"] = bool(layout.inserts)
         label = lettering(layout.name, camera.dimensions)
-        self.scene = _with_cells(Scene(stage, solids, corners, _inks(theme), EMPTY, EMPTY, label))
+        self.scene = _with_cells(
+            Scene(stage, solids, corners, _inks(theme), EMPTY, EMPTY, label, _inserts(layout, theme))
+        )
 
     def posed(self, poses: Iterable[tuple[MovingPart, int]]) -> Scene:
         """Return the scene with moving parts in these poses; their solids come last."""
@@ -112,6 +117,22 @@ def _stage(camera: Camera, theme: Theme, level: int) -> NDArray[Any]:
     row["low_x"], row["low_z"], row["cell_scale"] = -0.5 * long, -0.5 * wide, 1.0 / side
     row["rows"], row["columns"] = math.ceil(long / side), math.ceil(wide / side)
     return stage
+
+
+def _inserts(layout: Layout, theme: Theme) -> NDArray[Any]:
+    """The lenses of the lamps that lie in the playfield, one for each colour of light."""
+    rows = records(len(layout.lights), INSERT)
+    painted = set[int]()
+    for row, light in zip(rows, layout.lights, strict=True):
+        insert = layout.inserts[light.insert]
+        row["is_painted"] = light.insert not in painted
+        painted.add(light.insert)
+        angle = math.radians(insert.angle)
+        row["shape"], row["size"] = Lens[insert.shape.upper()], insert.size
+        row["x"], row["z"] = insert.center
+        row["sine"], row["cosine"] = math.sin(angle), math.cos(angle)
+        row["red"], row["green"], row["blue"] = linear(lamp_color(theme, light.color, insert.number))
+    return rows
 
 
 def _inks(theme: Theme) -> NDArray[np.float64]:

@@ -18,12 +18,13 @@ from silverball.drawing.camera import Camera
 from silverball.drawing.dimensions import LEVEL_RISE, corner_behind
 from silverball.drawing.effects import Effects
 from silverball.drawing.kernels.stage import EMBLEM_AT, EMBLEM_SIZE, RAYS, RING_AT, Art, Material
-from silverball.drawing.layout import Layout
+from silverball.drawing.lamp_levels import Lamps
+from silverball.drawing.layout import OF_THE_MODE, Insert, Layout
 from silverball.drawing.looks import LOOKS
 from silverball.drawing.moment import BallAt, Moment
 from silverball.drawing.moving import PULL, Motion, MovingPart, is_moving, moving_parts, pose_angle, turned
 from silverball.drawing.poses import pose_of
-from silverball.drawing.themes import Color, Theme, role_color
+from silverball.drawing.themes import Color, Theme, lamp_color, role_color
 from silverball.physics.forms import Shape
 from silverball.table import Table
 from silverball.table.outlines import closed_outline, path
@@ -35,6 +36,7 @@ FARTHEST = math.inf  # what is drawn first
 LEVEL_ORDER, FLAT_ORDER = 1000.0, 500.0  # [u] more than any x: levels come last, what lies flat comes first
 FLAT = 0.1  # [u] what is lower lies in the playfield
 CIRCLE = 28  # corners of a circle
+LINE: Color = (6, 6, 10)  # around the lens of a lamp
 
 
 def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
@@ -48,6 +50,8 @@ def sketch(table: Table, camera: Camera, theme: Theme) -> NDArray[np.uint8]:
     _emblem(pen, table, theme)
     _rails(pen, theme)
     layout = Layout.of(table)
+    for insert in layout.inserts:
+        sketch_lamp(pen, insert, 0.0, theme)
     for _, draw in sorted(_parts(pen, layout, theme), key=lambda part: -part[0]):  # the far ones first
         draw()
     _apron(pen, theme)
@@ -129,6 +133,43 @@ def sketch_ball(pen: Pen, ball: BallAt, is_sunk: bool = False) -> None:
     for share, color in ((1.0, (120, 128, 150)), (0.86, (196, 202, 220)), (0.5, (250, 250, 255))):
         shift = 0.25 * size * (1.0 - share)
         pygame.draw.circle(pen.surface, color, (place[0], place[1] - shift), share * size)
+
+
+def sketch_lamp(pen: Pen, insert: Insert, level: float, theme: Theme) -> None:
+    """Draw the lens of a lamp, from 0 (dark glass) to 1 (fully lit)."""
+    color = lamp_color(theme, insert.color, insert.number)
+    red, green, blue = (round(0.5 * value + 127.0) for value in color)
+    core = dim((red, green, blue), level) if level > 0.5 else dim(color, 0.35 + 0.4 * level)
+    for size, tone in ((1.15, LINE), (1.0, dim(color, 0.25 + 0.75 * level)), (0.5, core)):
+        pen.face([(x, z, 0.0) for x, z in lens_outline(insert, size)], tone)
+
+
+LENSES: dict[str, tuple[Point, ...]] = {
+    "square": ((0.7, 0.7), (-0.7, 0.7), (-0.7, -0.7), (0.7, -0.7)),
+    "bar": ((0.92, 0.36), (-0.92, 0.36), (-0.92, -0.36), (0.92, -0.36)),
+    "triangle": ((1.0, 0.0), (-0.5, 0.866), (-0.5, -0.866)),
+    "arrow": (
+        (1.0, 0.0), (0.05, 0.75), (0.05, 0.3), (-0.95, 0.3), (-0.95, -0.3), (0.05, -0.3), (0.05, -0.75),
+    ),
+    "star": tuple(
+        (reach * math.cos(math.pi * number / 5), reach * math.sin(math.pi * number / 5))
+        for number in range(10)
+        for reach in ((1.0, 0.48)[number % 2],)
+    ),
+}  # fmt: skip
+"""Corners of the lenses of lamps, along and across where they point, as in `kernels/inserts.py`."""
+
+
+def lens_outline(insert: Insert, share: float = 1.0) -> list[Point]:
+    """Return the outline (x, z) of a lamp's lens, or of a smaller one in its middle."""
+    (x, z), size = insert.center, share * insert.size
+    if insert.shape == "round":
+        return [(px, pz) for px, pz, _ in circle(x, z, size, 0.0)]
+    sine, cosine = math.sin(math.radians(insert.angle)), math.cos(math.radians(insert.angle))
+    return [
+        (x + size * (along * sine - across * cosine), z + size * (along * cosine + across * sine))
+        for along, across in LENSES[insert.shape]
+    ]
 
 
 def dim(color: Color, share: float) -> Color:
@@ -352,6 +393,7 @@ class SketchPainter:
     ) -> None:
         self._layout = Layout.of(table)
         self._parts = moving_parts(self._layout)
+        self._lamps = Lamps(self._layout)
         self._theme = theme
         if pixels is None:
             pixels = sketch(table, camera, theme)
@@ -364,6 +406,10 @@ class SketchPainter:
         self._surface.blit(self._baked, (0, 0))
         for _ in effects.trails(moment):
             pass  # advances the trails, so that they are complete when the baked picture takes over
+        for insert, level in zip(self._layout.inserts, self._lamps.levels(moment, effects), strict=True):
+            if level > 0.0:
+                color = moment.color if insert.color == OF_THE_MODE else insert.color
+                sketch_lamp(self._pen, insert._replace(color=color), float(level), self._theme)
         for ball in (*moment.balls, *effects.sinking_balls(moment.time)):
             sketch_ball(self._pen, ball, self._layout.is_hole(ball.holder))
         for part in self._parts:

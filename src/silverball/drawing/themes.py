@@ -233,6 +233,20 @@ def role_color(theme: Theme, role: str, number: int) -> Color:
     return cycled_color(value, number) if isinstance(value[0], tuple) else value
 
 
+LAMP_COLORS: dict[str, Color] = {
+    "white": (255, 246, 226), "yellow": (255, 210, 30), "orange": (255, 130, 16), "red": (255, 36, 30),
+    "pink": (255, 70, 170), "violet": (160, 76, 255), "blue": (46, 100, 255), "cyan": (30, 214, 255),
+    "green": (40, 232, 84),
+}  # fmt: skip
+"""The colours of lamps by their names in a table file, the same in all themes."""
+
+
+def lamp_color(theme: Theme, name: str, number: int) -> Color:
+    """Return the colour of a lamp; "auto" is one of the theme's inserts, by the number of its group."""
+    name = "white" if name == "mode" else name
+    return cycled_color(theme.inserts, number) if name == "auto" else LAMP_COLORS[name]
+
+
 BALL_TINTS: tuple[Color, ...] = (
     (255, 255, 255), (255, 214, 120), (150, 220, 255), (255, 170, 200), (170, 255, 180), (210, 180, 255),
     (255, 190, 140), (190, 255, 240),

@@ -20,9 +20,10 @@ def compile_all() -> None:
     from silverball.drawing.picture_cache import PictureCache
     from silverball.drawing.renderer import Renderer
     from silverball.table import load_table
+    from silverball.table.rulebook import Lamp
     from silverball.world import Event
 
-    table = load_table("classic")
+    table = load_table("classic").replace(format=2, lamp=[Lamp(name="lamp", center=(0.0, 0.0), begins="on")])
     with tempfile.TemporaryDirectory() as folder:
         renderer = Renderer(table, (20, 32), cache=PictureCache(Path(folder)))
         hit = Event("hit", "cylinder[0]", 1, 0, 0.0, (5.0, 1.0, 0.0), (1.0, 0.0, 0.0), 12.0)

@@ -11,8 +11,11 @@ from numpy.typing import NDArray
 
 from silverball.envs.options import Options
 
-KEYS = {"left": "a", "right": "d", "jitter": "z", "create": " ", "launch": "\r"}
-"""The key of each button, as in the window."""
+KEYS = {
+    "left": "a", "right": "d", "jitter": "z", "nudge_left": "z", "nudge_right": "x", "nudge_up": "w",
+    "create": " ", "launch": "\r",
+}  # fmt: skip
+"""The key of each button, as in the window; only the arrow of a nudge up is none that `play` knows."""
 
 
 def action_space(options: Options, buttons: tuple[str, ...]) -> spaces.Space[Any]:

@@ -2,19 +2,18 @@
 
 Generating and checking a board takes 10 ms or more, a step a tenth of a microsecond, so episodes draw their
 boards from a pool. All boards of a pool have the same borders and paddles, so that observations have the same
-meaning on each: they come from one recipe, or from a list of tables with equal `board` and `paddle`.
+meaning on each: they come from one recipe, from a list of tables whose `board` and `paddle` differ at most in
+their physics, or from one table whose physics vary (`variation.py`).
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from operator import index
 from typing import Any, NamedTuple
 
 import numpy as np
-import tomli_w
 from numpy.typing import NDArray
 
 from silverball.envs.observations import (
@@ -26,10 +25,12 @@ from silverball.envs.observations import (
     field_named,
     fields,
 )
-from silverball.envs.options import TableSource
+from silverball.envs.protocol import TableSource, load_source
+from silverball.envs.variation import Ranges, check_ends, numbers_of, with_numbers, without_physics
 from silverball.physics.records import Device
 from silverball.plain import plain
-from silverball.table import Table, expand, generate_table, load_table, parse_table
+from silverball.table import Table, expand, generate_table
+from silverball.table.standard_rules import rules_of
 from silverball.world import WorldBatch
 from silverball.world.compile import Boards, blank_worlds, compile_tables
 
@@ -48,6 +49,8 @@ class Pool(NamedTuple):
         layouts: The columns of an observation that describe the obstacles, float32 [board, column].
         fields: The groups of an observation and their columns.
         has_plunger: Whether the boards have a plunger, and so a launch button.
+        has_nudge: Whether the cabinet of the boards can be nudged.
+        varied: The numbers that vary, by their keys, float64 [board] each.
     """
 
     tables: tuple[Table, ...]
@@ -57,6 +60,8 @@ class Pool(NamedTuple):
     layouts: NDArray[np.float32]
     fields: tuple[Field, ...]
     has_plunger: bool
+    has_nudge: bool
+    varied: Mapping[str, NDArray[np.float64]]
 
     def board_of_seed(self, seed: Any) -> int:
         """The index of the board with this seed, or at this position of a list of tables.
@@ -85,50 +90,46 @@ class Pool(NamedTuple):
         return self.fields[-1].end
 
 
-def make_pool(table: TableSource | Sequence[TableSource], count: int, board_seed: int) -> Pool:
+def make_pool(
+    table: TableSource | Sequence[TableSource],
+    count: int,
+    board_seed: int,
+    ranges: Ranges = (),
+    has_rules: bool = False,
+) -> Pool:
     """The pool of a recipe, of one table, or of a list of tables.
 
     Args:
         table: A table source, or a list of sources of finished tables.
-        count: The number of boards, if it is a recipe.
+        count: The number of boards, if it is a recipe or if its physics vary.
         board_seed: The seed of the first board; the others follow.
+        ranges: The physics that vary.
+        has_rules: Whether the episodes are games by the rules of the tables, which observations show.
 
     Raises:
         TableError: There is no such table, or it has problems.
         TypeError: It is not a table source.
-        ValueError: The tables of a list differ in their boards or paddles, or one is a recipe.
+        ValueError: The tables of a list differ in their boards or paddles, one is a recipe, or the physics
+            cannot vary like this.
     """
     if isinstance(table, (list, tuple)):
-        return _list_pool(tuple(_load(one) for one in table))
-    one = _load(table)  # type: ignore[arg-type]
-    return _recipe_pool(one, count, board_seed) if one.random is not None else _pool((one,), [-1])
-
-
-def _load(table: TableSource) -> Table:
-    if isinstance(table, (str, os.PathLike)):
-        return load_table(table)
-    if isinstance(table, Mapping):
-        try:
-            text = tomli_w.dumps(table)
-        except TypeError as error:
-            raise TypeError(f"table has a value that a table file cannot hold: {error}") from None
-        return parse_table(text, "table")
-    if not isinstance(table, Table):
-        raise TypeError(
-            "table must be a built-in name, a path, a Table, a dict or a list of them, "
-            f"got {type(table).__name__}"
-        )
-    return table
+        return _list_pool(tuple(load_source(one) for one in table), ranges, has_rules)
+    one = load_source(table)  # type: ignore[arg-type]
+    if one.random is None and not ranges:
+        return _pool((one,), [-1], (), has_rules)
+    return _seeded_pool(one, count, board_seed, ranges, has_rules)
 
 
 @lru_cache(maxsize=8)
-def _recipe_pool(recipe: Table, count: int, board_seed: int) -> Pool:
+def _seeded_pool(table: Table, count: int, board_seed: int, ranges: Ranges, has_rules: bool) -> Pool:
+    """The pool of a recipe, or of copies of a table with other physics."""
     seeds = range(board_seed, board_seed + count)
-    return _pool(tuple(generate_table(seed, recipe) for seed in seeds), seeds)
+    tables = [table if table.random is None else generate_table(seed, table) for seed in seeds]
+    return _pool(tuple(tables), seeds, ranges, has_rules)
 
 
 @lru_cache(maxsize=8)
-def _list_pool(tables: tuple[Table, ...]) -> Pool:
+def _list_pool(tables: tuple[Table, ...], ranges: Ranges, has_rules: bool) -> Pool:
     if not tables:
         raise ValueError("the list of tables must have at least one, got an empty list")
     for number, table in enumerate(tables):
@@ -136,12 +137,19 @@ def _list_pool(tables: tuple[Table, ...]) -> Pool:
         if table.random is not None:
             raise ValueError(f"{which} is a recipe: draw boards from it with generate_table(seed, recipe)")
         for part in ("board", "paddle", "plunger"):
-            if getattr(table, part) != getattr(tables[0], part):
-                raise ValueError(f"{which} has a different [{part}] than the first one; they must be equal")
-    return _pool(tables, range(len(tables)))
+            if without_physics(table, part) != without_physics(tables[0], part):
+                raise ValueError(
+                    f"{which} has a different [{part}] than the first one; they must be equal but for physics"
+                )
+    return _pool(tables, range(len(tables)), ranges, has_rules)
 
 
-def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
+def _pool(tables: tuple[Table, ...], seeds: Sequence[int], ranges: Ranges, has_rules: bool) -> Pool:
+    if ranges:
+        check_ends(tables[0], ranges)
+    numbers = [numbers_of(seed, ranges) for seed in seeds]
+    tables = tuple(with_numbers(table, own) for table, own in zip(tables, numbers, strict=True))
+    varied = {key: np.array([own[key] for own in numbers]) for key, _, _ in ranges}
     boards = compile_tables(tables)
     items = {"balls": max(LEAST_BALLS, int(boards.board["max_balls"].max())), "game": 1}
     items["paddles"] = max(LEAST_PADDLES, _paddle_slots(tables[0]))
@@ -150,12 +158,18 @@ def _pool(tables: tuple[Table, ...], seeds: Sequence[int]) -> Pool:
     items["plunger"] = int(boards.board["plungers"].max() > 0)
     if np.isin(boards.collider["role"], (Device.PASSAGE, Device.HOLE, Device.PLUNGER)).any():
         items["ball_places"] = items["balls"]
+    if has_rules:
+        rules = rules_of(tables[0])
+        items |= {"play": 1, "lamps": len(rules.lamp), "counters": len(rules.counter)}
+        items["modes"] = len(rules.mode)
     for group, kind in SHOWN_KINDS.items():
         items[group] = max(len(getattr(table, kind)) for table in tables)
     layout = fields(items)
     blanks = blank_worlds(boards, np.arange(len(tables)))
     layouts, has_plunger = _layouts(boards, layout), items["plunger"] > 0
-    return Pool(tables, np.array(seeds, np.int64), boards, blanks, layouts, layout, has_plunger)
+    has_nudge = bool(boards.board["nudge"].any())
+    numbered = np.array(seeds, np.int64)
+    return Pool(tables, numbered, boards, blanks, layouts, layout, has_plunger, has_nudge, varied)
 
 
 def _layouts(boards: Boards, layout: tuple[Field, ...]) -> NDArray[np.float32]:

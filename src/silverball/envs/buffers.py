@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.envs.pointers import OUTPUTS
-from silverball.envs.state import INFO
 
 MAX_TRACKED = 4  # outputs that may be reused
 
@@ -38,15 +37,19 @@ class StepOutput:
     copies: NDArray[np.uint8]
 
     def __init__(
-        self, arrays: dict[str, NDArray[Any]], returned: tuple[str, ...], all_true: NDArray[np.bool_]
+        self,
+        arrays: dict[str, NDArray[Any]],
+        returned: tuple[str, ...],
+        info: tuple[str, ...],
+        all_true: NDArray[np.bool_],
     ) -> None:
         self.arrays = arrays
         vars(self).update(arrays)
         self.addresses = np.array([arrays[name].ctypes.data for name in OUTPUTS], np.int64)
         self.infos: dict[str, Any] = {}
-        for name, row in zip(INFO, self.counts.T, strict=True):
+        for name, row in zip(info, self.counts.T, strict=True):
             self.infos[name], self.infos[f"_{name}"] = row, all_true
-        self._returned = [*(arrays[name] for name in returned), *(self.infos[name] for name in INFO)]
+        self._returned = [*(arrays[name] for name in returned), *(self.infos[name] for name in info)]
         del row
         self._own_references = list(map(getrefcount, self._returned))
 
@@ -68,12 +71,14 @@ class OutputPool:
         last: The output of the last step.
     """
 
-    def __init__(self, first: dict[str, NDArray[Any]], returned: tuple[str, ...]) -> None:
-        """Start with these arrays; a step returns those named in `returned`."""
-        self._returned = returned
+    def __init__(
+        self, first: dict[str, NDArray[Any]], returned: tuple[str, ...], info: tuple[str, ...]
+    ) -> None:
+        """Start with these arrays; a step returns those named in `returned`, counts by the names `info`."""
+        self._returned, self._info = returned, info
         self._all_true = np.ones(len(first["rewards"]), np.bool_)
         self._all_true.flags.writeable = False
-        self.last = StepOutput(first, returned, self._all_true)
+        self.last = StepOutput(first, returned, info, self._all_true)
         self._tracked = [self.last]
 
     def advance(self) -> None:
@@ -86,10 +91,10 @@ class OutputPool:
             name: np.empty_like(array) if name in self._returned else array
             for name, array in self.last.arrays.items()
         }
-        self.last = StepOutput(arrays, self._returned, self._all_true)
+        self.last = StepOutput(arrays, self._returned, self._info, self._all_true)
         self._tracked = [*self._tracked[-MAX_TRACKED + 1 :], self.last]
 
     def replace(self, **arrays: NDArray[Any]) -> None:
         """Replace some of the arrays that steps write to."""
-        self.last = StepOutput(self.last.arrays | arrays, self._returned, self._all_true)
+        self.last = StepOutput(self.last.arrays | arrays, self._returned, self._info, self._all_true)
         self._tracked = [self.last]

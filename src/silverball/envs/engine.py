@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import itertools
+import math
 import sys
 from concurrent.futures import Future
 from functools import cache
@@ -23,18 +24,37 @@ from numpy.typing import NDArray
 from silverball.envs.board_pool import Pool, PooledBatch, make_pool
 from silverball.envs.buffers import OutputPool
 from silverball.envs.episode import run_task
-from silverball.envs.observations import field_named
+from silverball.envs.for_games import GAMES
+from silverball.envs.game_arrays import compile_games
+from silverball.envs.observations import field_named, with_items
 from silverball.envs.options import Options
 from silverball.envs.pixels import draw_finals
-from silverball.envs.pointers import ADDRESSES, OUTPUTS, write_addresses
-from silverball.envs.rewards import TERMS, call_batch_reward, call_reward, resolve_reward
+from silverball.envs.pointers import ADDRESSES, GAME_ADDRESSES, OUTPUTS, write_addresses
+from silverball.envs.protocol import at_level
+from silverball.envs.rewards import TERMS, call_batch_reward, call_reward, check_terms, resolve_reward
+from silverball.envs.sight import POSITIONS, reach_of
 from silverball.envs.sprites import empty_pictures, make_pictures
-from silverball.envs.state import COUNTS, EPISODE, INFO, PICTURE_STATE, RULES, ResetMode, StepFlag, Task
+from silverball.envs.state import (
+    ALL_INFO,
+    CONTROL,
+    COUNTS,
+    EPISODE,
+    GAME_COUNTS,
+    INFO,
+    PICTURE_STATE,
+    RULES,
+    ResetMode,
+    StepFlag,
+    Task,
+)
+from silverball.envs.variation import checked_ranges
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
 from silverball.physics.kernel import AGENTS, SETTINGS, bind_types, cache_folder, is_compiled
 from silverball.physics.records import LEFT, MAX_PADDLES, RIGHT, Part, records
-from silverball.world.single_step import addresses_of
+from silverball.physics.step import ACTION_COLUMNS
+from silverball.referee.game_records import GAME
+from silverball.world.single_step import addresses_of, layout_name
 from silverball.world.threads import thread_pool
 
 STATE_FORMAT = 3
@@ -58,7 +78,11 @@ class Engine:
         rules: One RULES record [1].
         outputs: The arrays that steps write to; `outputs.last` has those of the last one: observations,
             float32 [env, column], empty for pictures; rewards, terminated, truncated [env]; counts, the
-            events so far, int64 [env, count], in the order of `INFO`.
+            events so far, int64 [env, count], in the order of `info`.
+        info: The keys of `info`.
+        games: The rules of episodes that are games, or None.
+        game_records, happened: The games, GAME records [env], and what has happened in them; see
+            `pointers.GAME_ARRAYS`.
         window: The pictures of the last observation, uint8 [env, stacked, pixel]; empty for states.
         finals, final_counts: Observations and counts of episodes that ended in the last step.
     """
@@ -68,54 +92,83 @@ class Engine:
     ) -> None:
         """Make `count` environments; with `has_fixed_output` every step writes to the same arrays."""
         self.options, self.count, self.has_fixed_output = options, count, has_fixed_output
-        self.pool: Pool = make_pool(options.table, options.boards, options.board_seed)
-        self.buttons = options.buttons(self.pool.has_plunger)
+        self.pool: Pool = make_pool(
+            at_level(options.table, options.level),
+            options.split.boards,
+            options.split.first,
+            checked_ranges(options.vary),
+            options.rules,
+        )
+        self.games = compile_games(options, self.pool) if options.rules else None
+        self.terms_named: tuple[str, ...] = (*TERMS, *(self.games.own_terms if self.games else ()))
+        self.buttons = options.buttons(self.pool.has_plunger, self.pool.has_nudge)
         self.reward = resolve_reward(options.reward)
+        if not callable(self.reward):
+            check_terms(self.reward, self.terms_named[len(TERMS) :])
         self.shows_pictures = options.observation == "pixels"
+        self.has_controls = options.sticky > 0.0 or options.recharge > 0.0
+        known = ALL_INFO if self.has_controls else INFO
+        self.info: tuple[str, ...] = (*known, *(GAME_COUNTS if self.games else ()))
+        if options.recharge > 0.0:
+            self.pool = self.pool._replace(fields=with_items(self.pool.fields, "supply", 1))
         self.stack = options.stack if self.shows_pictures else 0
         self._allocate_state(threads)
         self.rules = _rules(options, self.pool, mode, self.buttons)
+        if self.games:
+            self.rules["par"] = self.games.par
         self._prepare_pictures()
         self.actions = np.zeros(count, np.int64)
         self.reset_mask = np.ones(count, np.bool_)
         self.requested_boards = np.full(count, -1, np.int64)
         rewarded = count if self.rules["weighs_counts"][0] else 0
-        self.terms = np.zeros((rewarded, len(TERMS)))
+        self.terms = np.zeros((rewarded, len(self.terms_named)))
         self.counts_before = np.zeros((rewarded, len(COUNTS)), np.int64)
         columns = 0 if self.shows_pictures else self.pool.columns
         self.outputs = self._first_outputs(columns)
         ended = count if mode == ResetMode.SAME_STEP else 0
         self.finals = np.zeros((ended, columns), np.float32)
-        self.final_counts = np.zeros((ended, len(INFO)), np.int64)
+        self.final_counts = np.zeros((ended, len(self.info)), np.int64)
         self.final_picture_states = records(ended * self.stack, PICTURE_STATE).reshape(ended, self.stack)
-        self._held = np.zeros((1, count, 4 if self.pool.has_plunger else 3), np.bool_)
+        columns = ACTION_COLUMNS[2 if "nudge_up" in self.buttons else self.pool.has_plunger]
+        self._held = np.zeros((1, count, columns), np.bool_)
         pictures = max(1, self.stack * int(self.rules["copies_stack"][0])) if self.shows_pictures else 0
         self._work_per_env = options.frame_skip + PICTURE_WORK * pictures
         self._write_addresses()
-        _announce_compilation()
+        announce_compilation((GAMES if self.games else "") + layout_name(self.batch.state.dtype))
         self.run_task = bind_types(run_task, self.addresses, 0, 1, 0)
         self.set_unstarted()
 
     def _allocate_state(self, threads: int) -> None:
         """Allocate the state; that of a single environment is contiguous."""
         layout = self.pool.boards.layout
-        sizes = (SIGNATURE_SIZE, 8, layout.itemsize, EPISODE.itemsize, self.stack * PICTURE_STATE.itemsize)
+        sizes = (
+            SIGNATURE_SIZE, 8, layout.itemsize, EPISODE.itemsize, self.stack * PICTURE_STATE.itemsize,
+            CONTROL.itemsize * self.has_controls,
+            *((GAME.itemsize, 8 * self.games.happenings) if self.games else (0, 0)),
+        )  # fmt: skip
         edges = np.cumsum((0, *(size * self.count for size in sizes)))
         self.memory = np.zeros(edges[-1], np.uint8)
-        signatures, board_of, worlds, episodes, picture_states = (
+        signatures, board_of, worlds, episodes, picture_states, controls, games, happened = (
             self.memory[start:end] for start, end in itertools.pairwise(edges)
         )
         signatures.reshape(self.count, SIGNATURE_SIZE)[:] = np.frombuffer(self._signature(), np.uint8)
         self.episodes = _as_records(episodes, EPISODE)
         self.picture_states = _as_records(picture_states, PICTURE_STATE).reshape(self.count, self.stack)
+        self.controls = _as_records(controls, CONTROL)
         state, board = _as_records(worlds, layout), board_of.view(np.int64)
         self.batch = PooledBatch(self.pool, self.options.tick_rate, threads, state, board)
-        parts = (signatures, board_of, worlds, episodes, picture_states)
+        self.game_records = _as_records(games, GAME)
+        self.happened = happened.view(np.int64).reshape(self.count, -1)
+        parts = (signatures, board_of, worlds, episodes, picture_states, controls, games, happened)
         self.state_parts = [part.reshape(self.count, -1) for part in parts]
 
     def _signature(self) -> bytes:
         """A hash of the settings that a state depends on: it can only be restored where they are equal."""
-        shared = (STATE_FORMAT, PHYSICS_VERSION, self.options.tick_rate, self.stack, self.pool.boards.digests)
+        shared: tuple[Any, ...] = (
+            STATE_FORMAT, PHYSICS_VERSION, self.options.tick_rate, self.stack, self.pool.boards.digests,
+        )  # fmt: skip
+        if self.games:
+            shared = (*shared, self.games.digest)
         return hashlib.sha256(repr(shared).encode()).digest()[:SIGNATURE_SIZE]
 
     def _prepare_pictures(self) -> None:
@@ -148,11 +201,11 @@ class Engine:
             "rewards": np.zeros(count),
             "terminated": np.zeros(count, np.bool_),
             "truncated": np.zeros(count, np.bool_),
-            "counts": np.zeros((count, len(INFO)), np.int64),
+            "counts": np.zeros((count, len(self.info)), np.int64),
             "frames": np.zeros((count, self.ring, pixels), np.uint8),
             "copies": np.zeros((count, copied, pixels), np.uint8),
         }
-        return OutputPool(arrays, ("rewards", "terminated", "truncated", "counts", shown))
+        return OutputPool(arrays, ("rewards", "terminated", "truncated", "counts", shown), self.info)
 
     def _write_addresses(self) -> None:
         """Write the addresses of all arrays; arrays that are attributes of the engine are found by name."""
@@ -165,7 +218,13 @@ class Engine:
             "paddle_sprites": pictures.paddles, "pictured_boards": pictures.pictured_boards,
             "lamp_of": pictures.lamp_of, "pieces": pictures.pieces, "masks": pictures.masks,
         }  # fmt: skip
-        self.addresses = records(1, addresses_of(self.batch.state.dtype, ADDRESSES))
+        named = ADDRESSES
+        if self.games:
+            weights = {} if callable(self.reward) else self.reward
+            self.game_arrays = self.games.arrays(weights, self.count, len(self.counts_before))
+            arrays |= {"games": self.game_records, "happened": self.happened, **self.game_arrays}
+            named = GAME_ADDRESSES
+        self.addresses = records(1, addresses_of(self.batch.state.dtype, named))
         write_addresses(self.addresses, {**vars(self), **arrays, **self.outputs.last.arrays})
         self._output_addresses = self.addresses.view(np.int64)[: len(OUTPUTS)]
 
@@ -178,7 +237,9 @@ class Engine:
         self._advance_window()
         reward, flags = self.run_task(self.addresses, 0, 1, action)
         if callable(self.reward):
-            reward = call_reward(self.reward, dict(zip(TERMS, self.terms[0].tolist(), strict=True)))
+            reward = call_reward(
+                self.reward, dict(zip(self.terms_named, self.terms[0].tolist(), strict=True))
+            )
         return reward, flags
 
     def step(self) -> None:
@@ -186,7 +247,7 @@ class Engine:
         self._advance_window()
         self._run(Task.STEP)
         if callable(self.reward):
-            rewards = call_batch_reward(self.reward, self.terms)
+            rewards = call_batch_reward(self.reward, self.terms_named, self.terms)
             has_moved = self.rules["mode"] != ResetMode.NEXT_STEP or self.episodes["steps"] > 0
             self.outputs.last.rewards[:] = np.where(has_moved, rewards, 0.0)
 
@@ -239,7 +300,8 @@ class Engine:
         last, name = self.outputs.last, "frames" if self.shows_pictures else "observations"
         current = last.arrays[name]
         pairs = ((observations, current), (terminated, last.terminated), (truncated, last.truncated))
-        fits = all(
+        is_in_order = self.options.channels != "first" or not self.options.rgb
+        fits = is_in_order and all(
             new.dtype == old.dtype and new.size == old.size
             and new.flags.c_contiguous and new.flags.writeable
             for new, old in pairs
@@ -314,6 +376,9 @@ class Engine:
                 self.refuse_state(size)
         for own, part in zip(self.state_parts, parts, strict=True):
             own[rows] = part
+        if self.games:  # no hit is counted that the game was not told of
+            self.batch.tallies[rows] = 0
+            self.game_arrays["seen"][rows] = 0
 
     def __reduce__(self) -> NoReturn:
         """Refuse to be copied: kernels hold addresses of the arrays. Environments implement copying."""
@@ -333,9 +398,9 @@ class Engine:
 
 
 @cache
-def _announce_compilation() -> None:
-    """Print a notice if creating the first environment of a process compiles for half a minute."""
-    if SETTINGS.DISABLE_JIT or is_compiled(run_task.__name__, AGENTS):
+def announce_compilation(layout: str, kernel: str = run_task.__name__) -> None:
+    """Print a notice if the first environment of a layout compiles this kernel, for half a minute."""
+    if SETTINGS.DISABLE_JIT or is_compiled(kernel, AGENTS, layout=layout):
         return
     often = "once" if cache_folder(AGENTS) else "at every start: its cache folder cannot be written"
     notice = f"compiling the environments for this machine, {often}; this takes about half a minute …"
@@ -360,7 +425,11 @@ def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ..
     row["writes_terms"] = callable(reward)
     row["weighs_counts"] = callable(reward) or not reward.keys() <= {"points", "seconds"}
     for name, weight in {} if callable(reward) else reward.items():
-        row["weights"][TERMS.index(name)] = weight
+        if name in TERMS:
+            row["weights"][TERMS.index(name)] = weight
+    row["sticky_below"] = round(options.sticky * 2**32)
+    row["recharge_ticks"] = math.ceil(options.recharge * options.tick_rate - 1e-9)
+    row["supply_at"] = field_named(pool.fields, "supply").first
     row["stall_steps"] = options.steps_in(options.stall)
     row["max_steps"] = options.steps_in(options.time_limit)
     row["idle_scale"] = 0.0 if options.stall is None else 1.0 / row["stall_steps"]
@@ -377,12 +446,25 @@ def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ..
         swing = collider["angle_up"] - collider["angle_rest"]
         if swing > 0.0:
             row["angle_scale"][number] = 1.0 / swing
-            row["turn_scale"][number] = 1.0 / max(collider["lift_speed"], collider["return_speed"])
+            of_all = pool.boards.collider[pool.boards.board["collider_first"] + Part.FIRST_PADDLE + number]
+            row["turn_scale"][number] = 1.0 / max(of_all["lift_speed"].max(), of_all["return_speed"].max())
     row["paddle_of"] = _shown_paddles(pool)
     balls, paddles, game = (field_named(pool.fields, name) for name in ("balls", "paddles", "game"))
+    row["reach"], row["hides_velocities"] = reach_of(options.sight), options.sight == POSITIONS
     row["balls_shown"], row["paddles_shown"] = balls.items, paddles.items
     row["paddles_at"], row["game_at"] = paddles.first, game.first
     row["layout_at"] = pool.columns - pool.layouts.shape[1]
+    _write_devices_shown(row, pool)
+    row["launches_itself"] = pool.has_plunger and options.launch == "auto"
+    for name in ("play", "lamps", "counters", "modes"):
+        row[f"{name}_at"] = field_named(pool.fields, name).first
+    row["writes_state"] = options.observation != "pixels"
+    row["draws_pictures"] = options.observation == "pixels"
+    return rules
+
+
+def _write_devices_shown(row: Any, pool: Pool) -> None:
+    """Write which slots of devices there are, and how far a tick pulls the plunger back."""
     devices = (("ball_places", "places"), ("switches", "switches"), ("spinners", "spinners"))
     for name, shown in devices:
         field = field_named(pool.fields, name)
@@ -396,9 +478,6 @@ def _rules(options: Options, pool: Pool, mode: ResetMode, buttons: tuple[str, ..
         board_row = pool.boards.board[0]
         collider = pool.boards.collider[board_row["collider_first"] + board_row["plunger_row"]]
         row["charge_scale"] = row["tick"] / collider["charge_time"]
-    row["writes_state"] = options.observation != "pixels"
-    row["draws_pictures"] = options.observation == "pixels"
-    return rules
 
 
 def _shown_paddles(pool: Pool) -> list[int]:

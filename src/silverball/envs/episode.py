@@ -1,6 +1,7 @@
 """The step of the environments: actions, physics, rewards, ends and resets in one compiled call.
 
-    the action's bits become buttons → a ball is created if requested → the worlds move (run_worlds)
+    the action's bits become buttons (`supply.py`) → a ball is created if requested
+    → the worlds move, or games are played by rules (`game_kernels.py`)
     → for each environment: reward, next ball, end of the episode, reset if due
     → observations and counts are written
 
@@ -13,11 +14,35 @@ from __future__ import annotations
 from typing import Any
 
 from silverball.envs import pointers as views
+from silverball.envs.game_kernels import (
+    begin_play,
+    has_ball,
+    has_new_time,
+    have_game_counts_changed,
+    is_finished,
+    note_before,
+    play_worlds_or_games,
+    score_of,
+    weigh_growth,
+    write_game,
+    write_game_counts,
+)
 from silverball.envs.observations import BallSlot, GameSlot, PaddleSlot, PlaceSlot
 from silverball.envs.pixels import PICTURE_STATE_SIZE, copy_stack, draw_first, draw_step, redraw_stack
 from silverball.envs.pointers import SMALL_FLOAT, Pointers, copy_bytes
 from silverball.envs.rewards import FIRST_COUNT, POINTS, SECONDS, STALLED, TERMS
-from silverball.envs.state import COUNTS, EPISODE, INFO, ResetMode, RulesRecord, StepFlag, Task
+from silverball.envs.sight import is_in_sight
+from silverball.envs.state import (
+    CONTROL,
+    COUNTS,
+    EPISODE,
+    INFO,
+    ResetMode,
+    RulesRecord,
+    StepFlag,
+    Task,
+)
+from silverball.envs.supply import clear_controls, executed_buttons, write_supply
 from silverball.physics.balls import create_ball
 from silverball.physics.for_devices import for_devices
 from silverball.physics.kernel import inlined, internal, ir_inlined, kernel
@@ -27,15 +52,14 @@ from silverball.physics.records import (
     LEFT,
     MAX_LEVELS,
     RIGHT,
-    BatchGeometry,
     Fault,
-    Lanes,
     Motion,
     Outcome,
     WorldRecord,
 )
 from silverball.physics.spinner import blade_speed
-from silverball.physics.step import run_worlds
+from silverball.physics.step import JITTER_COLUMN, LAUNCH_COLUMN, NUDGE_COLUMN
+from silverball.players.simple import holds_launch
 from silverball.world.single_step import INT, array_at
 
 BLOCK = 64  # worlds stepped before their rewards are computed, so that their records stay in the cache
@@ -43,6 +67,7 @@ EPISODE_SIZE = EPISODE.itemsize
 # A world record has its counters in the order of `COUNTS`; `write_counts` appends two fields of an episode.
 COUNTS_AT, COUNTS_SIZE = 8 * [name for name, _ in HEADER].index("score"), 8 * len(COUNTS)
 EPISODE_COUNTS_SIZE = 8 * (len(INFO) - len(COUNTS))  # the first fields of an EPISODE record
+CONTROL_SIZE = CONTROL.itemsize
 BALL_WIDTH, PADDLE_WIDTH, PLACE_WIDTH = len(BallSlot), len(PaddleSlot), len(PlaceSlot)
 
 
@@ -88,10 +113,9 @@ def step_envs(ptr: Pointers, first: int, end: int) -> tuple[float, int]:
             if rules.weighs_counts != 0:
                 row = ptr.counts_before_at + (first + index - start) * COUNTS_SIZE
                 copy_bytes(row, counts_at(ptr, index), COUNTS_SIZE)
+                note_before(ptr, index, first + index - start)
             apply_action(ptr, rules, index)
-        lanes = Lanes(views.worlds(ptr), views.board_of(ptr), views.logs(ptr), views.tallies(ptr))
-        geometries = BatchGeometry(views.boards(ptr), views.colliders(ptr), views.grid(ptr))
-        run_worlds(lanes, geometries, views.held(ptr), start, stop, rules.ticks, rules.tick)
+        play_worlds_or_games(ptr, rules, start, stop)
         for index in range(start, stop):
             reward, flags = finish_step(ptr, rules, index, first + index - start)
             views.rewards(ptr)[index] = reward
@@ -129,12 +153,20 @@ def observe_envs(ptr: Pointers, first: int, end: int) -> None:
 def apply_action(ptr: Pointers, rules: RulesRecord, index: int) -> None:
     """Turn the bits of an action into held buttons, and create a ball if its bit is set."""
     bits = views.actions(ptr)[index]
+    if ptr.controlled != 0 and views.episodes(ptr)[index].over == 0:
+        bits = executed_buttons(ptr, rules, index, bits)
     held, world, log = views.held(ptr), views.worlds(ptr)[index], views.logs(ptr)[index]
     held[0, index, 0] = bits & LEFT != 0
     held[0, index, 1] = bits & RIGHT != 0
-    held[0, index, 2] = bits & rules.jitter_bit != 0
+    held[0, index, JITTER_COLUMN] = bits & rules.jitter_bit != 0
     if rules.launch_bit != 0:
-        held[0, index, 3] = bits & rules.launch_bit != 0
+        held[0, index, LAUNCH_COLUMN] = bits & rules.launch_bit != 0
+    elif rules.launches_itself != 0:
+        held[0, index, LAUNCH_COLUMN] = holds_launch(world, rules.tick)
+    if rules.nudge_up_bit != 0:
+        held[0, index, NUDGE_COLUMN] = bits & rules.nudge_left_bit != 0
+        held[0, index, NUDGE_COLUMN + 1] = bits & rules.nudge_right_bit != 0
+        held[0, index, NUDGE_COLUMN + 2] = bits & rules.nudge_up_bit != 0
     if bits & rules.create_bit != 0 and world.created < rules.balls and views.episodes(ptr)[index].over == 0:
         board = views.boards(ptr)[views.board_of(ptr)[index]]
         if create_ball(world, board, views.colliders(ptr), views.places(ptr), log) == Outcome.CREATED:
@@ -163,23 +195,22 @@ def finish_step(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> t
             begin_episode(ptr, rules, index)
             return 0.0, 0
         return 0.0, StepFlag.WAS_OVER + 0
-    gained = world.score - episode.last_score
-    episode.last_score = world.score
+    score, is_in_play = score_of(ptr, index), has_ball(ptr, index)
+    gained = score - episode.last_score
+    episode.last_score = score
     episode.steps += 1
     episode.idle_steps = 0 if gained > 0 else episode.idle_steps + 1
-    flags, has_ball = 0, world.created > world.drained
-    if world.drained >= rules.balls:
+    flags = 0
+    if is_finished(ptr, rules, index):
         flags = StepFlag.TERMINATED + 0
-    elif not has_ball and rules.creates_by_button == 0:
-        board = views.boards(ptr)[views.board_of(ptr)[index]]
-        create_ball(world, board, views.colliders(ptr), views.places(ptr), views.logs(ptr)[index])
+    elif has_new_time(ptr, rules, index):
         episode.idle_steps = 0
     if flags == 0 and episode.idle_steps >= rules.stall_steps:
         episode.stalled = 1
         flags = StepFlag.TERMINATED + 0
     if flags == 0 and (episode.steps >= rules.max_steps or world.fault != Fault.NONE):
         flags = StepFlag.TRUNCATED + 0
-    seconds = rules.ticks * rules.tick if has_ball else 0.0
+    seconds = rules.ticks * rules.tick if is_in_play else 0.0
     reward = rules.weights[POINTS] * gained + rules.weights[SECONDS] * seconds
     if rules.weighs_counts != 0:
         reward += weigh_counts(ptr, rules, index, before)
@@ -207,7 +238,7 @@ def weigh_counts(ptr: Pointers, rules: RulesRecord, index: int, before: int) -> 
         grown = counts[count] - views.counts_before(ptr)[before, count]
         views.terms(ptr)[index, term] = grown
         reward += rules.weights[term] * grown
-    return float(reward)
+    return float(reward + weigh_growth(ptr, index, before))
 
 
 @internal
@@ -226,10 +257,11 @@ def begin_episode(ptr: Pointers, rules: RulesRecord, index: int) -> None:
     world, log = views.worlds(ptr)[index], views.logs(ptr)[index]
     world.seed = ((high & 0x7FFFFFFF) << 32) | low
     log.count, log.carried, log.done, log.lost = 0, 0, 0, 0
+    if ptr.controlled != 0:
+        clear_controls(views.controls(ptr)[index])
     episode.board_seed = views.board_seeds(ptr)[board]
     episode.stalled, episode.over, episode.steps, episode.idle_steps, episode.last_score = 0, 0, 0, 0, 0
-    if rules.creates_by_button == 0:
-        create_ball(world, views.boards(ptr)[board], views.colliders(ptr), views.places(ptr), log)
+    begin_play(ptr, rules, index)
     if rules.draws_pictures != 0:
         draw_first(ptr, index)
 
@@ -263,10 +295,13 @@ def counts_at(ptr: Pointers, index: int) -> int:
 
 @inlined
 def write_counts(ptr: Pointers, address: int, index: int) -> None:
-    """Write the counts of the episode so far at an address, in the order of `INFO`."""
+    """Write the counts of the episode so far at an address, in the order of `ALL_INFO`."""
     start = address + index * ptr.info * 8
     copy_bytes(start, counts_at(ptr, index), COUNTS_SIZE)
     copy_bytes(start + COUNTS_SIZE, ptr.episodes_at + index * EPISODE_SIZE, EPISODE_COUNTS_SIZE)
+    if ptr.controlled != 0:  # `action` is the first field of a CONTROL record
+        copy_bytes(start + COUNTS_SIZE + EPISODE_COUNTS_SIZE, ptr.controls_at + index * CONTROL_SIZE, 8)
+    write_game_counts(ptr, index, start)
 
 
 @internal
@@ -276,9 +311,11 @@ def have_counts_changed(ptr: Pointers, index: int) -> bool:
     counts = array_at(counts_at(ptr, index), (len(COUNTS),), INT)
     episode = views.episodes(ptr)[index]
     differs = last[len(COUNTS)] != episode.board_seed or last[len(COUNTS) + 1] != episode.stalled
-    for number in range(len(COUNTS)):
+    for number in range(1, len(COUNTS)):
         differs |= last[number] != counts[number]
-    return bool(differs)
+    if ptr.controlled != 0:
+        differs |= last[len(INFO)] != views.controls(ptr)[index].action
+    return bool(differs or have_game_counts_changed(ptr, index, last, counts[0]))
 
 
 @internal
@@ -288,7 +325,7 @@ def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> 
     world, episode = views.worlds(ptr)[index], views.episodes(ptr)[index]
     for slot in range(rules.balls_shown):
         ball, start = world.ball[slot], BALL_WIDTH * slot
-        is_alive = 0.0 if ball.id == 0 else 1.0
+        is_alive = 1.0 if is_in_sight(ptr, rules, index, ball) else 0.0
         row[start + BallSlot.ALIVE] = is_alive
         row[start + BallSlot.X] = is_alive * ball.x * rules.x_scale
         row[start + BallSlot.Z] = is_alive * ball.z * rules.z_scale
@@ -305,13 +342,27 @@ def write_state(ptr: Pointers, rules: RulesRecord, address: int, index: int) -> 
         row[start + PaddleSlot.TURN] = paddle.angular_velocity * rules.turn_scale[number]
         held = paddle.angle_commanded == rules.raised_angle[number] and rules.angle_scale[number] != 0.0
         row[start + PaddleSlot.HELD] = 1.0 if held else 0.0
+    if rules.hides_velocities != 0:
+        hide_velocities(rules, row)
     row[rules.game_at + GameSlot.PATIENCE] = max(0.0, 1.0 - episode.idle_steps * rules.idle_scale)
     row[rules.game_at + GameSlot.LEFT] = (rules.balls - world.created) * rules.ball_scale
     if rules.shows_devices != 0:
         write_devices(ptr, rules, world, row, index)
+    if rules.recharge_ticks != 0:
+        write_supply(views.controls(ptr)[index], rules, world, row)
+    write_game(ptr, rules, row, index)
     size = ptr.layout_columns * 4
     target = address + (index * ptr.columns + rules.layout_at) * 4
     copy_bytes(target, ptr.layouts_at + views.board_of(ptr)[index] * size, size)
+
+
+@internal
+def hide_velocities(rules: RulesRecord, row: Any) -> None:
+    """Set the velocities of balls and paddles in a row of an observation to 0."""
+    for slot in range(rules.balls_shown):
+        row[BALL_WIDTH * slot + BallSlot.VX], row[BALL_WIDTH * slot + BallSlot.VZ] = 0.0, 0.0
+    for slot in range(rules.paddles_shown):
+        row[rules.paddles_at + PADDLE_WIDTH * slot + PaddleSlot.TURN] = 0.0
 
 
 @for_devices(lambda ptr, rules, world, row, index: None)
@@ -321,7 +372,7 @@ def write_devices(ptr: Pointers, rules: RulesRecord, world: WorldRecord, row: An
     board = views.boards(ptr)[views.board_of(ptr)[index]]
     for slot in range(rules.places_shown):
         ball, start = world.ball[slot], rules.places_at + PLACE_WIDTH * slot
-        is_alive = 0.0 if ball.id == 0 else 1.0
+        is_alive = 1.0 if is_in_sight(ptr, rules, index, ball) else 0.0
         row[start + PlaceSlot.LEVEL] = is_alive * ball.level / (MAX_LEVELS - 1)
         row[start + PlaceSlot.HELD] = is_alive if ball.motion == Motion.CAPTURED else 0.0
     for number in range(min(rules.switches_shown, board.switches)):

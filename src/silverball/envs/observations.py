@@ -70,6 +70,46 @@ class PlungerSlot(IntEnum):
     CHARGE = 0
 
 
+class SupplySlot(IntEnum):
+    """Slots of the power supply of the coils."""
+
+    CHARGE = 0
+
+
+class PlaySlot(IntEnum):
+    """Slots of a game by the rules of its table."""
+
+    SCORE = 0
+    BALL = 1
+    IN_PLAY = 2
+    SAVED = 3
+    WARNINGS = 4
+    TILTED = 5
+    EXTRA_BALLS = 6
+    LOCKED = 7
+    COMBO = 8
+
+
+class LampSlot(IntEnum):
+    """Slots of a lamp."""
+
+    LIT = 0
+    BLINKING = 1
+
+
+class CounterSlot(IntEnum):
+    """Slots of a counter."""
+
+    VALUE = 0
+
+
+class ModeSlot(IntEnum):
+    """Slots of a mode."""
+
+    RUNNING = 0
+    LEFT = 1
+
+
 class PrismSlot(IntEnum):
     """Slots of a triangular prism: its corners, counter-clockwise."""
 
@@ -168,6 +208,55 @@ GROUPS = (
         ((0.0, "how far it is pulled back: 1 launches at the greatest speed"),),
     ),
     Group(
+        "supply",
+        "the power supply of the coils, with `recharge`",
+        SupplySlot,
+        ((0.0, "how far it is charged: only at 1 a paddle can be lifted"),),
+    ),
+    Group(
+        "play",
+        "the arcade game, with `rules=True`",
+        PlaySlot,
+        (
+            (0.0, "the score s as s / (s + g), where g are the points of the gold medal, or 100,000 without"),
+            (0.0, "the number of the present ball, as a share of all"),
+            (0.0, "balls in play, as a share of the most that the table holds"),
+            (0.0, "time in which a lost ball comes back, in that of the ball save; the most of all balls"),
+            (0.0, "warnings of this ball, as a share of those before a tilt"),
+            (0.0, "1 while the table is tilted: paddles are dead, and no rule acts"),
+            (0.0, "extra balls e, as e / (e + 1)"),
+            (0.0, "locked balls n, as n / (n + 1)"),
+            (0.0, "what a combo pays: 0 once, 1 the greatest factor"),
+        ),
+    ),
+    Group(
+        "lamps",
+        "a lamp, in the order of the table; with `rules=True`",
+        LampSlot,
+        ((0.0, "1 while it is lit, on or blinking"), (0.0, "1 while it is blinking")),
+    ),
+    Group(
+        "counters",
+        "a counter, in the order of the table; with `rules=True`",
+        CounterSlot,
+        (
+            (
+                0.0,
+                "its value, as a share of the greatest one that it can have or that rules wait for; "
+                "of others v / (v + 10 a), where a is the most that a rule adds",
+            ),
+        ),
+    ),
+    Group(
+        "modes",
+        "a mode, in the order of the table; with `rules=True`",
+        ModeSlot,
+        (
+            (0.0, "1 while it runs"),
+            (0.0, "its time left, as a share of its time, at most 1; 1 without an end"),
+        ),
+    ),
+    Group(
         "triangular_prisms",
         "a triangular prism",
         PrismSlot,
@@ -225,6 +314,11 @@ def fields(items: Mapping[str, int]) -> tuple[Field, ...]:
     return tuple(found)
 
 
+def with_items(layout: tuple[Field, ...], name: str, items: int) -> tuple[Field, ...]:
+    """The fields with this many items of one group; the columns behind it move."""
+    return fields({field.group.name: field.items for field in layout} | {name: items})
+
+
 def field_named(layout: tuple[Field, ...], name: str) -> Field:
     """The field of the group with this name."""
     return next(field for field in layout if field.group.name == name)
@@ -249,16 +343,35 @@ def observation_space(options: Options, layout: tuple[Field, ...]) -> spaces.Spa
 
 
 def picture_shape(options: Options) -> tuple[int, ...]:
-    """[stacked, row, column, channel], without a stack of one picture and a single channel."""
+    """The shape of a picture observation.
+
+    [stacked, row, column, channel], without a stack of one picture and a single channel; or with `channels`
+    [row, column] and one axis, first or last, for all channels of all pictures.
+    """
+    depth = options.stack * (3 if options.rgb else 1)
+    if options.channels is not None:
+        return (depth, *options.size) if options.channels == "first" else (*options.size, depth)
     stack = (options.stack,) if options.stack > 1 else ()
     return (*stack, *options.size, *((3,) if options.rgb else ()))
+
+
+def _as_pictures(options: Options, rows: NDArray[Any]) -> NDArray[Any]:
+    """Rows [env, …] of pictures in their shape; views, but for an axis of both pictures and colours."""
+    if options.channels is None:
+        return rows.reshape(len(rows), *picture_shape(options))
+    height, width = options.size
+    colors = 3 if options.rgb else 1
+    pictures = np.moveaxis(rows.reshape(len(rows), options.stack, height, width, colors), 4, 2)
+    if options.channels == "first":
+        return pictures.reshape(len(rows), -1, height, width)
+    return pictures.transpose(0, 3, 4, 1, 2).reshape(len(rows), height, width, -1)
 
 
 def as_observations(options: Options, layout: tuple[Field, ...], rows: NDArray[Any]) -> Any:
     """Raw rows [env, …] as a batch of observations; views of the rows."""
     count = len(rows)
     if options.observation == "pixels":
-        return rows.reshape(count, *picture_shape(options))
+        return _as_pictures(options, rows)
     if options.observation == "state":
         return rows
     return {

@@ -6,28 +6,28 @@ The checks of seeds, render modes and reset options, which all environments shar
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Mapping, Sequence
 from operator import index
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, SkipValidation, StrictBool, ValidationError
 
+from silverball.envs.protocol import SPLITS, Level, Split, TableSource
 from silverball.envs.rewards import POINT, Reward, did_you_mean, resolve_reward
-from silverball.table import Table
+from silverball.envs.sight import POSITIONS, checked_sight
+from silverball.envs.variation import checked_ranges
 from silverball.table.quantity import Count, FixedList, Quantity, refuse
 
-TableSource: TypeAlias = Table | str | os.PathLike[str] | Mapping[str, Any]
-"""A table, the name of a built-in one, a path, or the keys of a table file."""
-
-BUTTONS = ("left", "right", "jitter", "create", "launch")
+BUTTONS = ("left", "right", "jitter", "nudge_left", "nudge_right", "nudge_up", "create", "launch")
 VECTOR_ONLY = ("autoreset_mode", "zero_copy", "threads", "own_boards")
 """Arguments that vector environments take and single ones do not."""
 
 MAX_BOARDS = 2**16
 MAX_BALLS = 1000
 MAX_SECONDS = 1e7
+MAX_RECHARGE = 60.0  # [s]
+MAX_STICKY = 0.99
 MAX_PICTURE_SIDE = 1024  # [pixel]
 MAX_STACK = 16
 NO_LIMIT = 2**62  # [step] a limit that no episode reaches
@@ -48,6 +48,28 @@ def _reward(reward: Any) -> Any:
     return resolved if isinstance(reward, Mapping) else reward
 
 
+def _vary(vary: Any) -> dict[str, tuple[float, float]] | None:
+    """The ranges of the vary option; None if nothing varies."""
+    return {key: (least, greatest) for key, least, greatest in checked_ranges(vary)} or None
+
+
+def _boards(boards: Any) -> int | str:
+    """A number of boards, or the name of a split."""
+    if isinstance(boards, str):
+        names = " or ".join(map(repr, SPLITS))
+        return (
+            boards if boards in SPLITS else refuse(f"must be a number of boards, or {names}, got {boards!r}")
+        )
+    return Count(1, MAX_BOARDS).check(boards)
+
+
+def _split_words() -> str:
+    """The splits as words."""
+    return " or ".join(
+        f'"{name}" ({split.boards:,} boards from the seed {split.first:,})' for name, split in SPLITS.items()
+    )
+
+
 class Options(BaseModel):
     """The options of an environment; `OPTIONS` describes each in a sentence."""
 
@@ -58,13 +80,24 @@ class Options(BaseModel):
         description="a built-in name, a path, a table, or the keys of a table file as a dict; a recipe gives "
         "every episode a random board, a list of finished tables with the same board and paddles one of them",
     )
-    boards: Annotated[int, Count(1, MAX_BOARDS)] = Field(
-        64, description="of a recipe: how many boards are made in advance; every episode draws one of them"
+    boards: Annotated[int | str, PlainValidator(_boards)] = Field(
+        64,
+        description="of a recipe: how many boards are made in advance; every episode draws one of them; "
+        f"or a split of the benchmark, {_split_words()}",
     )
     board_seed: Annotated[int, Count(0, 2**62)] = Field(
         0,
         description="of a recipe: the boards have the seeds board_seed, board_seed + 1, …; "
         "choose others to evaluate",
+    )
+    level: Level = Field(
+        "normal",
+        description='"easy" (gravity × 0.75, no triangular prisms), "normal" or "hard" (gravity × 1.5)',
+    )
+    vary: Annotated[Mapping[str, tuple[float, float]] | None, PlainValidator(_vary)] = Field(
+        None,
+        description='physics that differ from board to board, evenly from ranges: {"board.gravity": (8, 12), '
+        '"paddle.stroke": (0.09, 0.12)}; a single table then has `boards` boards, with seeds as of a recipe',
     )
     observation: Literal["state", "dict", "pixels"] = Field(
         "state", description='"state" (one row), "dict" (the same by name) or "pixels"'
@@ -73,10 +106,24 @@ class Options(BaseModel):
         "discrete",
         description='"discrete" (a number whose bits are the buttons) or "multibinary" (a bit for each one)',
     )
-    jitter: StrictBool = Field(False, description="whether there is a button that shoves the balls")
+    jitter: StrictBool = Field(
+        False,
+        description="whether there is a button that shoves the balls; on a table with `nudge` "
+        "there are three, which nudge it to the left, to the right and up",
+    )
     create: Literal["auto", "button"] = Field(
         "auto",
         description='"auto": a ball is created when none is on the board; "button": a button creates one',
+    )
+    launch: Literal["button", "auto"] = Field(
+        "button",
+        description='on a table with a plunger: "button": a button pulls it back and launches; '
+        '"auto": it launches by itself, at speeds that vary',
+    )
+    rules: StrictBool = Field(
+        False,
+        description="whether an episode is an arcade game by the rules of the table, with their points, ball "
+        "save, lamps, counters and modes; else hits give the points of the parts",
     )
     balls: Annotated[int, Count(1, MAX_BALLS)] = Field(
         1, description="balls of an episode: 1, or 3 for a game"
@@ -96,12 +143,34 @@ class Options(BaseModel):
     frame_skip: Annotated[int, Count(1, 10_000)] = Field(
         1, description="ticks of one step, in which the buttons are held"
     )
+    sticky: Annotated[float, Quantity(0.0, MAX_STICKY, "(a probability)")] = Field(
+        0.0,
+        description="probability that a step executes the action of the last one again; "
+        '`info["action"]` is the one that was executed',
+    )
+    recharge: Annotated[float, Quantity(0.0, MAX_RECHARGE, "s")] = Field(
+        0.0,
+        description="[s] from one stroke of a paddle until the next one of any paddle",
+    )
+    sight: Annotated[float | str | None, PlainValidator(checked_sight)] = Field(
+        None,
+        description="what is seen of the balls: None (everything), a distance from the nearest paddle [u], "
+        'beyond which a ball is hidden, or "positions" (velocities are 0)',
+    )
     size: Annotated[tuple[int, int], FixedList(Count(8, MAX_PICTURE_SIDE), 2, "(height, width)")] = Field(
         (84, 84), description="of pictures: height and width [pixel]"
     )
     rgb: StrictBool = Field(False, description="of pictures: in colour instead of grey")
     stack: Annotated[int, Count(1, MAX_STACK)] = Field(
         4, description="of pictures: how many of the last ones an observation shows, oldest first"
+    )
+    channels: Literal[None, "first", "last"] = Field(
+        None,
+        description='of pictures: "first" or "last" puts pictures and colours on one axis, there, as image '
+        "networks take them; None: an axis for the pictures in front, one for the colours at the end",
+    )
+    lives: StrictBool = Field(
+        False, description='whether `info["lives"]` is the number of balls left, as with Atari'
     )
 
     @classmethod
@@ -129,18 +198,41 @@ class Options(BaseModel):
             name: value.item() if isinstance(value, np.generic) else value for name, value in given.items()
         }
         try:
-            return cls.model_validate(values)
+            options = cls.model_validate(values)
         except ValidationError as error:
             raise ValueError("; ".join(map(_sentence, error.errors(include_url=False)))) from None
+        if options.rules and options.create == "button":
+            raise ValueError('create must be "auto" with rules=True: the rules say when a ball comes')
+        if options.sight == POSITIONS and options.observation == "pixels":
+            raise ValueError(
+                f"sight must be None or a distance, got {POSITIONS!r}: a picture shows no velocities; "
+                "with stack=1 an observation is a single picture"
+            )
+        if isinstance(options.boards, str) and options.board_seed != 0:
+            raise ValueError(
+                f"board_seed must be 0 with boards={options.boards!r}, which names the boards, "
+                f"got {options.board_seed}"
+            )
+        return options
 
     def kwargs(self) -> dict[str, Any]:
         """The options as keyword arguments that make the same environment."""
         return {name: getattr(self, name) for name in type(self).model_fields}
 
-    def buttons(self, has_plunger: bool = False) -> tuple[str, ...]:
-        """The buttons on a table with or without a plunger, in the order of an action's bits."""
-        present = (True, True, self.jitter, self.create == "button", has_plunger)
+    def buttons(self, has_plunger: bool = False, has_nudge: bool = False) -> tuple[str, ...]:
+        """The buttons on a table with or without a plunger and nudge, in the order of an action's bits."""
+        nudges = (self.jitter and has_nudge,) * 3
+        present = (
+            True, True, self.jitter and not has_nudge, *nudges, self.create == "button",
+            has_plunger and self.launch == "button",
+        )  # fmt: skip
         return tuple(name for name, is_present in zip(BUTTONS, present, strict=True) if is_present)
+
+    @property
+    def split(self) -> Split:
+        """The boards of a recipe: the named split, or as many as `boards` from `board_seed` on."""
+        boards = self.boards
+        return SPLITS[boards] if isinstance(boards, str) else Split(self.board_seed, boards)
 
     @property
     def max_steps(self) -> int | None:

@@ -18,6 +18,7 @@ from typing import Any
 
 from silverball.envs import pointers as views
 from silverball.envs.pointers import BYTE, Pointers, copy_bytes
+from silverball.envs.sight import is_in_sight
 from silverball.envs.state import (
     LAMP_BITS,
     LAMP_WORDS,
@@ -140,7 +141,9 @@ def record_state(ptr: Pointers, index: int, number: int) -> None:
         state.alive[slot] = 0
     for slot in range(board.max_balls):
         ball = world.ball[slot]
-        state.x[slot], state.z[slot], state.alive[slot] = ball.x, ball.z, ball.id
+        state.x[slot], state.z[slot], state.alive[slot] = ball.x, ball.z, 0
+        if is_in_sight(ptr, rules, index, ball):
+            state.alive[slot] = ball.id
     for paddle in range(board.paddles):
         turn = (world.paddle[paddle].angle - rules.rest_angle[paddle]) * rules.angle_scale[paddle]
         has_paddle = rules.angle_scale[paddle] != 0.0

@@ -14,9 +14,22 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from silverball.envs.state import EPISODE, PICTURE_STATE, PICTURED_BOARD, PIECE, RASTER, RULES
+from silverball.envs.state import CONTROL, EPISODE, PICTURE_STATE, PICTURED_BOARD, PIECE, RASTER, RULES
 from silverball.physics.kernel import SETTINGS, ir_inlined
 from silverball.physics.records import BOARD, COLLIDER, LOG
+from silverball.referee.game_records import (
+    BANK_ROW,
+    COUNTER_ROW,
+    GAME,
+    LAMP_ROW,
+    MODE_ROW,
+    OP,
+    PART_ROW,
+    REACH_ROW,
+    REPORT,
+    RULE,
+    SETUP,
+)
 from silverball.world.single_step import (
     BOOL,
     INT,
@@ -72,7 +85,7 @@ OUTPUTS = {
     "rewards": _array(FLOAT, "envs"),
     "terminated": _array(BOOL, "envs"),
     "truncated": _array(BOOL, "envs"),
-    "counts": _array(INT, "envs", "info"),  # see `state.INFO`
+    "counts": _array(INT, "envs", "info"),  # see `state.ALL_INFO`
     "frames": _array(BYTE, "envs", "ring", "pixels"),  # a ring of pictures
     "copies": _array(BYTE, "envs", "copied", "pixels"),  # of the window of the ring
 }
@@ -91,6 +104,7 @@ ARRAYS = {
     "tallies": _array(INT, "envs", "parts"),  # hits of each part
     "held": _array(BOOL, "one", "envs", "buttons"),  # the buttons for run_worlds
     "episodes": _array(EPISODE, "envs"),
+    "controls": _array(CONTROL, "controlled"),  # one for each environment, or none
     "blanks": _array(None, "boards"),  # new worlds
     "layouts": _array(SMALL_FLOAT, "boards", "layout_columns"),  # obstacles, in the form of an observation
     "rules": _array(RULES, "one"),
@@ -117,8 +131,41 @@ ARRAYS = {
 }
 """All arrays by name. An ADDRESSES record holds the address of each, and the length of each axis."""
 
-AXES = tuple(dict.fromkeys(axis for array in ARRAYS.values() for axis in array.axes))
-ADDRESSES = np.dtype([*((f"{name}_at", "i8") for name in ARRAYS), *((axis, "i8") for axis in AXES)])
+GAME_ARRAYS = {
+    "games": _array(GAME, "envs"),
+    "blank_games": _array(GAME, "boards"),  # games that have not begun
+    "reports": _array(REPORT, "envs"),  # scratch; games of a block use that of its first environment
+    "seen": _array(INT, "envs"),  # points of the hits that each game was told of
+    "setups": _array(SETUP, "boards"),
+    "rule_rows": _array(RULE, "rule_count"),
+    "op_rows": _array(OP, "op_count"),
+    "trigger_rows": _array(INT, "trigger_count"),
+    "listed_rows": _array(INT, "listed_count"),
+    "part_rows": _array(PART_ROW, "part_count"),
+    "lamp_rows": _array(LAMP_ROW, "lamp_count"),
+    "counter_rows": _array(COUNTER_ROW, "counter_count"),
+    "mode_rows": _array(MODE_ROW, "mode_count"),
+    "reach_rows": _array(REACH_ROW, "reach_count"),
+    "bank_rows": _array(BANK_ROW, "bank_count"),
+    "counter_scales": _array(FLOAT, "counter_count"),  # see `game_arrays.counter_scales`
+    "happened": _array(INT, "envs", "happenings"),  # events of the episode so far, see `Happening`
+    "happened_before": _array(INT, "rewarded", "noted"),  # before the step; a slice uses its first rows
+    "game_weights": _array(FLOAT, "noted"),  # of the growth of each happening and counter
+}
+"""The further arrays of environments whose episodes are games: their games, and the compiled rules."""
+
+GAME_MARK = "games_at"
+"""A field that only the addresses of such environments have (see `for_games.py`)."""
+
+
+def _addresses(arrays: dict[str, ArrayType]) -> np.dtype[Any]:
+    """The record of the addresses of some arrays."""
+    axes = dict.fromkeys(axis for array in arrays.values() for axis in array.axes)
+    return np.dtype([*((f"{name}_at", "i8") for name in arrays), *((axis, "i8") for axis in axes)])
+
+
+ALL_ARRAYS = {**ARRAYS, **GAME_ARRAYS}
+ADDRESSES, GAME_ADDRESSES = _addresses(ARRAYS), _addresses(ALL_ARRAYS)
 
 
 def write_addresses(addresses: NDArray[Any], arrays: dict[str, NDArray[Any]]) -> None:
@@ -128,7 +175,8 @@ def write_addresses(addresses: NDArray[Any], arrays: dict[str, NDArray[Any]]) ->
         ValueError: Two arrays disagree about the length of an axis.
     """
     lengths: dict[str, int] = {}
-    for name, (_, axes) in ARRAYS.items():
+    known = ALL_ARRAYS if GAME_MARK in (addresses.dtype.names or ()) else ARRAYS
+    for name, (_, axes) in known.items():
         addresses[f"{name}_at"] = arrays[name].ctypes.data
         for axis, length in zip(axes, arrays[name].shape, strict=True):
             if lengths.setdefault(axis, length) != length:
@@ -140,7 +188,7 @@ def write_addresses(addresses: NDArray[Any], arrays: dict[str, NDArray[Any]]) ->
 
 def _view(name: str) -> Any:
     """The function that makes an array from an ADDRESSES record, for kernels."""
-    address, (dtype, axes) = f"{name}_at", ARRAYS[name]
+    address, (dtype, axes) = f"{name}_at", ALL_ARRAYS[name]
     if dtype is None:
         (length,) = axes
 
@@ -176,7 +224,7 @@ worlds, boards, board_of, board_seeds = (
     _view("board_seeds"),
 )
 colliders, grid, places = _view("colliders"), _view("grid"), _view("places")
-blanks = _view("blanks")
+blanks, controls = _view("blanks"), _view("controls")
 logs, tallies, held = _view("logs"), _view("tallies"), _view("held")
 episodes, rules, raster = _view("episodes"), _view("rules"), _view("raster")
 actions, reset_mask, requested_boards = _view("actions"), _view("reset_mask"), _view("requested_boards")
@@ -189,3 +237,15 @@ pictured_boards, lamp_of, pieces, masks = (
     _view("pieces"),
     _view("masks"),
 )
+games, blank_games, reports, seen = _view("games"), _view("blank_games"), _view("reports"), _view("seen")
+setups, rule_rows, op_rows, trigger_rows = (
+    _view("setups"),
+    _view("rule_rows"),
+    _view("op_rows"),
+    _view("trigger_rows"),
+)
+listed_rows, part_rows, lamp_rows = _view("listed_rows"), _view("part_rows"), _view("lamp_rows")
+counter_rows, mode_rows, reach_rows = _view("counter_rows"), _view("mode_rows"), _view("reach_rows")
+bank_rows, counter_scales = _view("bank_rows"), _view("counter_scales")
+happened, happened_before = _view("happened"), _view("happened_before")
+game_weights = _view("game_weights")

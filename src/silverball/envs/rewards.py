@@ -12,12 +12,13 @@ import math
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from numbers import Real
-from typing import Any, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.envs.state import COUNTS
+from silverball.envs.state import COUNTS, HAPPENINGS
+from silverball.plain import plain
 
 Reward: TypeAlias = str | Mapping[str, float] | Callable[[dict[str, Any]], Any]
 """A name in `REWARDS`, the import path of a callable ("module:name"), weights by term, or a callable."""
@@ -27,6 +28,10 @@ POINTS, SECONDS, STALLED, FIRST_COUNT = range(4)  # indices in `TERMS`
 TERMS = ("points", "seconds", "stalled", *COUNTS[1:])
 """The terms of a step: points gained; its seconds if a ball is on the board at its end, else 0; 1 if the ball
 stalled; then the growth of each count of `info` except the score."""
+
+OF_GAMES = ("mode ", "counter ")
+"""How the further terms of games begin, before the name of a mode, which has started, or of a counter, which
+has grown; what happens in a game (`HAPPENINGS`) is a term too."""
 
 REWARDS: dict[str, dict[str, float]] = {"score": {"points": POINT}, "time": {"seconds": 1.0}}
 """The rewards that have names, as weights."""
@@ -63,16 +68,38 @@ def did_you_mean(name: Any, known: Iterable[str]) -> str:
 
 def _checked_weights(weights: Mapping[Any, Any]) -> dict[str, float]:
     for name, weight in weights.items():
-        if name not in TERMS:
-            raise ValueError(
-                f"reward: unknown term {name!r}; {did_you_mean(name, TERMS)}"
-                f"expected some of {', '.join(TERMS)}"
-            )
+        if name not in TERMS and name not in HAPPENINGS and not str(name).startswith(OF_GAMES):
+            _refuse_term(name, TERMS)
         if isinstance(weight, bool) or not isinstance(weight, Real) or not math.isfinite(weight):
             raise ValueError(f"reward: the weight of {name!r} must be a finite number, got {weight!r}")
     if not weights:
         raise ValueError(f"reward must weigh at least one of {', '.join(TERMS)}, got an empty dict")
     return {name: float(weight) for name, weight in weights.items()}
+
+
+def check_terms(reward: Mapping[str, float], own_terms: tuple[str, ...]) -> None:
+    """Reject weights of terms that an environment does not have.
+
+    Args:
+        reward: The weights.
+        own_terms: The terms beyond `TERMS`, of games with rules.
+
+    Raises:
+        ValueError: A term is unknown.
+    """
+    for name in reward:
+        if name in TERMS or name in own_terms:
+            continue
+        if not own_terms:
+            raise ValueError(f"reward: the term {name!r} is one of games: set the option rules=True")
+        _refuse_term(name, (*TERMS, *own_terms))
+
+
+def _refuse_term(name: Any, terms: tuple[str, ...]) -> NoReturn:
+    raise ValueError(
+        f"reward: unknown term {plain(repr(name))}; {plain(did_you_mean(name, terms))}"
+        f"expected some of {plain(', '.join(terms))}"
+    )
 
 
 def _imported(path: str) -> Any:
@@ -117,14 +144,14 @@ def call_reward(reward: Callable[[dict[str, Any]], Any], terms: dict[str, float]
 
 
 def call_batch_reward(
-    reward: Callable[[dict[str, Any]], Any], terms: NDArray[np.float64]
+    reward: Callable[[dict[str, Any]], Any], names: tuple[str, ...], terms: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Call a reward callable with terms [env, term]; returns the rewards, float64 [env].
+    """Call a reward callable with named terms [env, term]; returns the rewards, float64 [env].
 
     Raises:
         ValueError: It is not a finite number for each environment.
     """
-    value = reward(dict(zip(TERMS, terms.T.copy(), strict=True)))
+    value = reward(dict(zip(names, terms.T.copy(), strict=True)))
     try:
         rewards = np.asarray(value, np.float64)
     except (TypeError, ValueError):

@@ -3,23 +3,25 @@
 from stable_baselines3 import PPO
 from silverball.envs.sb3 import SilverballVecEnv
 
-PPO("MlpPolicy", SilverballVecEnv(256)).learn(1_000_000)
+PPO("MlpPolicy", SilverballVecEnv("silverball/PinballClassic-v0", 256)).learn(1_000_000)
 """
 
 from __future__ import annotations
 
+import importlib
 import time
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import gymnasium
 import numpy as np
 from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode
 from numpy.typing import NDArray
 
 from silverball.envs.options import checked_reset_options, refuse_options
-from silverball.envs.state import INFO
 from silverball.envs.vector import PinballVectorEnv
+from silverball.plain import plain
 
 try:
     from stable_baselines3.common.vec_env import VecEnv
@@ -38,11 +40,17 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
     height, width), or (height, width, 3) for a single one in colour.
 
     Args:
+        env_id: The id of the environments, whose options hold unless others are given; or, as the only
+            argument before `seed`, the number of environments with the default options.
         num_envs: The number of environments.
         seed: Seed of the first episodes: environment i gets seed + i; None: random.
         threads: How many threads a step may use; None: one for each core.
         render_mode: "rgb_array" or None.
         options: See `silverball.envs.options.OPTIONS`.
+
+    Raises:
+        TypeError: There is no number of environments, or two.
+        ValueError: The id is not one of Silverball's.
 
     `set_options({"board": 12})`, or a list of such dicts, one for each environment, chooses the boards of the
     next `reset`.
@@ -50,16 +58,16 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
 
     def __init__(
         self,
-        num_envs: int,
+        env_id: str | int | None = None,
+        num_envs: int | None = None,
         seed: int | None = None,
         threads: int | None = None,
         render_mode: str | None = None,
         **options: Any,
     ) -> None:
         refuse_options(options, ("autoreset_mode",), "Stable-Baselines3 supports only SAME_STEP")
-        self.envs = PinballVectorEnv(
-            num_envs, AutoresetMode.SAME_STEP, threads=threads, render_mode=render_mode, **options
-        )
+        env_id, num_envs = _id_and_number(env_id, num_envs)
+        self.envs = _make(env_id, num_envs, {"threads": threads, "render_mode": render_mode, **options})
         self.render_mode = render_mode
         space: Any = self.envs.single_observation_space
         if self.envs.options.observation == "pixels":
@@ -67,6 +75,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         super().__init__(num_envs, space, self.envs.single_action_space)
         self.metadata = self.envs.metadata
         self._first_seed = seed
+        self._info = self.envs._engine.info
         self._returns, self._lengths = np.zeros(num_envs), np.zeros(num_envs, np.int64)
         self._actions: Any = None
         self._started = time.time()
@@ -84,7 +93,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         self._reset_options()
         self._returns[:], self._lengths[:] = 0.0, 0
         self.reset_infos = [
-            {name: infos[name][number].item() for name in INFO} for number in range(self.num_envs)
+            {name: infos[name][number].item() for name in self._info} for number in range(self.num_envs)
         ]
         return self._as_images(observations)
 
@@ -112,7 +121,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
                     "l": int(self._lengths[row]),
                     "t": round(time.time() - self._started, 6),
                 },
-                **{name: vector_infos["final_info"][name][row].item() for name in INFO},
+                **{name: vector_infos["final_info"][name][row].item() for name in self._info},
             }
         self._returns[ended], self._lengths[ended] = 0.0, 0
         return self._as_images(observations), rewards.astype(np.float32), ended, infos
@@ -126,8 +135,12 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
         return self.envs.render() or [None] * self.num_envs
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """An attribute of the vector, once for each of these environments."""
-        return [getattr(self.envs, attr_name) for _ in self._get_indices(indices)]
+        """An attribute of each of these environments; the spaces are those of one environment.
+
+        Other attributes are those of the vector that they share.
+        """
+        owner = self if attr_name in ("observation_space", "action_space") else self.envs
+        return [getattr(owner, attr_name) for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
         """Set an attribute of the vector, for all environments.
@@ -163,7 +176,7 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
     def _as_images(self, observations: Any) -> Any:
         """Observations [env, …] in the shapes of Stable-Baselines3."""
         options = self.envs.options
-        if options.observation != "pixels" or options.rgb == (options.stack == 1):
+        if options.observation != "pixels" or options.channels or options.rgb == (options.stack == 1):
             return observations
         if not options.rgb:
             return observations[:, None]
@@ -176,3 +189,32 @@ class SilverballVecEnv(VecEnv):  # type: ignore[misc, unused-ignore]
     def _get_indices(self, indices: Any) -> Iterable[int]:
         chosen: Iterable[int] = super()._get_indices(indices)
         return chosen
+
+
+def _id_and_number(env_id: Any, num_envs: Any) -> tuple[str | None, Any]:
+    """The arguments of `SilverballVecEnv`, of which the id may be left out."""
+    if isinstance(env_id, str):
+        if num_envs is None:
+            raise TypeError(f"pass the number of environments too: SilverballVecEnv({env_id!r}, 256)")
+        return env_id, num_envs
+    if (env_id is None) == (num_envs is None):
+        raise TypeError("pass SilverballVecEnv(id, number), or the number of environments alone")
+    return None, num_envs if env_id is None else env_id
+
+
+def _make(env_id: str | None, num_envs: int, options: dict[str, Any]) -> PinballVectorEnv:
+    """The vector of an id, or with the default options."""
+    if env_id is None:
+        return PinballVectorEnv(num_envs, AutoresetMode.SAME_STEP, **options)
+    module, _, name = env_id.rpartition(":")
+    if module:
+        importlib.import_module(module)
+    if not str(gymnasium.spec(name).vector_entry_point).startswith("silverball."):
+        raise ValueError(
+            f"env_id must be the id of one of Silverball's pinball tables, got {plain(env_id)!r}"
+        )
+    mode = AutoresetMode.SAME_STEP
+    made = gymnasium.make_vec(name, num_envs, "vector_entry_point", autoreset_mode=mode, **options).unwrapped
+    if not isinstance(made, PinballVectorEnv):
+        raise ValueError(f"{plain(env_id)} is not a pinball table, which this adapter is for")
+    return made

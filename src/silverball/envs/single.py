@@ -8,10 +8,10 @@ from typing import Any, NoReturn, SupportsFloat, cast
 import gymnasium
 import numpy as np
 from gymnasium.envs.registration import EnvSpec
-from numpy.typing import NDArray
 
 from silverball.envs.actions import action_space, as_array, as_bits, keys_to_action, meanings
 from silverball.envs.engine import PREFIX_SIZE, Engine
+from silverball.envs.lives import lives_of
 from silverball.envs.observations import as_observation, observation_space
 from silverball.envs.options import (
     SEED_RANGE,
@@ -22,8 +22,8 @@ from silverball.envs.options import (
     checked_seed,
 )
 from silverball.envs.spec import with_step_limit
-from silverball.envs.state import INFO, ResetMode, StepFlag
-from silverball.envs.viewer import Viewer, ViewerWindow
+from silverball.envs.state import ResetMode, StepFlag
+from silverball.envs.viewer import RendersOne, Viewer
 from silverball.errors import StateError
 
 REBUILT = {
@@ -39,8 +39,8 @@ WAS_OVER, COUNTS_CHANGED = int(StepFlag.WAS_OVER), int(StepFlag.COUNTS_CHANGED)
 _PREFIX, _ALL = slice(PREFIX_SIZE), slice(None)  # of a state's bytes
 
 
-class PinballEnv(gymnasium.Env[Any, Any]):
-    """A pinball table as an environment; docs/agents.md describes every slot of its observations.
+class PinballEnv(RendersOne, gymnasium.Env[Any, Any]):
+    """A pinball table as an environment; docs/environments.md describes every slot of its observations.
 
     Args:
         render_mode: "human" (a window, at the speed of play), "rgb_array" or None.
@@ -68,8 +68,6 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         self.observation_space = observation_space(self.options, engine.pool.fields)
         self.action_space = action_space(self.options, self._engine.buttons)
         self.metadata = {**self.metadata, "render_fps": self.options.frames_per_second}
-        self._viewer: Viewer | None = None
-        self._screen: ViewerWindow | None = None
         self._is_rng_set = False  # whether the caller has set np_random since the last reset
         self._spec: EnvSpec | None = None
         self._codes = 1 << len(self._engine.buttons)
@@ -80,7 +78,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         is_plain = self.options.observation == "state" and self.render_mode != "human"
         is_plain = is_plain and not callable(engine.reward)
         self._copy_row = self._row.copy if is_plain else None
-        self._info = _info_of(self._counts.tolist())
+        self._lives = self.options.balls if self.options.lives else None
+        self._info = self._new_info()
         self._memory = memoryview(cast(Any, engine.memory))
         self._prefixes, self._size = engine.state_prefixes, len(engine.memory)
 
@@ -130,7 +129,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
             self._engine.seed(self.np_random.integers(SEED_RANGE, dtype=np.uint64).astype(np.int64))
         self._is_rng_set = False
         self._engine.reset(requested)
-        self._info = _info_of(self._counts.tolist())
+        self._info = self._new_info()
         if self.render_mode == "human":
             self.render()
         return self._observation(), self._info.copy()
@@ -139,8 +138,8 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """Hold the action's buttons for one step.
 
         Args:
-            action: A number whose bits are the buttons (1 left, 2 right, then jitter and create if the
-                options have them, then launch on a table with a plunger), or with
+            action: A number whose bits are the buttons (1 left, 2 right, then jitter or the nudges, and
+                create if the options have them, then launch on a table with a plunger), or with
                 `actions="multibinary"` a bit for each.
 
         Returns:
@@ -170,33 +169,22 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         if flags & WAS_OVER:
             _refuse_step()
         if flags & COUNTS_CHANGED:
-            self._info = _info_of(self._counts.tolist())
+            self._info = self._new_info()
         return observation, reward, flags & TERMINATED != 0, flags & TRUNCATED != 0, self._info.copy()
 
-    def render(self) -> NDArray[np.uint8] | None:
-        """The table as the game draws it, RGB [row, column, 3]; None without a render mode.
+    def _new_viewer(self) -> Viewer:
+        return Viewer(self._engine.batch, self._engine.game_records if self._engine.games else None)
 
-        In the mode "human" a window shows it instead, after every reset and step, at the speed of play.
-        Closing the window ends the rendering, not the episode.
+    @property
+    def varied(self) -> dict[str, float]:
+        """The numbers that the option `vary` drew for the current board, by key."""
+        board = int(self._engine.batch.board_of[0])
+        return {key: float(numbers[board]) for key, numbers in self._engine.pool.varied.items()}
 
-        Raises:
-            NoDisplay: The mode is "human", and there is no display.
-        """
-        if self.render_mode is None or (self._screen is not None and self._screen.is_closed):
-            return None
-        if self._viewer is None:
-            self._viewer = Viewer(self._engine.batch)
-        if self.render_mode == "rgb_array":
-            return self._viewer.picture(0)
-        if self._screen is None:
-            self._screen = ViewerWindow(self.metadata["render_fps"])
-        self._screen.show(self._viewer.picture(0))
-        return None
-
-    def close(self) -> None:
-        """Close the window, if one is open."""
-        if self._screen is not None:
-            self._screen.close()
+    @property
+    def rule_names(self) -> dict[str, tuple[str, ...]]:
+        """The names of the table's lamps, counters and modes, in the order of their observation groups."""
+        return self._engine.games.names if self._engine.games else {}
 
     # --- for Atari wrappers and `gymnasium.utils.play`
 
@@ -214,8 +202,15 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         return self
 
     def lives(self) -> int:
-        """The number of balls of the episode that have not drained yet."""
-        return self.options.balls - int(self._engine.batch.state["drained"][0])
+        """The number of balls of the episode that have not been lost yet."""
+        engine = self._engine
+        game = engine.game_records[0] if engine.games else None
+        counts = (
+            {"drained": engine.batch.state["drained"][0]}
+            if game is None
+            else {"ball": game["used"], "balls_in_play": game["balls"]}
+        )
+        return int(lives_of(counts, self.options.balls))
 
     # --- saving
 
@@ -235,10 +230,10 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         """
         if type(state) is not bytes:
             state = _as_bytes(state)
-        if self._copy_row is None:
+        if self._copy_row is None or self._engine.games:
             self._engine.restore(np.frombuffer(state, np.uint8)[None], _ALL)
             self._engine.observe()
-            self._info = _info_of(self._counts.tolist())
+            self._info = self._new_info()
             return
         if len(state) != self._size or state[_PREFIX] not in self._prefixes:
             self._engine.refuse_state(len(state))
@@ -247,7 +242,7 @@ class PinballEnv(gymnasium.Env[Any, Any]):
     def observe(self) -> Any:
         """The observation of the current state, as a new object."""
         self._engine.observe()
-        self._info = _info_of(self._counts.tolist())
+        self._info = self._new_info()
         return self._observation()
 
     @property
@@ -262,6 +257,9 @@ class PinballEnv(gymnasium.Env[Any, Any]):
         return _rebuild, (type(self), self.render_mode, options, self.save_state(), attributes)
 
     # --- helpers
+
+    def _new_info(self) -> dict[str, Any]:
+        return _info_of(self._engine.info, self._counts.tolist(), self._lives)
 
     def _observation(self) -> Any:
         engine = self._engine
@@ -305,8 +303,10 @@ def _refuse_step() -> NoReturn:
     raise gymnasium.error.ResetNeeded("the episode is over or has not begun: call reset before step")
 
 
-def _info_of(counts: list[int]) -> dict[str, Any]:
-    """The info of one environment from its counts."""
-    info: dict[str, Any] = dict(zip(INFO, counts, strict=True))
+def _info_of(names: tuple[str, ...], counts: list[int], balls: int | None) -> dict[str, Any]:
+    """The info of one environment from its counts, with the lives left of so many balls."""
+    info: dict[str, Any] = dict(zip(names, counts, strict=True))
     info["stalled"] = info["stalled"] == 1
+    if balls is not None:
+        info["lives"] = int(lives_of(info, balls))
     return info

@@ -134,8 +134,10 @@ def _cached_pictures(key: _PoolKey, size: tuple[int, int], rgb: bool) -> Picture
 
 def _channels(color: Color, rgb: bool) -> NDArray[np.float64]:
     """A colour as one (grey) or three channels, 0 to 255."""
-    values = np.array(color, np.float64)
-    return values if rgb else np.array([values @ LUMINANCE])
+    if rgb:
+        return np.array(color, np.float64)
+    # A product of arrays would be rounded as the library of this processor likes.
+    return np.array([sum(share * one for share, one in zip(LUMINANCE, color, strict=True))])
 
 
 def _raster(pool: Pool, size: tuple[int, int], rgb: bool) -> NDArray[Any]:

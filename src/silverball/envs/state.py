@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from silverball.physics.records import MAX_BALLS, MAX_PADDLES
+from silverball.referee.game_records import Said
 
 
 class ResetMode(IntEnum):
@@ -48,6 +49,19 @@ COUNTS = (
 
 INFO = (*COUNTS, "board", "stalled")
 """The keys of `info`, in the order of the columns of an engine's counts."""
+
+ALL_INFO = (*INFO, "action")
+"""The same with the action that was executed, which environments with `sticky` or `recharge` add."""
+
+HAPPENINGS = tuple(said.name.lower() for said in Said)
+"""What happens in a game by its rules, as `silverball.GameEventKind` has it."""
+
+GAME_COUNTS = (*HAPPENINGS, "ball", "balls_in_play")
+"""The further keys of `info` where episodes are games: how often each of these has happened, the number of
+the present ball, and the balls in play. The score is then that of the game."""
+
+CONTROL = np.dtype([("action", "i8"), ("ready", "i8")], align=True)
+"""The buttons held in the last step, and the tick from which a paddle can be lifted again."""
 
 EPISODE = np.dtype(
     [
@@ -100,21 +114,29 @@ RULES = np.dtype(
         ("weights", "f8", (len(COUNTS) + 2,)),  # of the terms of a reward, see `rewards.TERMS`
         ("weighs_counts", "i8"), ("writes_terms", "i8"),  # 1: counts have weights; a callable needs terms
         ("stall_steps", "i8"), ("max_steps", "i8"),
-        ("jitter_bit", "i8"), ("create_bit", "i8"), ("launch_bit", "i8"),  # 0: there is no such button
+        # Bits of actions; 0: there is no such button.
+        ("jitter_bit", "i8"), ("create_bit", "i8"), ("launch_bit", "i8"),
+        ("nudge_left_bit", "i8"), ("nudge_right_bit", "i8"), ("nudge_up_bit", "i8"),
         ("boards", "i8"), ("own_boards", "i8"),  # 1: environment i plays board i, modulo their number
         ("mode", "i8"),  # a ResetMode
         # Factors that scale quantities to −1 … 1.
         ("x_scale", "f8"), ("z_scale", "f8"), ("speed_scale", "f8"), ("idle_scale", "f8"),
         ("ball_scale", "f8"), ("angle_scale", "f8", (MAX_PADDLES,)), ("turn_scale", "f8", (MAX_PADDLES,)),
         ("rest_angle", "f8", (MAX_PADDLES,)), ("raised_angle", "f8", (MAX_PADDLES,)),  # of the paddles [rad]
+        ("reach", "f8"), ("hides_velocities", "i8"),  # [u] from paddles, within which balls are seen
         # The layout of a state observation: items of these groups, and the first columns of the others.
         ("balls_shown", "i8"), ("paddles_shown", "i8"),
         ("paddle_of", "i8", (MAX_PADDLES,)),  # the paddle that each slot shows; −1: there is none
         ("paddles_at", "i8"), ("game_at", "i8"), ("layout_at", "i8"),
+        ("sticky_below", "i8"),  # of 2³² equally likely numbers: those that repeat the last action
+        ("recharge_ticks", "i8"), ("supply_at", "i8"),  # between two strokes; the column of the charge
         # The groups of devices, which most tables do not have: 1 if there is any; their items and columns.
         ("shows_devices", "i8"), ("places_shown", "i8"), ("places_at", "i8"),
         ("switches_shown", "i8"), ("switches_at", "i8"), ("spinners_shown", "i8"), ("spinners_at", "i8"),
         ("plungers_shown", "i8"), ("plunger_at", "i8"), ("charge_scale", "f8"),  # per tick of the button
+        ("launches_itself", "i8"),  # 1: plungers launch without a button
+        # The groups of games by rules, and the score that is shown as a half.
+        ("play_at", "i8"), ("lamps_at", "i8"), ("counters_at", "i8"), ("modes_at", "i8"), ("par", "f8"),
         # Flags: 1 if a step writes these.
         ("writes_state", "i8"), ("draws_pictures", "i8"),
         ("copies_stack", "i8"),  # 1: the window of pictures is copied
@@ -142,6 +164,7 @@ RASTER = np.dtype(
 
 # Records are `Any` to mypy; these names say which record a kernel takes.
 RulesRecord: TypeAlias = Any
+ControlRecord: TypeAlias = Any
 RasterRecord: TypeAlias = Any
 PictureStateRecord: TypeAlias = Any
 PieceRecord: TypeAlias = Any

@@ -11,37 +11,37 @@ from typing import Any
 
 import numpy as np
 from gymnasium.envs.registration import EnvSpec
-from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from silverball.envs.actions import action_space, as_array, as_bits
 from silverball.envs.engine import Engine
+from silverball.envs.lives import lives_of
 from silverball.envs.observations import as_observation, as_observations, observation_space
 from silverball.envs.options import (
     NO_LIMIT,
-    SEED_RANGE,
     VECTOR_ONLY,
     Options,
     checked_generator,
     checked_render_mode,
     checked_reset_options,
-    checked_seed,
 )
 from silverball.envs.spec import with_step_limit
-from silverball.envs.state import INFO, ResetMode
+from silverball.envs.vector_arguments import (
+    RESET_MODES,
+    checked_mask,
+    checked_mode,
+    draw_missing,
+    refuse_ended,
+    seeds_of,
+)
 from silverball.envs.viewer import Viewer
 from silverball.errors import StateError
+from silverball.players.trained import Games
 from silverball.world import WorldBatch
 from silverball.world.arguments import Index, checked_int, resolve_index
 from silverball.world.threads import cores
-
-RESET_MODES = {
-    AutoresetMode.DISABLED: ResetMode.DISABLED,
-    AutoresetMode.NEXT_STEP: ResetMode.NEXT_STEP,
-    AutoresetMode.SAME_STEP: ResetMode.SAME_STEP,
-}
 
 REBUILT = {"_engine", "_viewer"}
 """Attributes that refer to the engine's arrays; a copy rebuilds them."""
@@ -93,7 +93,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
     ) -> None:
         self.num_envs = checked_int("num_envs", num_envs, 1, 2**22)
         self.options = Options.of(options, ("num_envs", "render_mode", "max_episode_steps", *VECTOR_ONLY))
-        self.autoreset_mode = _checked_mode(autoreset_mode)
+        self.autoreset_mode = checked_mode(autoreset_mode)
         self.metadata = {
             "render_modes": ["rgb_array"], "render_fps": self.options.frames_per_second,
             "autoreset_mode": self.autoreset_mode,
@@ -118,7 +118,6 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self._codes = 1 << len(self._engine.buttons)
         self._weights = 1 << np.arange(len(self._engine.buttons))
-        self._all = np.ones(self.num_envs, np.bool_)
         self._has_begun = False  # whether every environment has begun an episode
         self._draws_seed = np.zeros(self.num_envs, np.bool_)  # at the next reset, after np_random was set
         self._spec: EnvSpec | None = None
@@ -145,9 +144,55 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         self._draws_seed[:] = True
 
     @property
+    def varied(self) -> dict[str, NDArray[np.float64]]:
+        """The numbers that the option `vary` drew for the current boards, by key, float64 [env] each.
+
+        Examples:
+            >>> import silverball.envs
+            >>> vary = {"board.gravity": (8, 12)}
+            >>> envs = silverball.envs.PinballVectorEnv(64, table="classic", vary=vary, own_boards=True)
+            >>> observations, infos = envs.reset(seed=0)
+            >>> envs.varied["board.gravity"][:3].round(2)
+            array([11.57,  9.36, 11.61])
+        """
+        pool = self._engine.pool
+        return {key: numbers[self._engine.batch.board_of] for key, numbers in pool.varied.items()}
+
+    @property
+    def rule_names(self) -> dict[str, tuple[str, ...]]:
+        """The names of the table's lamps, counters and modes, in the order of their observation groups."""
+        return self._engine.games.names if self._engine.games else {}
+
+    @property
     def batch(self) -> WorldBatch:
         """The worlds; after changing them call `observe`."""
         return self._engine.batch
+
+    @property
+    def games(self) -> Games | None:
+        """The games that the worlds play, with `rules=True`; only to be read."""
+        engine = self._engine
+        return Games(engine.game_records, engine.games.books) if engine.games else None
+
+    @property
+    def charge(self) -> NDArray[np.float64]:
+        """How far the power supply of the coils is charged in each environment [env]; 1 without one."""
+        engine, ticks = self._engine, self.options.recharge * self.options.tick_rate
+        if ticks == 0:
+            return np.ones(self.num_envs)
+        left = engine.controls["ready"] - engine.batch.state["tick"]
+        charged: NDArray[np.float64] = 1.0 - np.clip(left / ticks, 0.0, 1.0)
+        return charged
+
+    @property
+    def button_names(self) -> tuple[str, ...]:
+        """The buttons, in the order of an action's bits."""
+        return self._engine.buttons
+
+    @property
+    def table_digests(self) -> tuple[str, ...]:
+        """The hash of every board that can be drawn."""
+        return self._engine.pool.boards.digests
 
     def reset(
         self,
@@ -172,16 +217,16 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             TypeError: The mask is not a boolean array.
         """
         given = checked_reset_options(options, ("reset_mask", "board"))
-        mask = self._checked_mask(given.get("reset_mask"))
+        mask = checked_mask(given.get("reset_mask"), self.num_envs)
         boards = self._requested_boards(given.get("board"))
-        seeds = self._seeds(seed)
+        seeds = seeds_of(seed, self.num_envs)
         super().reset(seed=int(seed) if isinstance(seed, (int, np.integer)) else None)
         self._seed(seeds, mask)
         self._engine.reset_mask[:] = mask
         self._engine.reset(boards)
         self._has_begun = bool(self._engine.has_begun.all())
-        output = self._engine.outputs.last
-        return self._observations(), output.infos_copy() if mask.all() else _masked_infos(output.counts, mask)
+        counts = self._engine.outputs.last.counts
+        return self._observations(), self._infos() if mask.all() else self._masked_infos(counts, mask)
 
     def step(
         self, actions: Any
@@ -204,10 +249,10 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         engine = self._engine
         self._set_actions(actions)
         if self.autoreset_mode is AutoresetMode.DISABLED or not self._has_begun:
-            self._refuse_ended_episodes()
+            refuse_ended(engine.episodes["over"])
         engine.step()
         output = engine.outputs.last
-        infos = output.infos_copy()
+        infos = self._infos()
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             self._add_finals(infos, output.terminated | output.truncated)
         return self._observations(), output.rewards, output.terminated, output.truncated, infos
@@ -217,7 +262,9 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         if self.render_mode is None:
             return None
         if self._viewer is None:
-            self._viewer = Viewer(self._engine.batch)
+            self._viewer = Viewer(
+                self._engine.batch, self._engine.game_records if self._engine.games else None
+            )
         return tuple(self._viewer.picture(index) for index in range(self.num_envs))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -336,32 +383,10 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
             )
         self._engine.actions[:] = array
 
-    def _refuse_ended_episodes(self) -> None:
-        over = np.flatnonzero(self._engine.episodes["over"])
-        if len(over):
-            raise ResetNeeded(
-                f"{len(over)} episodes are over or have not begun, the first in environment {over[0]}: "
-                'call reset, with options={"reset_mask": terminated | truncated} to begin only these'
-            )
-
-    def _seeds(self, seed: Any) -> NDArray[np.int64]:
-        """The seed of each environment, int64 [env]; −1: none."""
-        if seed is None:
-            return np.full(self.num_envs, -1, np.int64)
-        if not isinstance(seed, (list, tuple, np.ndarray)) or np.ndim(seed) == 0:
-            first = checked_seed(seed)
-            return np.array([(first + number) % SEED_RANGE for number in range(self.num_envs)], np.int64)
-        if len(seed) != self.num_envs:
-            raise ValueError(f"seed must be one number or {self.num_envs} of them, got {len(seed)}")
-        return np.array([-1 if one is None else checked_seed(one) for one in seed], np.int64)
-
     def _seed(self, seeds: NDArray[np.int64], mask: NDArray[np.bool_]) -> None:
         """Seed the masked environments; those without a seed get random ones."""
-        unseeded = mask & (seeds < 0) & (self._draws_seed | ~self._engine.has_begun)
+        draw_missing(seeds, mask & (self._draws_seed | ~self._engine.has_begun), self.np_random)
         self._draws_seed &= ~mask
-        if unseeded.any():
-            drawn = self.np_random.integers(SEED_RANGE, size=self.num_envs, dtype=np.uint64)
-            seeds[unseeded] = drawn.astype(np.int64)[unseeded]
         where = mask & (seeds >= 0)
         self._engine.seed(seeds[where], where)
 
@@ -375,16 +400,22 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         pool = self._engine.pool
         return np.array([-1 if one is None else pool.board_of_seed(one) for one in each], np.int64)
 
-    def _checked_mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
-        if mask is None:
-            return self._all
-        if not isinstance(mask, np.ndarray) or mask.dtype != np.bool_:
-            raise TypeError(f"reset_mask must be a boolean array, got {getattr(mask, 'dtype', type(mask))}")
-        if mask.shape != (self.num_envs,):
-            raise ValueError(f"reset_mask must have the shape ({self.num_envs},), got {mask.shape}")
-        if not mask.any():
-            raise ValueError("reset_mask must select at least one environment, got none")
-        return mask
+    def _infos(self) -> dict[str, Any]:
+        """The counts of the last step as Gymnasium's infos, of all environments."""
+        infos = self._engine.outputs.last.infos_copy()
+        return self._with_lives(infos) if self.options.lives else infos
+
+    def _masked_infos(self, counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
+        """Counts [env, count] as Gymnasium's infos: for each key an array and its mask."""
+        counts = np.where(mask[:, None], counts, 0)
+        infos: dict[str, Any] = {}
+        for name, row in zip(self._engine.info, counts.T, strict=True):
+            infos[name], infos[f"_{name}"] = row if name != "stalled" else row != 0, mask.copy()
+        return self._with_lives(infos) if self.options.lives else infos
+
+    def _with_lives(self, infos: dict[str, Any]) -> dict[str, Any]:
+        infos["lives"], infos["_lives"] = lives_of(infos, self.options.balls), infos["_created"]
+        return infos
 
     def _add_finals(self, infos: dict[str, Any], ended: NDArray[np.bool_]) -> None:
         """Add the last observations and counts of the episodes that ended in this step."""
@@ -397,7 +428,7 @@ class PinballVectorEnv(VectorEnv[Any, Any, NDArray[Any]]):
         for number, row in enumerate(rows):
             final[row] = as_observation(self.options, engine.pool.fields, raw[number])
         infos["final_obs"], infos["_final_obs"] = final, ended
-        infos["final_info"] = _masked_infos(engine.final_counts, ended)
+        infos["final_info"] = self._masked_infos(engine.final_counts, ended)
         infos["_final_info"] = ended.copy()
 
 
@@ -414,22 +445,3 @@ def _rebuild(
     envs.restore_state(states)
     vars(envs).update(attributes)
     return envs
-
-
-def _masked_infos(counts: NDArray[np.int64], mask: NDArray[np.bool_]) -> dict[str, Any]:
-    """Counts [env, count] as Gymnasium's infos: for each key an array and its mask."""
-    counts = np.where(mask[:, None], counts, 0)
-    infos: dict[str, Any] = {}
-    for name, row in zip(INFO, counts.T, strict=True):
-        infos[name], infos[f"_{name}"] = row if name != "stalled" else row != 0, mask.copy()
-    return infos
-
-
-def _checked_mode(mode: AutoresetMode | str) -> AutoresetMode:
-    if mode in AutoresetMode.__members__:
-        return AutoresetMode[str(mode)]
-    try:
-        return AutoresetMode(mode)
-    except ValueError:
-        modes = ", ".join(repr(one.value) for one in AutoresetMode)
-        raise ValueError(f"autoreset_mode must be one of {modes}, got {mode!r}") from None

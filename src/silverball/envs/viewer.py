@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, ClassVar
+from abc import abstractmethod
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.referee.game_records import NOT_RUNNING
 from silverball.world import WorldBatch
 from silverball.world.events import read_events
 
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
     from silverball.drawing import Renderer
     from silverball.drawing.effects import Effects
 
-SIZE = (330, 680)  # [pixel] width and height
+SIZE = (330, 680)  # [pixel] width and height, by default
 ICON_SIDE = 64  # [pixel]
 MAX_RENDERERS = 8  # each takes a few megabytes
 
@@ -27,6 +29,7 @@ class ViewerWindow:
 
     Args:
         rate: Pictures a second; `show` waits until the next one is due.
+        size: Width and height of the pictures [pixel].
 
     Raises:
         NoDisplay: There is no display, and SDL_VIDEODRIVER does not name a driver that needs none.
@@ -34,7 +37,7 @@ class ViewerWindow:
 
     _all: ClassVar[list[ViewerWindow]] = []  # all open ones
 
-    def __init__(self, rate: int) -> None:
+    def __init__(self, rate: int, size: tuple[int, int] = SIZE) -> None:
         import pygame
 
         from silverball.drawing.sketch import ball_icon
@@ -42,7 +45,7 @@ class ViewerWindow:
 
         remedy = 'render_mode="rgb_array" needs none'
         open_video(remedy, without_display=os.environ.get("SDL_VIDEODRIVER") in NOT_A_SCREEN)
-        self._window: pygame.Window | None = pygame.Window("Silverball", SIZE)
+        self._window: pygame.Window | None = pygame.Window("Silverball", size)
         self._window.set_icon(ball_icon(ICON_SIDE))
         self._clock, self._rate = pygame.Clock(), rate
         self._all.append(self)
@@ -86,10 +89,18 @@ class ViewerWindow:
 
 
 class Viewer:
-    """Draws worlds of a batch. Worlds on one board share its renderer, but not flashes, sparks or trails."""
+    """Draws worlds of a batch. Worlds on one board share its renderer, but not flashes, sparks or trails.
 
-    def __init__(self, batch: WorldBatch) -> None:
-        self._batch = batch
+    Args:
+        batch: The worlds.
+        games: The games that are played on them by rules, whose lamps are drawn, GAME records; None: none.
+        size: Of a picture, width and height [pixel].
+    """
+
+    def __init__(
+        self, batch: WorldBatch, games: NDArray[Any] | None = None, size: tuple[int, int] = SIZE
+    ) -> None:
+        self._batch, self._games, self.size = batch, games, size
         self._renderers: dict[int, Renderer] = {}
         self._effects: dict[int, Effects] = {}
         self._last_drawn: dict[int, tuple[int, int, int]] = {}  # of each world: board, seed, tick
@@ -101,7 +112,15 @@ class Viewer:
         board = int(self._batch.board_of[index])
         renderer = self._renderer(board)
         renderer.effects = self._effects_of(index, board)
-        return np.array(renderer.array(Moment.of_record(self._batch.state[index], self._batch.tick_rate)))
+        moment = Moment.of_record(self._batch.state[index], self._batch.tick_rate)
+        if self._games is not None:
+            table, game = self._batch.tables[board], self._games[index]
+            ends = zip(table.mode, game["mode_end"].tolist(), strict=False)
+            colors = (mode.color for mode, end in ends if end != NOT_RUNNING and mode.color != "white")
+            lamps = tuple(game["lamp"][: len(table.lamp)].tolist())
+            score, color = int(game["score"]), next(colors, "white")
+            moment = moment._replace(lamps=lamps, color=color, score=score)
+        return np.array(renderer.array(moment))
 
     def _effects_of(self, index: int, board: int) -> Effects:
         """The effects of the last moments of a world; a new episode or a restored state clears them."""
@@ -125,5 +144,43 @@ class Viewer:
         if board not in self._renderers:
             while len(self._renderers) >= MAX_RENDERERS:
                 del self._renderers[next(iter(self._renderers))]
-            self._renderers[board] = Renderer(self._batch.tables[board], SIZE)
+            self._renderers[board] = Renderer(self._batch.tables[board], self.size)
         return self._renderers[board]
+
+
+class RendersOne:
+    """What shows a single environment: `render` and `close`. A subclass says what draws it."""
+
+    render_mode: str | None
+    metadata: dict[str, Any]
+    _viewer: Viewer | None = None
+    _screen: ViewerWindow | None = None
+
+    @abstractmethod
+    def _new_viewer(self) -> Viewer:
+        """What draws the environment."""
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """The table as the game draws it, RGB [row, column, 3]; None without a render mode.
+
+        In the mode "human" a window shows it instead, after every reset and step, at the speed of play.
+        Closing the window ends the rendering, not the episode.
+
+        Raises:
+            NoDisplay: The mode is "human", and there is no display.
+        """
+        if self.render_mode is None or (self._screen is not None and self._screen.is_closed):
+            return None
+        if self._viewer is None:
+            self._viewer = self._new_viewer()
+        if self.render_mode == "rgb_array":
+            return self._viewer.picture(0)
+        if self._screen is None:
+            self._screen = ViewerWindow(self.metadata["render_fps"], self._viewer.size)
+        self._screen.show(self._viewer.picture(0))
+        return None
+
+    def close(self) -> None:
+        """Close the window, if one is open."""
+        if self._screen is not None:
+            self._screen.close()

@@ -1,12 +1,20 @@
-"""The built-in rules: arcade play with balls, combos, ball save and tilt; free play with plain points."""
+"""The built-in rules: arcade play with balls, combos, ball save and tilt; free play with plain points.
+
+A game with built-in rules is scored by the referee (`scorekeeper.py`). The classes here are for rules of
+one's own that change only some of them: each function asks the referee what the standard rules make of a
+state.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from silverball.game import tilt
-from silverball.game.rules import NO_COMBOS, InPlay, Outcome, RuleConfig, RuleState, running_combo
-from silverball.game.view import GameEvent, GameEventKind, Mode
+from silverball.game.rules import NO_COMBOS, Outcome, RuleConfig, RuleState, running_combo
+from silverball.game.scratch_game import SCRATCH
+from silverball.game.view import Mode
+from silverball.physics.records import EventKind
+from silverball.referee.combo import factor_of_combo
+from silverball.referee.judge import Call
 
 if TYPE_CHECKING:
     from silverball.game.rules import Rules
@@ -47,86 +55,36 @@ class ArcadeRules:
 
     def started(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
         """Start a ball; only a ball that starts on an empty board is saved."""
-        saves = config.saves if not state.balls else 0
-        new = InPlay(ball, state.used + 1, tick + config.save_ticks if saves else 0, saves)
-        after = state._replace(used=state.used + 1, balls=(*state.balls, new), quiet_since=tick)
-        doubles = config.double > 1 and len(after.balls) == 2
-        return after, (GameEvent(GameEventKind.DOUBLE_ON, tick, config.double),) if doubles else ()
+        return SCRATCH.outcome(config, state, tick, lambda game: game.judge(Call.START, ball))
 
     def returned(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
         """Put the first of the waiting balls into play again."""
-        waiting = state.waiting[0]
-        safe_until = tick + config.save_ticks if waiting.saves else 0
-        balls = list(state.balls)
-        balls[balls.index(waiting)] = waiting._replace(id=ball, safe_until=safe_until)
-        return state._replace(balls=tuple(balls), quiet_since=tick), ()
+        return SCRATCH.outcome(config, state, tick, lambda game: game.judge(Call.RETURN, ball))
 
     def hit(self, config: RuleConfig, state: RuleState, tick: int, points: int, part: str) -> Outcome:
         """Count the points of a part, multiplied; a part without points changes nothing."""
         if not points:
             return state, ()
-        state = state._replace(quiet_since=tick)
-        if state.tilted:
-            return state, ()
-        combo = running_combo(config, state, tick) + 1 if config.combo_ticks >= 0 else 0
-        state = state._replace(combo=combo, combo_tick=tick)
-        worth = points * self.multiplier(config, state, tick)
-        events: tuple[GameEvent, ...] = (GameEvent(GameEventKind.SCORED, tick, worth, part),)
-        if combo > 1:
-            events += (GameEvent(GameEventKind.COMBO, tick, combo, part),)
-        return state._replace(score=state.score + worth), events
+        state, events = SCRATCH.outcome(config, state, tick, lambda game: game.hit(points))
+        return state, tuple(event._replace(part=part) for event in events)
 
     def multiplier(self, config: RuleConfig, state: RuleState, tick: int) -> int:
         """The multiplier of the combo, times that of two or more balls."""
         combo = running_combo(config, state, tick)
-        factor = min(1 + max(combo - 1, 0) // config.combo_step, config.combo_limit)
+        factor = factor_of_combo(combo, config.combo_step, config.combo_limit)
         return factor * (config.double if len(state.balls) > 1 else 1)
 
     def drained(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
         """Save or lose a ball; losing the last one in play ends the turn, losing the last of all the game."""
-        lost = next((in_play for in_play in state.balls if in_play.id == ball), None)
-        if lost is None:
-            return state, ()
-        others = tuple(in_play for in_play in state.balls if in_play is not lost)
-        if lost.saves and tick < lost.safe_until and not state.tilted:
-            waiting = lost._replace(id=0, saves=lost.saves - 1, safe_until=0)
-            saved = (GameEvent(GameEventKind.BALL_SAVED, tick, lost.number),)
-            return state._replace(balls=(*others, waiting)), saved
-        events: tuple[GameEvent, ...] = (GameEvent(GameEventKind.BALL_LOST, tick, lost.number),)
-        if config.double > 1 and len(state.balls) > 1 and len(others) <= 1:
-            events += (GameEvent(GameEventKind.DOUBLE_OFF, tick),)
-        state = state._replace(balls=others)
-        if others:
-            return state, events
-        state = state._replace(tilted=False, warnings=0, combo=0)
-        if config.balls and state.used >= config.balls:
-            return state._replace(over=True), (*events, GameEvent(GameEventKind.OVER, tick, state.score))
-        return state, (*events, GameEvent(GameEventKind.BALL_READY, tick, state.used + 1))
+        return SCRATCH.outcome(config, state, tick, lambda game: game.happen(EventKind.GUTTER, ball))
 
     def launched(self, config: RuleConfig, state: RuleState, tick: int, ball: int) -> Outcome:
         """Let the time in which a lost ball is saved begin when it leaves the plunger."""
-        balls = tuple(
-            in_play._replace(safe_until=tick + config.save_ticks)
-            if in_play.id == ball and in_play.safe_until
-            else in_play
-            for in_play in state.balls
-        )
-        return state._replace(balls=balls, quiet_since=tick), ()
+        return SCRATCH.outcome(config, state, tick, lambda game: game.happen(EventKind.RELEASED, ball))
 
     def shoved(self, config: RuleConfig, state: RuleState, tick: int) -> Outcome:
         """Swing the tilt bob: nothing, a warning or a tilt."""
-        if state.tilted:
-            return state, ()
-        swing = tilt.decayed(state.swing, tick - state.swing_tick, config.tilt_decay) + tilt.SHOVE
-        state = state._replace(swing=swing, swing_tick=tick)
-        limits = config.tilt_warning, config.tilt_limit, config.warnings
-        match tilt.shove_result(swing, state.warnings, *limits):
-            case tilt.ShoveResult.TILT:
-                return state._replace(tilted=True, combo=0), (GameEvent(GameEventKind.TILT, tick),)
-            case tilt.ShoveResult.WARNING:
-                state = state._replace(warnings=state.warnings + 1)
-                return state, (GameEvent(GameEventKind.WARNING, tick, state.warnings),)
-        return state, ()
+        return SCRATCH.outcome(config, state, tick, lambda game: game.judge(Call.SHOVE))
 
 
 class FreeRules(ArcadeRules):

@@ -31,6 +31,8 @@ class Game(GameCore):
         tick_rate: Ticks per second, 10 to 1,000.
         rules: Custom rules in place of those of the mode; see `Rules`. Such a game never enters the
             score lists.
+        players: How many play in turn, 1 to 4: the machine is handed on after each ball, and each has a
+            score, balls and missions of their own (`scores`). Arcade only.
 
     Attributes:
         world: The world that is played. Read it, but change it only through the game.
@@ -39,7 +41,8 @@ class Game(GameCore):
 
     Raises:
         TableError: The table cannot be used.
-        ValueError: A mode, seed or tick rate that does not exist, or rules with a name that they cannot have.
+        ValueError: A mode, seed, tick rate or number of players that does not exist, or rules with a name
+            that they cannot have.
 
     Examples:
         >>> import silverball as sb
@@ -60,8 +63,9 @@ class Game(GameCore):
         tick_rate: int = TICK_RATE,
         *,
         rules: Rules | None = None,
+        players: int = 1,
     ) -> None:
-        super().__init__(table, seed, mode, tick_rate, rules=rules)
+        super().__init__(table, seed, mode, tick_rate, rules=rules, players=players)
         self._recorder: Recorder | None = Recorder(self.tick_rate)
 
     @property
@@ -82,6 +86,7 @@ class Game(GameCore):
             ended=self.ended,
             digest=self.digest(),
             rules=self._custom_rules_name,
+            players=self.players,
         )
 
     def restore(self, state: bytes) -> None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from silverball.physics.records import HEADER, LOG, Device, Motion
 from silverball.world import World
+from silverball.world.saved_world import world_bytes
 
 SKIP_LIMIT = 64  # most ticks played at once: the event log of a world holds 56 contacts
 GUTTER_MARGIN = 0.1  # [u] a ball nearer to the gutter is played tick by tick
@@ -61,6 +62,18 @@ class GameWorld:
         return int(np.count_nonzero(self._ball_id))
 
     @property
+    def has_ball_to_launch(self) -> bool:
+        """Whether a ball lies on a plunger, which will not launch it by itself."""
+        if "holder" not in (self._record["ball"].dtype.names or ()):
+            return False
+        roles = self.world.records[2]["role"]
+        balls = self._record["ball"][["id", "motion", "holder", "due_tick"]].tolist()
+        return any(
+            ball != 0 and motion == Motion.CAPTURED and roles[row] == Device.PLUNGER and due == 0
+            for ball, motion, row, due in balls
+        )
+
+    @property
     def ball_ids(self) -> list[int]:
         """The ids of the balls on the board; 0 for an empty slot."""
         ids: list[int] = self._ball_id.tolist()
@@ -74,7 +87,7 @@ class GameWorld:
 
     def to_bytes(self) -> bytes:
         """The bytes of the record."""
-        return self._words.tobytes()
+        return world_bytes(self._words)
 
     def has_new_events(self) -> bool:
         """Whether anything has happened in the last step of the world."""

@@ -11,9 +11,11 @@ import struct
 from typing import Any, NamedTuple
 
 from silverball.errors import StateError
+from silverball.game.match import MatchState
+from silverball.game.referee_state import TABLE_ROWS, Rest, StuckTracker, TableState
 from silverball.game.rules import InPlay, RuleState
-from silverball.game.stuck import Rest, StuckTracker
 from silverball.physics import PHYSICS_VERSION
+from silverball.physics.records import JITTER, NUDGE_LEFT, NUDGE_RIGHT, NUDGE_UP, NUDGES
 from silverball.world import saved_world
 
 MAGIC = b"SILVERGM"
@@ -28,20 +30,24 @@ class GameState(NamedTuple):
         stuck: The state of the stuck-ball tracker.
         left: Whether the left button is held.
         right: Whether the right button is held.
-        shove: Whether a shove of the player comes in the next tick.
+        shove: The shove of the player that comes in the next tick, `JITTER` or a bit of a nudge; 0: none.
         auto_shove: Whether a shove of the machine comes in the next tick.
         own_rules: The name of the rules; empty for the built-in ones.
         launch: Whether the launch button is held.
+        table: What the rules of the table keep; None if it has none of its own.
+        match: The players who wait, in a match of several.
     """
 
     rules: RuleState
     stuck: StuckTracker
     left: bool
     right: bool
-    shove: bool
+    shove: int
     auto_shove: bool
     own_rules: str
     launch: bool = False
+    table: TableState | None = None
+    match: MatchState | None = None
 
     def to_json(self) -> str:
         """The state as JSON in ASCII; equal states have equal texts."""
@@ -50,9 +56,15 @@ class GameState(NamedTuple):
             if getattr(self.rules, name) == default:
                 del data[name]  # so that digests of games without it stay as they are
         data["watch"] = self.stuck._asdict() | {"rests": [rest._asdict() for rest in self.stuck.rests]}
-        data |= {"left": self.left, "right": self.right, "shove": self.shove, "machine": self.auto_shove}
+        data |= {"left": self.left, "right": self.right, "shove": self.shove != 0, "machine": self.auto_shove}
+        if self.shove & NUDGES:  # left out otherwise, as the launch button below
+            data["nudge"] = self.shove
         if self.launch:  # left out otherwise, so that digests of tables without a plunger stay as they are
             data["launch"] = True
+        if self.table is not None:
+            data["table"] = self.table._asdict()
+        if self.match is not None:
+            data["match"] = self.match.to_values()
         if self.own_rules:
             data["own_rules"] = self.own_rules
         return json.dumps(data, separators=(",", ":"))
@@ -65,13 +77,22 @@ class GameState(NamedTuple):
             ValueError, TypeError, KeyError: The text is not one.
         """
         data: dict[str, Any] = json.loads(text)
-        left, right, shove, auto = (bool(data.pop(name)) for name in ("left", "right", "shove", "machine"))
+        left, right, shoves, auto = (bool(data.pop(name)) for name in ("left", "right", "shove", "machine"))
+        shove = data.pop("nudge", JITTER) if shoves else 0
+        if shove not in (0, JITTER, NUDGE_LEFT, NUDGE_RIGHT, NUDGE_UP):
+            raise ValueError("there is no such nudge")
         launch, own_rules = bool(data.pop("launch", False)), str(data.pop("own_rules", ""))
         watch = data.pop("watch")
         stuck = StuckTracker(tuple(Rest(**rest) for rest in watch.pop("rests")), **watch)
+        table = data.pop("table", None)
+        if table is not None:
+            table = TableState(**table | {name: tuple(table[name]) for name, _ in TABLE_ROWS})
+        values = data.pop("match", None)
+        match = None if values is None else MatchState.from_values(values)
         balls = tuple(InPlay(**ball) for ball in data.pop("balls"))
         data["open_gates"] = tuple(map(str, data.get("open_gates", ())))
-        return cls(RuleState(**data, balls=balls), stuck, left, right, shove, auto, own_rules, launch)
+        rules = RuleState(**data, balls=balls)
+        return cls(rules, stuck, left, right, shove, auto, own_rules, launch, table, match)
 
 
 def pack_game(mode: str, ended: str, world: bytes, state_json: str) -> bytes:

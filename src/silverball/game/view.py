@@ -56,6 +56,16 @@ class GameEventKind(StrEnum):
     TILT = "tilt"  # the paddles are dead until the board is empty
     UNSTUCK = "unstuck"  # the machine has shoved a ball that lay still
     OVER = "over"  # value: the score
+    # Of tables with rules of their own:
+    MESSAGE = "message"  # part: a text for the display
+    CUE = "cue"  # part: the name of a sound or a show
+    MODE_STARTED = "mode_started"  # part: the name of the mode
+    MODE_ENDED = "mode_ended"
+    EXTRA_BALL = "extra_ball"  # value: the extra balls to come
+    BALL_LOCKED = "ball_locked"  # value: the balls that are locked; part: the hole
+    MULTIBALL = "multiball"  # value: the balls in play
+    # Of a match of several players:
+    PLAYER_UP = "player_up"  # the machine is handed on; value: the number of the next player
 
 
 class GameEvent(NamedTuple):
@@ -65,7 +75,9 @@ class GameEvent(NamedTuple):
         kind: The kind of event.
         tick: The tick in which it happened.
         value: A number that belongs to it; see `GameEventKind`.
-        part: The path of the part that was hit, such as "cylinder[0]"; empty for other events.
+        part: The path of the part that was hit, such as "cylinder[0]"; of rules of the table also a text, a
+        cue or
+            the name of a mode. Empty for other events.
 
     Examples:
         >>> import silverball as sb
@@ -96,6 +108,8 @@ class GameView(NamedTuple):
         warnings: Tilt warnings of this ball so far.
         tilted: Whether the paddles are dead.
         max_balls: The most balls that the table allows at once.
+        player: The number of the player who is up, from 1; `score`, `ball` and the like are theirs.
+        scores: The points of all players; empty with one player.
 
     Examples:
         >>> import silverball as sb
@@ -116,3 +130,5 @@ class GameView(NamedTuple):
     warnings: int
     tilted: bool
     max_balls: int
+    player: int = 1
+    scores: tuple[int, ...] = ()

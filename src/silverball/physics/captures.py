@@ -13,6 +13,7 @@ from silverball.physics.holes import can_capture, exit_velocity, launch_speed
 from silverball.physics.kernel import as_int, inlined, internal
 from silverball.physics.motion import advance_to, capture, clear_ball, set_free
 from silverball.physics.paddle import angle_at, paddle_distance, read_sweep
+from silverball.physics.portable_math import uniform
 from silverball.physics.records import (
     LAUNCH,
     NOTHING,
@@ -107,7 +108,7 @@ def is_clear(lane: Lane, geometry: BoardGeometry, x: float, z: float, level: int
 
 @internal
 def release_ball(lane: Lane, geometry: BoardGeometry, ball: BallRecord, time: float) -> None:
-    """Let a hole send off its ball; if its exit is blocked, it is tried again in the next tick."""
+    """Let a hole or plunger send off its ball; if the way is blocked, it is tried again in the next tick."""
     world, board = lane.world, geometry.board
     c = geometry.colliders[board.collider_first + ball.holder]
     if not (
@@ -117,6 +118,9 @@ def release_ball(lane: Lane, geometry: BoardGeometry, ball: BallRecord, time: fl
         ball.due_tick, ball.due_offset = world.tick + 1, 0.0
         return
     vx, vz, world.draws = exit_velocity(c.exit_vx, c.exit_vz, c.exit_spread, world.seed, world.draws)
+    if c.exit_gain > 0.0:
+        faster = 1.0 + c.exit_gain * uniform(world.seed, world.draws)
+        vx, vz, world.draws = faster * vx, faster * vz, world.draws + 1
     ball.x, ball.z, ball.level = c.exit_x, c.exit_z, c.exit_level
     _send_off(lane, board, ball, c, vx, vz, time)
 

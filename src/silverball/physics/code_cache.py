@@ -3,8 +3,8 @@
 Numba's own cache unpickles whatever its files hold and runs it. This one unpickles a file only if it is, bit
 for bit, what was written, and reports damage once. A function has two files for each set of argument types:
 
-    NAME.TYPES.nbi     the index: the SHA-256 of the code
-    NAME.SHA-256.nbc   the code; its SHA-256 covers the name of the index too
+    NAME.LAYOUT-TYPES.nbi   the index: the SHA-256 of the code
+    NAME.SHA-256.nbc        the code; its SHA-256 covers the name of the index too
 
 Each file is renamed into its place when it is complete, the code first. So processes that write at the same
 time never mix two versions, and a file that was emptied, cut short, changed or exchanged is detected.
@@ -20,6 +20,7 @@ import pickle
 import secrets
 import shutil
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, cast
 
@@ -30,6 +31,7 @@ from numba.core.serialize import dumps as untyped_dumps
 
 Base, Result, dumps = cast(Any, FunctionCache), cast(Any, CompileResult), cast(Any, untyped_dumps)
 INDEX, CODE = ".nbi", ".nbc"
+FULL_LAYOUT, PLAIN_LAYOUT = "full", "plain"  # of world records; see `for_devices.py`
 
 
 class Damage:
@@ -55,7 +57,13 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
     Args:
         function: The Python function that is compiled.
         folder: The folder of all compiled code of these sources.
+
+    Attributes:
+        layout_of: The layout of the worlds among argument types, a part of the names of files; a hook for
+            `for_devices.py`, which knows the types.
     """
+
+    layout_of: Callable[[Any], str] = staticmethod(lambda types: FULL_LAYOUT)
 
     def __init__(self, function: Any, folder: Path) -> None:
         # Numba's constructor is not called: it would look for a folder of its own.
@@ -112,13 +120,20 @@ class CodeCache(Base):  # type: ignore[misc,valid-type]
 
     def _index(self, key: Any) -> Path:
         types = hashlib.sha256(repr((numba.__version__, str(key))).encode()).hexdigest()[:16]
-        return self._folder / f"{self._name}.{types}{INDEX}"
+        return self._folder / f"{self._name}.{CodeCache.layout_of(key[0])}-{types}{INDEX}"
 
 
-def find_code(folder: Path, function: str) -> list[Path]:
-    """Find the indexes of a function in a folder of compiled code, those of damaged code left out."""
+def find_code(folder: Path, function: str, layout: str = "") -> list[Path]:
+    """Find the indexes of a function in a folder of compiled code, those of damaged code left out.
+
+    Args:
+        folder: The folder.
+        function: Its name.
+        layout: The layout of the worlds that it takes, "full" or "plain"; empty: any.
+    """
+    pattern = f"*.{function}-*.{layout}-*{INDEX}" if layout else f"*.{function}-*{INDEX}"
     try:
-        return [index for index in folder.rglob(f"*.{function}-*{INDEX}") if read_code(index) is not None]
+        return [index for index in folder.rglob(pattern) if read_code(index) is not None]
     except OSError:
         return []  # it cannot be listed, or another process clears it
 

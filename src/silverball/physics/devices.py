@@ -3,7 +3,7 @@
 * A *sensor* reports each ball that crosses it; a *passage* also changes the ball's level.
 * A *spinner* turns after a ball has crossed it, and reports each turn.
 * A *hole* captures balls and lets them go again; a *drain* takes them away for good.
-* A *plunger* holds the balls that lie on it until the launch button is released.
+* A *plunger* holds the balls that lie on it until the launch button is released, or until they are due.
 * A *drop target* falls when it is hit; the bank to which it belongs comes back together.
 * A *gate* is opened and closed by rules (`set_switch`).
 
@@ -127,10 +127,10 @@ def clock_time(world: WorldRecord, geometry: BoardGeometry, tick: float) -> floa
 
 @inlined
 def is_held_for_a_time(ball: BallRecord, board: BoardRecord, colliders: Colliders) -> bool:
-    """Whether a hole holds a ball, and will let it go."""
+    """Whether a device holds a ball that it will let go by itself: a hole any, a plunger one that is due."""
     if ball.id == 0 or ball.motion != Motion.CAPTURED:
         return False
-    return bool(colliders[board.collider_first + ball.holder].role == Device.HOLE)
+    return bool(ball.due_tick > 0 or colliders[board.collider_first + ball.holder].role == Device.HOLE)
 
 
 @for_devices(lambda world, geometry, tick: None)

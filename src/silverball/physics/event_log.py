@@ -88,6 +88,8 @@ def flight_checksum(world: WorldRecord, board: BoardRecord) -> int:
     checksum = as_int(0)
     if board.switches != 0 or board.sensors != 0:
         checksum += _device_checksum(world, board)
+    if board.nudge != 0.0:
+        checksum += _cabinet_checksum(world)
     for slot in range(ball_slots(world, board)):
         checksum += _ball_checksum(world.ball[slot])
     for index in range(paddle_count(world, board)):
@@ -108,6 +110,14 @@ def _device_checksum(world: WorldRecord, board: BoardRecord) -> int:
     for number in range(board.banks):
         checksum += mixed_bits(world.bank_tick[number]) + mixed_bits(world.bank_offset[number])
     return wrapped(checksum)
+
+
+@for_devices(lambda world: as_int(0))
+@internal
+def _cabinet_checksum(world: WorldRecord) -> int:
+    """Compute the share of the cabinet."""
+    place = 3 * mixed_bits(world.cabinet_x) + 5 * mixed_bits(world.cabinet_z)
+    return wrapped(place + 7 * mixed_bits(world.cabinet_vx) + 11 * mixed_bits(world.cabinet_vz))
 
 
 @inlined

@@ -1,6 +1,7 @@
 """Code for devices, levels and many balls, which worlds on plain boards do without.
 
-A world on a plain board has a shorter record (PLAIN_WORLD), and its kernels contain no code for devices:
+A world on a plain board has a shorter record (PLAIN_WORLD), and its kernels contain no code for devices, nor
+for lamps, modes and conditions, since games on such boards have the standard rules:
 
     @for_devices(lambda world, geometry, tick: NEVER)
     @internal
@@ -14,14 +15,13 @@ not have must be decorated, or the compiler refuses it for plain worlds.
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
-from functools import wraps
-from typing import Any, TypeVar, cast
+from typing import Any, cast
 
 from numba import from_dtype as untyped_from_dtype, types
 
-from silverball.physics.kernel import SETTINGS, as_int, inlined
+from silverball.physics.code_cache import FULL_LAYOUT, PLAIN_LAYOUT, CodeCache
+from silverball.physics.kernel import as_int, inlined
 from silverball.physics.records import (
     PLAIN_BALL,
     PLAIN_BALLS,
@@ -34,9 +34,9 @@ from silverball.physics.records import (
     Response,
     WorldRecord,
 )
+from silverball.physics.two_codes import F, two_codes
 
 from_dtype = cast(Callable[[Any], Any], untyped_from_dtype)
-F = TypeVar("F", bound=Callable[..., Any])
 PLAIN = (PLAIN_WORLD, PLAIN_BALL)
 PLAIN_TYPES = tuple(from_dtype(one) for one in PLAIN)
 
@@ -51,42 +51,27 @@ def for_devices(otherwise: Callable[..., Any]) -> Callable[[F], F]:
     Raises:
         TypeError: The parameters differ.
     """
-
-    def decorate(function: F) -> F:
-        names, others = list(inspect.signature(function).parameters), inspect.signature(otherwise).parameters
-        if names != list(others):
-            raise TypeError(f"{function.__name__}: `otherwise` must have the parameters {names}")
-        if SETTINGS.DISABLE_JIT:
-            return _interpreted(function, otherwise)
-        compiled = cast(Any, function)
-        # Symbols have names that no two functions may share (see linkage.py), such as <lambda>.
-        otherwise.__name__ = otherwise.__qualname__ = f"{function.__name__}_plain"
-
-        def implementation(argument_types: tuple[Any, ...], _: Any) -> Callable[..., Any]:
-            is_plain = any(map(_is_plain_type, argument_types))
-            return otherwise if is_plain else cast(Callable[..., Any], compiled.py_func)
-
-        # Numba asks here which Python function to compile; see `numba.core.dispatcher._FunctionCompiler`.
-        compiled._compiler._get_implementation = implementation
-        return function
-
-    return decorate
+    return two_codes(
+        otherwise,
+        "plain",
+        lambda types: any(map(_is_plain_type, types)),
+        lambda values: any(map(_is_plain, values)),
+    )
 
 
-def _interpreted(function: F, otherwise: Callable[..., Any]) -> F:
-    @wraps(function)
-    def choose(*arguments: Any) -> Any:
-        return (otherwise if any(map(_is_plain, arguments)) else function)(*arguments)
+def _layout_of(argument_types: Any) -> str:
+    return PLAIN_LAYOUT if any(map(_is_plain_type, argument_types)) else FULL_LAYOUT
 
-    return cast(F, choose)
+
+CodeCache.layout_of = staticmethod(_layout_of)
 
 
 def _is_plain_type(one: Any) -> bool:
     if isinstance(one, types.BaseTuple):
         return any(map(_is_plain_type, cast(Any, one)))
     if isinstance(one, types.Array):
-        return one.dtype in PLAIN_TYPES
-    return one in PLAIN_TYPES
+        return _is_plain_type(one.dtype)
+    return one in PLAIN_TYPES or PLAIN_LAYOUT in getattr(one, "fields", ())  # of addresses
 
 
 def _is_plain(argument: Any) -> bool:

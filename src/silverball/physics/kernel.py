@@ -49,7 +49,7 @@ from silverball.physics.linkage import HelperCompiler, KernelCompiler, NamedComp
 SETTINGS: Any = numba.core.config
 cgutils: Any = untyped_cgutils
 # The packages whose sources the machine code of some kernels depends on.
-PLAY = ("physics", "world", "players")
+PLAY = ("physics", "referee", "world", "players")
 STUDY = (*PLAY, "metrics", "soak")
 DRAWING = ("physics", "drawing/kernels")
 AGENTS = (*PLAY, "envs")
@@ -230,16 +230,23 @@ def cache_folder(packages: tuple[str, ...] = PLAY) -> Path | None:
     return folder if os.access(folder, os.W_OK) else None
 
 
-def is_compiled(name: str = "step_single_world", packages: tuple[str, ...] = PLAY) -> bool:
+def is_compiled(
+    name: str = "step_single_world", packages: tuple[str, ...] = PLAY, *, layout: str = ""
+) -> bool:
     """Whether a kernel's compiled code is on disk; otherwise a first start compiles it and all it calls.
 
     The first call for a folder checks its files. If one is damaged, it is discarded together with the code of
     this kernel, which is the last one compiled, and the result is False.
+
+    Args:
+        name: The kernel.
+        packages: As for `code_folder`.
+        layout: The layout of the worlds that it takes, "full" or "plain"; empty: any.
     """
     folder = cache_folder(packages)
     if folder is None:
         return False
-    found = find_code(folder, name)
+    found = find_code(folder, name, layout)
     if folder not in _swept:
         _swept.add(folder)
         if not sweep(folder):
@@ -249,13 +256,31 @@ def is_compiled(name: str = "step_single_world", packages: tuple[str, ...] = PLA
     return bool(found)
 
 
-def compiled_share(packages: tuple[str, ...] = PLAY) -> float:
+def compiled_counts() -> dict[Any, int]:
+    """For how many sets of argument types each kernel is compiled or loaded in this process."""
+    return {one: len(one.overloads) for one in _kernels}
+
+
+def compiled_share(
+    packages: tuple[str, ...] = PLAY, *, before: dict[Any, int] | None = None, without: tuple[str, ...] = ()
+) -> float:
     """Estimate the progress of a first start: the share of loaded kernels that are compiled, 0 to 1.
 
     Their number grows evenly in time, except for the last two or three, which contain all the others.
+
+    Args:
+        packages: As for `code_folder`.
+        before: What `compiled_counts` was when the start began.
+        without: Modules whose names begin so are left out, because another process compiles them.
     """
-    kernels = [one for one in _kernels if _packages_of(one.py_func.__module__) == packages]
-    return (1.0 - LAST_SHARE) * sum(bool(one.overloads) for one in kernels) / max(len(kernels), 1)
+    modules = {one: one.py_func.__module__ for one in _kernels}
+    kernels = [
+        one
+        for one, module in modules.items()
+        if _packages_of(module) == packages and not module.startswith(without)
+    ]
+    done = sum(len(one.overloads) > (before or {}).get(one, 0) for one in kernels)
+    return (1.0 - LAST_SHARE) * done / max(len(kernels), 1)
 
 
 def _machine() -> tuple[Any, ...]:

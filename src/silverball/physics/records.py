@@ -56,8 +56,11 @@ LOG_RESERVE = 8
 """Slots of a log that contacts leave free: a jam comes after many touches and must not be lost."""
 
 
-# The buttons that are held in a tick, as bits; JITTER shoves the balls.
+# The buttons that are held in a tick, as bits; JITTER shoves the balls, the nudges the cabinet.
 LEFT, RIGHT, JITTER, LAUNCH = 1, 2, 4, 8
+NUDGE_LEFT, NUDGE_RIGHT, NUDGE_UP = 16, 32, 64
+NUDGES = NUDGE_LEFT | NUDGE_RIGHT | NUDGE_UP
+SHOVES = JITTER | NUDGES
 
 
 class Part(IntEnum):
@@ -246,13 +249,13 @@ PLAIN_WORLD = np.dtype(
     align=True,
 )  # fmt: skip
 """The record of a world on a *plain* board: two paddles, at most two balls, one
-level, no devices, nothing one-way, no arcs.
+level, no devices, nothing one-way, no arcs, the standard rules.
 
 It is a seventh as long as WORLD. Kernels are compiled for either type of record when they first meet it; see
 `for_devices.py` for what they leave out.
 """
 
-WORLD = np.dtype(
+STILL_WORLD = np.dtype(
     [
         *HEADER,
         ("off", "i8"),  # a bit for each switch: the collider is away
@@ -266,13 +269,24 @@ WORLD = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+"""The bytes of a world whose cabinet is at rest: those of a WORLD record up to its cabinet."""
+
+WORLD = np.dtype(
+    [
+        *_fields(STILL_WORLD),
+        # The cabinet after a nudge: its place [u] and velocity [u/s], all 0 at rest (see cabinet.py). They
+        # come last, so that the bytes of a world at rest are the same without them.
+        ("cabinet_x", "f8"), ("cabinet_z", "f8"), ("cabinet_vx", "f8"), ("cabinet_vz", "f8"),
+    ],
+    align=True,
+)  # fmt: skip
 
 BOARD = np.dtype(
     [
         ("accel_x", "f8"), ("accel_z", "f8"), ("gravity", "f8"),  # of a sliding ball; size [u/s²]
         ("ball_radius", "f8"), ("curvature", "f8"),  # [u]; 1 / ball_radius [1/u]
         ("ball_restitution", "f8"),
-        ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"),
+        ("speed_cap", "f8"), ("hit_speed", "f8"), ("jitter", "f8"), ("nudge", "f8"),
         ("gutter", "f8"),  # x of the gutter line [u]
         ("half_length", "f8"), ("half_width", "f8"),
         ("friction", "f8"),  # coefficient
@@ -344,9 +358,11 @@ COLLIDER = np.dtype(
         ("level_right", "i8"), ("level_left", "i8"),
         # Spinners: damping [1/s], speed that it takes [u/s], half of the blade's height [u]
         ("damping", "f8"), ("drag", "f8"), ("blade", "f8"),
-        # Holes: speed up to which they capture [u/s], time [s], and where, how and on which level they let go
+        # Holes: speed up to which they capture [u/s], time [s], and where, how, on which level they let go.
+        # Plungers that launch by themselves let go so too, faster by up to the share `exit_gain`.
         ("capture_speed", "f8"), ("hold_time", "f8"), ("exit_x", "f8"), ("exit_z", "f8"),
         ("exit_vx", "f8"), ("exit_vz", "f8"), ("exit_spread", "f8"), ("exit_level", "i8"),
+        ("exit_gain", "f8"),
         # Plungers: speeds [u/s], the time for the greatest one [s], the unit direction
         ("launch_least", "f8"), ("launch_greatest", "f8"), ("charge_time", "f8"),
         ("launch_x", "f8"), ("launch_z", "f8"),

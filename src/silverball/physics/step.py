@@ -16,6 +16,7 @@ from typing import Any, cast
 
 from silverball.physics.balls import shove_balls
 from silverball.physics.bounce import bounce_balls, bounce_off_held
+from silverball.physics.cabinet import is_cabinet_moving, nudge_cabinet, swing_cabinet
 from silverball.physics.captures import count_launch_ticks, is_launching, work_plungers
 from silverball.physics.contact import first_contact, resolve
 from silverball.physics.devices import (
@@ -47,9 +48,14 @@ from silverball.physics.records import (
     LAUNCH,
     LEFT,
     NOTHING,
+    NUDGE_LEFT,
+    NUDGE_RIGHT,
+    NUDGE_UP,
+    NUDGES,
     NULL_EVENT,
     PLAIN_WORLD,
     RIGHT,
+    SHOVES,
     WORLD,
     BallRecord,
     BatchGeometry,
@@ -71,7 +77,8 @@ from silverball.physics.skip_ahead import cannot_meet, event_free_ticks
 from silverball.physics.tolerances import JAM_EVENT_RATE, JAM_EVENTS, NEVER
 from silverball.physics.validation import admit_state, is_unchanged, validate_world
 
-JITTER_COLUMN, LAUNCH_COLUMN = 2, 3  # of actions
+JITTER_COLUMN, LAUNCH_COLUMN, NUDGE_COLUMN = 2, 3, 4  # of actions
+ACTION_COLUMNS = (3, 4, 7)  # without the launch button, with it, with the three nudges too
 LINE = 64  # bytes of a line of the cache
 HOT_BYTES = cast(Any, WORLD.fields)["ball"][1] + 2 * BALL.itemsize  # of a world, up to its second ball
 HOT_LINES, PLAIN_LINES = -(-HOT_BYTES // LINE), -(-PLAIN_WORLD.itemsize // LINE)
@@ -88,12 +95,21 @@ def step_world(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float) -
     """Advance a world by one tick [s], with these bits of buttons. A world with a fault does not move."""
     world, board = lane.world, geometry.board
     if can_step(world, geometry, lane.log, tick):
-        if buttons & JITTER != 0:
-            shove_balls(world, board, lane.log)
+        if buttons & SHOVES != 0:
+            shove(world, board, lane.log, buttons, tick)
         advance(lane, geometry, buttons, tick, as_int(1))
         if not are_balls_on_board(world, board):
             validate_world(world, board)  # sets the fault
         store_checksum(world, board, lane.log)
+
+
+@internal
+def shove(world: WorldRecord, board: BoardRecord, log: LogRecord, buttons: int, tick: float) -> None:
+    """Shove the balls, or nudge the cabinet, as the bits of buttons say."""
+    if buttons & JITTER != 0:
+        shove_balls(world, board, log)
+    if buttons & NUDGES != 0:
+        nudge_cabinet(world, board, log, buttons, tick)
 
 
 @internal
@@ -118,7 +134,13 @@ def advance(lane: Lane, geometry: BoardGeometry, buttons: int, tick: float, limi
 
 @inlined
 def free_ticks(world: WorldRecord, geometry: BoardGeometry, buttons: int, tick: float, limit: int) -> int:
-    """Start the slips of a tick; return how many ticks from it on, at most `limit`, are free of events."""
+    """Start a tick; return how many ticks from it on, at most `limit`, are free of events.
+
+    The cabinet swings, which is felt in every tick, and slips start anew.
+    """
+    if is_cabinet_moving(world, geometry.board):
+        swing_cabinet(world, geometry.board, tick)
+        limit = as_int(1)
     for slot in range(ball_slots(world, geometry.board)):
         restart_slip(world.ball[slot], geometry.board)
     if is_launching(world, geometry.board, buttons):
@@ -339,11 +361,22 @@ def are_balls_on_board(world: WorldRecord, board: BoardRecord) -> bool:
 
 @inlined
 def held_buttons(actions: Any, row: int, index: int) -> int:
-    """Compute the bits of the buttons that a row of actions holds in a world; without the jitter."""
+    """Compute the bits of the buttons that a row of actions holds in a world; without the shoves."""
     buttons = button_bits(actions[row, index, 0], actions[row, index, 1])
     if actions.shape[2] > LAUNCH_COLUMN and actions[row, index, LAUNCH_COLUMN]:
         buttons |= LAUNCH
     return buttons
+
+
+@inlined
+def shove_bits(actions: Any, row: int, index: int) -> int:
+    """Compute the bits of the shoves that a row of actions holds in a world."""
+    bits = JITTER if actions[row, index, JITTER_COLUMN] else 0
+    if actions.shape[2] > NUDGE_COLUMN:
+        bits |= NUDGE_LEFT if actions[row, index, NUDGE_COLUMN] else 0
+        bits |= NUDGE_RIGHT if actions[row, index, NUDGE_COLUMN + 1] else 0
+        bits |= NUDGE_UP if actions[row, index, NUDGE_COLUMN + 2] else 0
+    return bits
 
 
 @for_devices(lambda world: PLAIN_LINES)
@@ -355,7 +388,7 @@ def hot_lines(world: WorldRecord) -> int:
 
 @inlined
 def run_held(lane: Lane, geometry: BoardGeometry, buttons: int, ticks: int, tick: float) -> None:
-    """Advance a world by a number of ticks, with these bits of buttons held and the jitter on the first.
+    """Advance a world by a number of ticks, with these bits of buttons held and the shoves on the first.
 
     A negative number continues the previous call by −ticks, as for `run_worlds`.
     """
@@ -364,11 +397,11 @@ def run_held(lane: Lane, geometry: BoardGeometry, buttons: int, ticks: int, tick
         begin_step(log)
     if ticks == 0 or not can_step(world, geometry, log, tick):
         return
-    if buttons & JITTER != 0 and ticks > 0 and are_balls_on_board(world, board):
-        shove_balls(world, board, log)
+    if buttons & SHOVES != 0 and ticks > 0 and are_balls_on_board(world, board):
+        shove(world, board, log, buttons, tick)
     left = abs(ticks)
     while left > 0 and are_balls_on_board(world, board):
-        left -= advance(lane, geometry, buttons & ~JITTER, tick, left)
+        left -= advance(lane, geometry, buttons & ~SHOVES, tick, left)
     end_step(world, board, log)
 
 
@@ -390,12 +423,13 @@ def run_worlds(
     Args:
         lanes: The worlds. Events of the previous step are dropped first, tallies are added to.
         geometries: Their boards.
-        actions: bool [1 or ticks, world, 3 or 4]: left, right, jitter and, if it is there, launch. With one
-            row the buttons are held for all ticks and the jitter comes on the first.
+        actions: bool [1 or ticks, world, 3, 4 or 7]: left, right, jitter and, if they are there, launch, and
+            a nudge left, right and up. With one row the buttons are held for all ticks, and the jitter and
+            the nudges come on the first.
         first: The first world of the slice.
         end: One past its last world.
         ticks: How many ticks. A negative number continues the previous call by −ticks: logs are not emptied,
-            and with one row there is no jitter.
+            and with one row there is no shove.
         tick: Length of a tick [s].
     """
     is_held = actions.shape[0] == 1
@@ -412,9 +446,7 @@ def run_worlds(
         colliders = geometries.colliders
         geometry = BoardGeometry(board, colliders, geometries.grid)
         if is_held:
-            buttons = held_buttons(actions, as_int(0), index)
-            if actions[0, index, JITTER_COLUMN]:
-                buttons |= JITTER
+            buttons = held_buttons(actions, as_int(0), index) | shove_bits(actions, as_int(0), index)
             run_held(lane, geometry, buttons, -ticks if is_continued else ticks, tick)
             continue
         if not is_continued:
@@ -423,8 +455,9 @@ def run_worlds(
             continue
         tick_index = 0
         while tick_index < ticks and are_balls_on_board(world, board):
-            if actions[tick_index, index, JITTER_COLUMN]:
-                shove_balls(world, board, log)
+            shoves = shove_bits(actions, tick_index, index)
+            if shoves != 0:
+                shove(world, board, log, shoves, tick)
             buttons = held_buttons(actions, tick_index, index)
             free = free_ticks(world, geometry, buttons, tick, ticks - tick_index)
             if free == 0:
@@ -435,7 +468,9 @@ def run_worlds(
             while count < free:
                 row = tick_index + count
                 buttons = held_buttons(actions, row, index)
-                if count > 0 and (actions[row, index, JITTER_COLUMN] or is_launching(world, board, buttons)):
+                if count > 0 and (
+                    shove_bits(actions, row, index) != 0 or is_launching(world, board, buttons)
+                ):
                     break
                 if buttons != standing:
                     standing = buttons if turn_paddles(world, board, colliders, buttons, tick) else -1

@@ -115,6 +115,10 @@ measured."""
 CELL_SHARE = 0.5
 """Where parts are close to each other, a cell's side is this share of that distance. Source: measured."""
 
+CABINET_REST = 1e-3
+"""[u] A cabinet that swings by less is at rest: a seventeenth of a pixel in a picture of 1152.
+Smaller: ticks are played one by one for longer. Larger: the end of a swing can be seen."""
+
 MAX_DEPTH = 1e-9
 """[u] The guarantee: no ball is ever deeper inside anything. An externally modified state that violates it
 is a fault."""

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from silverball.physics.balls import separate_balls
 from silverball.physics.broad_phase import cell_of, is_near
+from silverball.physics.cabinet import validate_cabinet
 from silverball.physics.captures import is_possible_capture
 from silverball.physics.devices import set_next_clock
 from silverball.physics.due_times import later
@@ -86,6 +87,7 @@ def admit_state(world: WorldRecord, geometry: BoardGeometry, tick: float) -> boo
         if has_holder and not is_possible_capture(ball, board, geometry.colliders, tick):
             set_free(ball, board, 0.0)
     validate_devices(world, geometry, tick)
+    validate_cabinet(world, board)
     if not validate_positions(world, geometry):
         return False
     for slot in range(len(world.ball)):

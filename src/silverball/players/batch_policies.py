@@ -6,15 +6,22 @@ decision; a registered player decides in every tick. The simple players decide i
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.game.game_batch import GameBatch
+from silverball.players.aims import aim_rows
 from silverball.players.planner import BRANCHES, PlannerState, plan_batch, ticks_per_decision as planner_ticks
 from silverball.players.registry import BUILT_IN, CheckedPlayer, check_name
 from silverball.players.simple import PlayerKind
-from silverball.players.trained import press_batch, ticks_per_decision as trained_ticks
+from silverball.players.trained import (
+    Games,
+    MissionBatch,
+    press_batch,
+    ticks_per_decision as trained_ticks,
+)
 from silverball.world import World, WorldBatch
 from silverball.world.saved_world import in_layout
 
@@ -35,28 +42,44 @@ class BatchPolicy(Protocol):
 
 
 class PlannerPolicy:
-    """One planner for each world of a batch."""
+    """One planner for each world of a batch; those of a `GameBatch` aim at what is lit in their games."""
 
     def __init__(self, batch: WorldBatch, branches: int) -> None:
         self._batch, self.every = batch, planner_ticks(batch.tick_rate)
         self._state = PlannerState.of(batch.state, batch.tallies.shape[1], branches)
         self.buttons = self._state.buttons
+        self._aims = aim_rows(batch.books) if isinstance(batch, GameBatch) else None
 
     def decide(self) -> None:
         """Choose the buttons to hold until the next decision."""
+        if self._aims is not None and isinstance(self._batch, GameBatch):
+            self._state.aim(self._batch.games, self._batch.board_of, self._aims)
         plan_batch(self._batch, self._state)
 
 
 class TrainedPolicy:
-    """The trained player for all worlds of a batch."""
+    """The trained player for all worlds of a batch; in games that it has learnt it plays for the missions."""
 
-    def __init__(self, batch: WorldBatch) -> None:
+    def __init__(self, batch: WorldBatch, games: Games | None) -> None:
         self._batch, self.every = batch, trained_ticks(batch.tick_rate)
         self.buttons = np.zeros((batch.count, 2), np.bool_)
+        self._missions = None if games is None else MissionBatch(batch, games)
 
-    def decide(self) -> None:
-        """Choose the buttons to hold until the next decision."""
-        self.buttons[:] = press_batch(self._batch)
+    def decide(self, charge: Any = 1.0) -> None:
+        """Choose the buttons to hold until the next decision.
+
+        Args:
+            charge: How far the power supply of the coils is charged, where an environment has one: one
+                number, or [world].
+        """
+        missions = self._missions
+        if missions is None or len(missions.rows) < self._batch.count:
+            held = None if missions is None else self.buttons[missions.rows]
+            self.buttons[:] = press_batch(self._batch)
+            if missions is not None:
+                self.buttons[missions.rows] = held
+        if missions is not None:
+            missions.press(self.buttons, charge)
 
 
 class RegisteredPolicy:
@@ -113,13 +136,16 @@ class WorldView:
         return self._world
 
 
-def batch_policy(player: str, batch: WorldBatch, branches: int = BRANCHES) -> BatchPolicy | None:
+def batch_policy(
+    player: str, batch: WorldBatch, branches: int = BRANCHES, games: Games | None = None
+) -> BatchPolicy | None:
     """The policy of a player for all worlds of a batch; None for a simple player.
 
     Args:
         player: The name of a player.
         batch: The worlds.
         branches: Branches that the planner tries at a decision.
+        games: The games that the worlds play, for the trained player; those of a `GameBatch` are known.
 
     Raises:
         PlayerError: No player has that name, or it cannot be created.
@@ -128,7 +154,8 @@ def batch_policy(player: str, batch: WorldBatch, branches: int = BRANCHES) -> Ba
     if player == "planner":
         return PlannerPolicy(batch, branches)
     if player == "trained":
-        return TrainedPolicy(batch)
+        known = Games(batch.games, batch.books) if isinstance(batch, GameBatch) else games
+        return TrainedPolicy(batch, known)
     return None if player in BUILT_IN else RegisteredPolicy(player, batch)
 
 

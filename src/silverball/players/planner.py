@@ -8,16 +8,20 @@ ball arrives.
 It sees only what a copy of the world shows. Nothing random happens in a copy, because no ball is shoved or
 created in it. Its work is bounded by a number of branches and moves and not by a clock, so a game it plays
 is the same on every machine.
+
+In a game by the rules of a table it also aims: what a hit of each part is worth now (`aims.py`) adds to the
+value of the branches that reach it.
 """
 
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.physics.event_log import clear_log
 from silverball.physics.kernel import as_int, inlined, internal, kernel
 from silverball.physics.records import (
     BOARD,
@@ -42,6 +46,7 @@ from silverball.physics.step import (
     button_bits,
     can_step,
 )
+from silverball.players.aims import AimRows, aim_rows, weigh_parts
 from silverball.players.plan import (
     PLAN,
     PlanRecord,
@@ -54,7 +59,11 @@ from silverball.players.plan import (
     wants_new_plan,
 )
 from silverball.players.simple import PlayerKind, is_button_up, pressed
+from silverball.referee.judge import is_scoring
 from silverball.world import World, WorldBatch
+
+if TYPE_CHECKING:
+    from silverball.game.core import GameCore
 
 DECISIONS = 60  # decisions per second
 BRANCHES = 60  # branches tried at one decision
@@ -66,6 +75,8 @@ LEAD = 12  # steps before a ball is in reach of the paddles at which branches be
 LOSS_TIME = 2.0  # [s] a ball lost after this time counts half
 GAIN = 0.1  # upper limit of the value of points; a ball lost at once costs 1
 GAIN_HALF = 5.0  # number of hits of the most valuable part that are worth GAIN / 2
+AIM_GAIN = 0.4  # upper limit of the value of lit shots that a branch makes
+AIM_TIME = 8.0  # [s] a shot that is made after this time counts half
 DRY_FROM = 6.0  # [s] up to this time without points costs nothing
 DRY_TO = 14.0  # [s] from this time on it costs as much as a ball lost at once
 
@@ -77,6 +88,7 @@ MEMORY = np.dtype(
         ("score", "i8"), ("scored_tick", "i8"),  # the last score seen, and when it changed
         ("branches", "i8"), ("move_limit", "i8"),  # at one decision: branches to try, moves in all of them
         ("tried", "i8"), ("moves", "i8"),  # branches and moves of the last decision
+        ("aims", "i8"), ("looks", "i8"),  # whether it aims at anything; branches that it has looked at so far
     ],
     align=True,
 )  # fmt: skip
@@ -107,6 +119,8 @@ class PlannerState(NamedTuple):
         logs: LOG records [world]; scratch.
         tallies: Hits [world, part]; scratch.
         buttons: The buttons to hold, bool [world, 2]: left, right.
+        worths: What a hit of each part is worth in the game of a world, in mean awards, f8 [world, part].
+        seen: The last branch in which each part was hit [world, part]; scratch.
     """
 
     memories: NDArray[Any]
@@ -115,6 +129,8 @@ class PlannerState(NamedTuple):
     logs: NDArray[Any]
     tallies: NDArray[np.int64]
     buttons: NDArray[np.bool_]
+    worths: NDArray[np.float64]
+    seen: NDArray[np.int64]
 
     @classmethod
     def of(cls, worlds: NDArray[Any], parts: int, branches: int = BRANCHES) -> PlannerState:
@@ -137,7 +153,14 @@ class PlannerState(NamedTuple):
             records(count, LOG),
             np.zeros((count, parts), np.int64),
             np.zeros((count, 2), np.bool_),
+            np.zeros((count, parts)),
+            np.zeros((count, parts), np.int64),
         )
+
+    def aim(self, games: NDArray[Any], board_of: NDArray[np.int64], rows: AimRows) -> None:
+        """Aim at what is lit in some games, GAME records [world]."""
+        weigh_parts(games, board_of, rows, self.worths)
+        self.memories["aims"] = self.worths.any(axis=1)
 
 
 def ticks_per_decision(tick_rate: int) -> int:
@@ -163,6 +186,13 @@ class Planner:
     def __init__(self, branches: int = BRANCHES) -> None:
         self._branches = branches
         self._world: World | None = None
+        self._game: GameCore | None = None
+
+    def watch(self, game: GameCore) -> None:
+        """Aim at what is lit in a game whose world this player will play."""
+        self._game = game
+        rows = game.rule_rows
+        self._aims = None if rows is None else (rows[0], aim_rows(rows[1]))
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
@@ -172,6 +202,8 @@ class Planner:
         step = int(self.state.memories["step"][0])
         if tick % ticks_per_step == 0 or tick // ticks_per_step != step:
             self._copy[0] = world.records[0]
+            if self._game is not None and self._game.world is world and self._aims is not None:
+                self.state.aim(self._aims[0], self._board_of, self._aims[1])
             geometries = BatchGeometry(self._board, world.records[2], world.grid)
             plan_worlds(
                 self._copy,
@@ -243,7 +275,9 @@ def plan_worlds(
         geometry = BoardGeometry(geometries.boards[board_of[index]], geometries.colliders, geometries.grid)
         if present_balls(root, geometry.board) != 0 and can_step(root, geometry, log, length):
             dry = (world.tick - memory.scored_tick) * tick
-            scratch = Scratch(plans, copies, log, state.tallies[index], memory)
+            scratch = Scratch(
+                plans, copies, log, state.tallies[index], memory, state.worths[index], state.seen[index]
+            )
             left, right = decide(scratch, geometry, dry, length)
         state.buttons[index, 0], state.buttons[index, 1] = left, right
 
@@ -256,6 +290,8 @@ class Scratch(NamedTuple):
     log: LogRecord
     tally: Tally
     memory: MemoryRecord
+    worths: Any
+    seen: Any
 
 
 @internal
@@ -356,12 +392,14 @@ def look_ahead(
 
     Returns:
         The value of the plan, and how many steps were played. A ball lost after t seconds counts
-        −1/(1 + t/LOSS_TIME), points up to GAIN, a long time without points up to −1.
+        −1/(1 + t/LOSS_TIME), points up to GAIN, lit shots up to AIM_GAIN, a long time without points up to
+        −1.
     """
     plan, world, memory = scratch.plans[TRIAL], scratch.copies[copy], scratch.memory
     board, colliders = geometry.board, geometry.colliders
     lane = Lane(world, scratch.log, scratch.tally, scratch.log)
-    value, played, scored_at, low = 0.0, 0, 0, 0
+    value, played, scored_at, low, aimed = 0.0, 0, 0, 0, 0.0
+    memory.looks += 1
     max_low_steps = int(LOW_HORIZON / length)
     start, score, drained = world.score, world.score, world.drained
     line = board.paddle_top + RISE
@@ -377,8 +415,12 @@ def look_ahead(
         limit = horizon - played
         if now < plan.until:
             limit = min(limit, next_change(plan, now) - now)
+        if memory.aims != 0:
+            clear_log(scratch.log)
         played += advance(lane, geometry, button_bits(left, right), length, limit)
         memory.moves += 1
+        if memory.aims != 0:
+            aimed += made_shots(scratch) / (1.0 + played * length / AIM_TIME)
         if world.score != score:
             score, scored_at, dry = world.score, played, 0.0
         if world.drained != drained:
@@ -392,7 +434,20 @@ def look_ahead(
     dry += (played - scored_at) * length
     gain = (score - start) / most_points(board, colliders)
     dry_penalty = min(max((dry - DRY_FROM) / (DRY_TO - DRY_FROM), 0.0), 1.0)
-    return value + GAIN * gain / (gain + GAIN_HALF) - dry_penalty, played
+    value += GAIN * gain / (gain + GAIN_HALF) + AIM_GAIN * aimed / (aimed + 1.0)
+    return value - dry_penalty, played
+
+
+@internal
+def made_shots(scratch: Scratch) -> float:
+    """What the parts are worth that were hit in the last move, for the first time in this branch."""
+    worth, log = 0.0, scratch.log
+    for number in range(log.count):
+        event = log.event[number]
+        if is_scoring(event.kind) and scratch.seen[event.part] != scratch.memory.looks:
+            scratch.seen[event.part] = scratch.memory.looks
+            worth += scratch.worths[event.part]
+    return worth
 
 
 @inlined

@@ -12,7 +12,7 @@ import difflib
 import inspect
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from importlib.metadata import EntryPoint, entry_points
 from threading import RLock
@@ -129,23 +129,36 @@ def registered_names() -> tuple[str, ...]:
     return tuple(_registered)
 
 
-def check_name(name: str) -> None:
+def registered_factory(name: str) -> Factory:
+    """The factory of a registered player, for processes that do not know it.
+
+    Raises:
+        PlayerError: No player has been registered under that name, or its entry point cannot be imported.
+    """
+    return _factory(name)
+
+
+def check_name(name: str, others: Sequence[str] = ()) -> None:
     """Refuse a name that no player has.
+
+    Args:
+        name: The name.
+        others: Further names that are allowed where it was given.
 
     Raises:
         PlayerError: The name is unknown, or its entry point cannot be imported.
     """
-    if name not in BUILT_IN:
-        _factory(name)
+    if name not in (*BUILT_IN, *others):
+        _factory(name, others)
 
 
 def make_player(name: str, seed: int = 0) -> Player:
     """A player for a single world.
 
     Args:
-        name: "idle" (presses nothing), "random" (holds and releases at random), "reflex" (hits what comes),
-            "hold" (keeps both paddles up), "planner" (plays copies of the world ahead), "trained" (asks a
-            small network), or the name of a registered player.
+        name: "idle" (presses nothing), "random" (holds and releases at random), "blind" (a fixed rhythm),
+            "reflex" (hits what comes), "hold" (keeps both paddles up), "planner" (plays copies of the world
+            ahead), "trained" (asks a small network), or the name of a registered player.
         seed: For the factory of a registered player. Built-in players use the world's seed.
 
     Raises:
@@ -226,7 +239,7 @@ class CheckedPlayer:
             raise PlayerError(f"player {self.name!r}: {method}() raised {_shown(error)}") from error
 
 
-def _factory(name: str) -> Factory:
+def _factory(name: str, others: Sequence[str] = ()) -> Factory:
     """The factory of a registered player; imports its entry point."""
     with _lock:
         if name not in _registered:
@@ -235,10 +248,10 @@ def _factory(name: str) -> Factory:
                 break
         if name in _registered:
             return _registered[name]
-    names = player_names()
+    names = (*player_names(), *others)
     near = difflib.get_close_matches(name, names, 1)
     hint = f"; did you mean {near[0]!r}?" if near else ""
-    raise PlayerError(f"no player is called {name!r}, there are {', '.join(names)}{hint}")
+    raise PlayerError(f"no player is called {name!r}; there are {', '.join(names)}{hint}")
 
 
 def _import(entry: EntryPoint) -> None:
@@ -303,7 +316,7 @@ def _trained() -> Player:
 
 
 BUILT_IN: dict[str, Callable[[], Player]] = {
-    **{name: partial(_simple, name) for name in ("idle", "random", "reflex", "hold")},
+    **{name: partial(_simple, name) for name in ("idle", "random", "blind", "reflex", "hold")},
     "planner": _planner,
     "trained": _trained,
 }

@@ -1,4 +1,4 @@
-"""The simple players: idle, random, reflex and hold, as kernels.
+"""The simple players: idle, random, blind, reflex and hold, as kernels.
 
 They read the state of the world and keep none themselves, so a game can be continued from any snapshot.
 """
@@ -31,6 +31,9 @@ RANDOM_HOLD = 0.15  # [s] for which the random player holds or releases a button
 NEAR_SHARE = 0.45  # of the paddle's length from the pivot, where the reflex player lets the ball roll
 LOOK_AHEAD = 0.02  # [s] for which the reflex player predicts the ball
 STRIKE_HEIGHT = 0.8  # [u] between ball and resting paddle at which it strikes
+# The blind player is the best of 42 rhythms on `classic`. Source: docs/benchmark.md.
+BLIND_RATE = 60.0  # [1/s] beats
+BLIND_BEATS = 3  # of a period: in the first one both paddles are up
 LAUNCH_KEY = 0xBA11  # makes the numbers of the launch button independent of the others
 LAUNCH_PERIOD = 1.5  # [s] from one press of the launch button to the next
 LAUNCH_LEAST, LAUNCH_SPAN = 0.3, 0.6  # of the period: the button is held for 30 to 90 % of it
@@ -44,13 +47,14 @@ class PlayerKind(IntEnum):
     REFLEX = 2
     HOLD = 4  # both paddles up forever
     DECIDED = 5  # a policy outside of the loop (see batch_policies.py)
+    BLIND = 6  # both paddles up and down again in a fixed rhythm
 
 
 class SimplePlayer:
     """A simple player for a single world.
 
     Args:
-        name: "idle", "random", "reflex" or "hold".
+        name: "idle", "random", "blind", "reflex" or "hold".
     """
 
     def __init__(self, name: str) -> None:
@@ -75,6 +79,9 @@ def pressed(
     if player == PlayerKind.REFLEX:
         bits = struck_buttons(world, board, colliders, LOOK_AHEAD)
         return bits & LEFT != 0, bits & RIGHT != 0
+    if player == PlayerKind.BLIND:
+        is_up = int(world.tick * tick * BLIND_RATE + 0.5 * tick * BLIND_RATE) % BLIND_BEATS == 0
+        return is_up, is_up
     held = player == PlayerKind.HOLD
     return held, held
 
@@ -114,6 +121,16 @@ def press_all(
         board = boards[board_of[index]]
         left, right = pressed(player, worlds[index], board, colliders, tick)
         actions[0, index, 0], actions[0, index, 1] = left, right
+
+
+@kernel
+def press_reflexes(
+    worlds: Any, boards: Any, board_of: Any, colliders: Colliders, ahead: float, actions: Any
+) -> None:
+    """Write what the reflex player holds, if it predicts balls by `ahead` [s], as `press_all` does."""
+    for index in range(len(worlds)):
+        bits = struck_buttons(worlds[index], boards[board_of[index]], colliders, ahead)
+        actions[0, index, 0], actions[0, index, 1] = bits & LEFT != 0, bits & RIGHT != 0
 
 
 @inlined

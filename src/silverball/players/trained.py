@@ -1,10 +1,8 @@
-"""The trained player: a small neural network, trained on random boards, chooses the buttons.
+"""The trained player: a small neural network chooses the buttons.
 
-`examples/train_sb3.py` trains it. This module holds its weights and evaluates it, with NumPy alone.
-
-All sums are exact, so the player presses the same on every machine, whatever the order in which a library
-adds: all numbers are multiples of 1/SCALE, their products multiples of 1/SCALE², and no sum comes near
-2⁵³/SCALE² (a test adds up the greatest possible ones).
+There are two: one was trained on random boards (`examples/train_sb3.py`) and plays any table; another one has
+learnt the missions of `silver_comet` (`mission_policy.py`) and plays the games by those rules. Both are
+evaluated with NumPy alone, and press the same on every machine (`exact_layers.py`).
 """
 
 from __future__ import annotations
@@ -13,24 +11,23 @@ import zipfile
 from functools import cache
 from importlib import resources
 from os import PathLike
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from silverball.errors import SilverballError
 from silverball.physics.records import LEFT, RIGHT, BoardRecord, Colliders, Part
+from silverball.players.exact_layers import ExactLayers, Layer, arrays_of, read_layers, rounded_layers
 from silverball.players.features import ENCODED, MIRRORED, Rows, encode, first_paddles, raw_features
+from silverball.players.mission_policy import ACTIONS, MissionPolicy, mission_policy
+from silverball.referee.compile_rules import RuleBooks
 from silverball.world import World, WorldBatch
 
-SCALE = 4096  # weights and values are rounded to multiples of 1/SCALE
-MAX_WEIGHT = 2**17  # greatest weight, in multiples of 1/SCALE
-DECISIONS = 15  # decisions per second
-ACTIONS = 4  # none, left, right, both
-ROWS = 64  # rows evaluated at once; for more a BLAS starts threads, which mostly wait
+if TYPE_CHECKING:
+    from silverball.game.core import GameCore
 
-Layer = tuple[NDArray[np.int32], NDArray[np.int32]]
-"""Weights [in, out] and biases [out], in multiples of 1/SCALE."""
+DECISIONS = 15  # decisions per second
 
 
 class Policy:
@@ -45,33 +42,13 @@ class Policy:
     """
 
     def __init__(self, layers: list[Layer], command: str = "") -> None:
-        widths = [ENCODED, *(weights.shape[-1] for weights, _ in layers)]
-        shapes = [
-            (weights.shape, biases.shape) == ((before, after), (after,))
-            for (weights, biases), before, after in zip(layers, widths, widths[1:], strict=False)
-        ]
-        if not all(shapes) or widths[-1] != ACTIONS:
-            raise ValueError(
-                f"the layers have {widths} numbers, expected {ENCODED} at first, {ACTIONS} at last"
-            )
-        if any(part.dtype != np.int32 for layer in layers for part in layer):
-            raise ValueError("its numbers are not 32-bit integers")
-        if any(np.abs(part).max() > MAX_WEIGHT for layer in layers for part in layer):
-            raise ValueError(f"a number is beyond ±{MAX_WEIGHT / SCALE:g}")
+        self._network = ExactLayers(layers, ENCODED, ACTIONS)
         self.layers, self.command = layers, command
-        self._exact = [(weights / SCALE, biases / SCALE) for weights, biases in layers]
 
     @classmethod
     def rounded(cls, layers: list[tuple[Any, Any]], command: str = "") -> Policy:
         """A policy of floating-point layers, rounded."""
-        clipped = [
-            tuple(
-                np.clip(np.rint(np.asarray(part) * SCALE), -MAX_WEIGHT, MAX_WEIGHT).astype(np.int32)
-                for part in one
-            )
-            for one in layers
-        ]
-        return cls(cast(list[Layer], clipped), command)
+        return cls(rounded_layers(layers), command)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Policy:
@@ -82,9 +59,7 @@ class Policy:
         """
         try:
             with np.load(path, allow_pickle=False) as file:
-                count = len([name for name in file.files if name.startswith("weights")])
-                layers = [(file[f"weights{number}"], file[f"biases{number}"]) for number in range(count)]
-                return cls(layers, str(file["command"]))
+                return cls(read_layers(file), str(file["command"]))
         except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, IndexError, TypeError) as error:
             raise SilverballError(
                 f"{path} is not a policy written by `examples/train_sb3.py --policy`: {error}"
@@ -92,25 +67,12 @@ class Policy:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the policy to a file, whose name ends in .npz."""
-        arrays: dict[str, Any] = {"command": np.array(self.command)}
-        for number, (weights, biases) in enumerate(self.layers):
-            arrays[f"weights{number}"], arrays[f"biases{number}"] = weights, biases
-        np.savez_compressed(path, **arrays)
+        np.savez_compressed(path, command=np.array(self.command), **arrays_of(self.layers))
 
     def actions(self, raw: Rows) -> NDArray[np.int64]:
         """The actions for raw features [row, Raw]: bits [row], 1 left, 2 right."""
-        bits = np.zeros(len(raw), np.int64)
-        for first in range(0, len(raw), ROWS):
-            bits[first : first + ROWS] = self._few_actions(raw[first : first + ROWS])
-        return bits
-
-    def _few_actions(self, raw: Rows) -> NDArray[np.int64]:
         values, is_mirrored = encode(raw)
-        for number, (weights, biases) in enumerate(self._exact):
-            if number > 0:
-                values = np.maximum(values, 0.0)
-            values = np.rint(values * SCALE) / SCALE @ weights + biases
-        chosen: NDArray[np.int64] = values.argmax(axis=1)
+        chosen = self._network.best(values)
         return np.where(is_mirrored, MIRRORED[chosen], chosen)
 
 
@@ -126,6 +88,18 @@ def ticks_per_decision(tick_rate: int) -> int:
     return max(1, round(tick_rate / DECISIONS))
 
 
+class Games(NamedTuple):
+    """The games that are played in some worlds.
+
+    Attributes:
+        records: GAME records [world].
+        books: The rules of all tables.
+    """
+
+    records: Any
+    books: RuleBooks
+
+
 class Trained:
     """The trained player for a single world.
 
@@ -133,20 +107,36 @@ class Trained:
     be continued from any snapshot.
 
     Args:
-        policy: The network; None: the one that comes with the program.
+        policy: The network for any table; None: the one that comes with the program.
+        missions: The network for games by the rules that it has learnt; None: that of the program.
     """
 
     name = "trained"
 
-    def __init__(self, policy: Policy | None = None) -> None:
+    def __init__(self, policy: Policy | None = None, missions: MissionPolicy | None = None) -> None:
         self._policy = policy or stored_policy()
+        self._missions = missions or mission_policy()
+        self._world: World | None = None
+        self._games: Any = None
+
+    def watch(self, game: GameCore) -> None:
+        """Play a game for its missions, if it is one that the network has learnt."""
+        rows, (_, board, _) = game.rule_rows, game.world.records
+        boards = np.array([board])
+        fits = rows is not None and bool(self._missions.fits(rows[1], boards)[0])
+        self._world, self._games = (game.world, rows[0]) if rows is not None and fits else (None, None)
 
     def press(self, world: World) -> tuple[bool, bool]:
         """The buttons (left, right) to hold in the world's next tick."""
         state, board, colliders = world.records
         if world.tick % ticks_per_decision(world.tick_rate) != 0:
             return is_lifted(state, board, colliders, LEFT), is_lifted(state, board, colliders, RIGHT)
-        bits = int(self._policy.actions(raw_features(np.array([state]), np.array([board]), colliders))[0])
+        worlds, boards = np.array([state]), np.array([board])
+        if world is self._world:
+            found = self._missions.actions(worlds, self._games, boards, colliders, world.tick_rate)
+        else:
+            found = self._policy.actions(raw_features(worlds, boards, colliders))
+        bits = int(found[0])
         return bits & 1 != 0, bits & 2 != 0
 
 
@@ -164,5 +154,48 @@ def press_batch(batch: WorldBatch, policy: Policy | None = None) -> NDArray[np.b
     """The buttons (left, right) to hold until the next decision in every world, bool [world, 2]."""
     boards = batch.boards
     raw = raw_features(batch.state, boards.board[batch.board_of], boards.collider)
-    bits = (policy or stored_policy()).actions(raw)
+    return _buttons((policy or stored_policy()).actions(raw))
+
+
+class MissionBatch:
+    """The missions network for those games of a batch that it has learnt.
+
+    Args:
+        batch: The worlds.
+        games: Their games.
+        policy: The network; None: the one that comes with the program.
+
+    Attributes:
+        rows: The games that it plays [game].
+    """
+
+    def __init__(self, batch: WorldBatch, games: Games, policy: MissionPolicy | None = None) -> None:
+        self._batch, self._games, self._policy = batch, games.records, policy or mission_policy()
+        fits = self._policy.fits(games.books, batch.boards.board)
+        self.rows = np.flatnonzero(fits[batch.board_of])
+        self._step = np.full(len(self.rows), -1)  # the last decision of each
+
+    def press(self, buttons: NDArray[np.bool_], charge: Any = 1.0) -> None:
+        """Write the buttons of its games into `buttons`, bool [world, 2]; between two decisions none change.
+
+        Args:
+            buttons: What is held.
+            charge: As for `MissionPolicy.actions`: one number, or [world].
+        """
+        batch, every = self._batch, ticks_per_decision(self._batch.tick_rate)
+        step = batch.state["tick"][self.rows] // every
+        rows = self.rows[step != self._step]
+        self._step = step
+        if len(rows):
+            boards = batch.boards
+            charges = np.broadcast_to(charge, batch.count)[rows]
+            bits = self._policy.actions(
+                batch.state[rows], self._games[rows], boards.board[batch.board_of[rows]], boards.collider,
+                batch.tick_rate, charges,
+            )  # fmt: skip
+            buttons[rows] = _buttons(bits)
+
+
+def _buttons(bits: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Bits as buttons [world, 2]: left, right."""
     return np.stack((bits & 1 != 0, bits & 2 != 0), axis=1)

@@ -8,8 +8,10 @@ totals of different programs must not be added up.
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Generator
+from contextlib import closing
 from dataclasses import asdict, field, fields
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -21,7 +23,8 @@ from silverball.errors import OutputError, StateError
 from silverball.physics.kernel import KERNEL_PACKAGES
 from silverball.soak.finding import record_finding
 from silverball.soak.json_file import STRICT, Count, file_text, parse_json
-from silverball.soak.rounds import Options, Totals, play_round
+from silverball.soak.rounds import FindingPlace, Options, Totals, play_round
+from silverball.source_digest import source_digest
 from silverball.table.quantity import shown
 from silverball.wholefile import STDIN, is_missing, write_whole
 
@@ -86,13 +89,7 @@ class SoakLog:
 
 def code_digest() -> str:
     """The hash of all sources that decide what a soak does."""
-    package = Path(__file__).resolve().parent.parent
-    digest = hashlib.sha256()
-    for source in sorted(
-        path for name in (*KERNEL_PACKAGES, "table") for path in (package / name).rglob("*.py")
-    ):
-        digest.update(source.relative_to(package).as_posix().encode() + source.read_bytes())
-    return digest.hexdigest()[:16]
+    return source_digest((*KERNEL_PACKAGES, "table"))
 
 
 def log_name(options: Options) -> str:
@@ -126,7 +123,18 @@ def load_or_begin(options: Options, path: Path) -> SoakLog:
     return log
 
 
-def soak(options: Options, frames: int, path: Path, progress: Callable[[int], None] | None = None) -> SoakLog:
+Played = tuple[Totals, list[FindingPlace]]
+RoundSource = Callable[[Options, int], Generator[Played]]
+"""Plays the rounds of a soak from one on, without end, and yields each in its order."""
+
+
+def soak(
+    options: Options,
+    frames: int,
+    path: Path,
+    progress: Callable[[int], None] | None = None,
+    rounds: RoundSource | None = None,
+) -> SoakLog:
     """Soak until a number of frames is done, continuing from the log in a file.
 
     Args:
@@ -134,6 +142,7 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
         frames: Frames to do in total, earlier runs included; the last round is completed.
         path: The file of the log; its folder is created.
         progress: Called from time to time with the frames done.
+        rounds: What plays the rounds; None: this process, one after the other.
 
     Returns:
         The log; fewer frames are done only after `MAX_FINDINGS` findings.
@@ -147,18 +156,26 @@ def soak(options: Options, frames: int, path: Path, progress: Callable[[int], No
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise _unwritable(path, error) from None
-    while log.totals.frames < frames and sum(log.totals.found.values()) < MAX_FINDINGS:
-        before = log.totals.frames
-        report = (lambda done, before=before: progress(before + done)) if progress is not None else None
-        totals, places = play_round(options, log.rounds, report)
-        for place in places[: max(0, MAX_FILES - len(log.findings))]:
-            finding = record_finding(options, place)
-            name = f"{path.stem}-{finding.kind}-{place.round}-{place.world}.json"
-            _write(path.with_name(name), finding.to_text())
-            log.findings.append(name)
-        log.totals.add(totals)
-        log.rounds += 1
-        _write(path, log.to_text())
+
+    def report(done: int) -> None:
+        if progress is not None:
+            progress(log.totals.frames + done)
+
+    def here(options: Options, first: int) -> Generator[Played]:
+        return (play_round(options, number, report) for number in itertools.count(first))
+
+    with closing((rounds or here)(options, log.rounds)) as played:
+        while log.totals.frames < frames and sum(log.totals.found.values()) < MAX_FINDINGS:
+            totals, places = next(played)
+            for place in places[: max(0, MAX_FILES - len(log.findings))]:
+                finding = record_finding(options, place)
+                name = f"{path.stem}-{finding.kind}-{place.round}-{place.world}.json"
+                _write(path.with_name(name), finding.to_text())
+                log.findings.append(name)
+            log.totals.add(totals)
+            log.rounds += 1
+            _write(path, log.to_text())
+            report(0)
     return log
 
 

@@ -26,7 +26,6 @@ from silverball.physics.audit import (
 from silverball.physics.for_devices import are_on_one_level, level_of, switches_off
 from silverball.physics.kernel import as_int, inlined, kernel
 from silverball.physics.records import (
-    JITTER,
     LAUNCH,
     MAX_BALLS,
     MAX_LEVELS,
@@ -54,7 +53,7 @@ from silverball.soak.crossings import (
     is_crossing_wrong,
     is_thrown_back,
 )
-from silverball.soak.driver import ActionRecord, Drivers, apply_action, choose_action, move_gates
+from silverball.soak.driver import SHOVES, ActionRecord, Drivers, apply_action, choose_action, move_gates
 from silverball.soak.near_rows import NearBoard, NearRows, depth_near
 from silverball.soak.regions import (
     BLOCKED,
@@ -508,7 +507,9 @@ def watched_tick(
     move_gates(world, geometry, action)
     register_new_balls(world, truth, watch)
     remember_state(world, truth.board, watch)
-    buttons = button_bits(action.left != 0, action.right != 0) | (JITTER if action.shove != 0 else 0)
+    buttons = button_bits(action.left != 0, action.right != 0) | (
+        SHOVES[action.shove - 1] if action.shove != 0 else 0
+    )
     buttons |= LAUNCH if action.launch != 0 else 0
     step_world(lane, geometry, buttons, tick)
     watch.frames += 1

@@ -23,7 +23,11 @@ from silverball.physics.for_devices import switches_off
 from silverball.physics.kernel import kernel
 from silverball.physics.portable_math import sine_cosine, uniform
 from silverball.physics.records import (
+    JITTER,
     MAX_BALLS,
+    NUDGE_LEFT,
+    NUDGE_RIGHT,
+    NUDGE_UP,
     BoardGeometry,
     BoardRecord,
     Colliders,
@@ -42,6 +46,7 @@ HOLDS = (0.02, 0.06, 0.2, 0.8)  # [s] times of a press or a release, equally lik
 BOTH_SHARE = 0.2  # share of presses of both buttons at once
 KICK_EVERY = 2.0  # [s] longest time between two random velocities of a ball; half of it on average
 CAP_SHARE = 0.25  # share of kicks as fast as the cap
+SHOVES = (JITTER, NUDGE_LEFT, NUDGE_RIGHT, NUDGE_UP)  # of `action.shove` 1, 2, 3, 4
 SHOVE_EVERY = 4.0  # [s] longest time between two shoves
 GATES_EVERY = 2.0  # [s] longest time between two moves of the gates
 QUIET, LIVELY = 75.0, 25.0  # [s]
@@ -57,6 +62,8 @@ ACTION = np.dtype(
     ],
     align=True,
 )  # fmt: skip
+"""What is done to a world. A shove of 1 is the jitter, one above it a nudge: left, right, up."""
+
 ActionRecord: TypeAlias = Any  # an ACTION record
 
 DRIVER = np.dtype(
@@ -126,7 +133,7 @@ def choose_action(
     if not is_active:
         action.left, action.right = 0, 0
     elif now >= driver.shove_at:
-        action.shove = 1
+        action.shove = 1 if board.nudge == 0.0 else 1 + int(next_random(world, driver) * len(SHOVES))
         driver.shove_at = now + 1 + int(next_random(world, driver) * SHOVE_EVERY / tick)
     for slot in range(board.max_balls):
         action.kick[slot] = 0

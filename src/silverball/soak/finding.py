@@ -85,7 +85,8 @@ class Finding:
         hostile: Whether the check of the table was not made, or warned.
         tick_rate: Ticks per second.
         state: The saved world before the first action, in hexadecimal.
-        actions: Of each tick: left, right, shove, create (0 or 1), the sum of 1 if the launch button is held
+        actions: Of each tick: left, right, shove, create (0 or 1; a shove from
+            2 to 4 is a nudge), the sum of 1 if the launch button is held
             and 2 if gates move, unless it is 0, then the new velocity of each ball, [vx, vz] [u/s], or null;
             at least two, later ones only where there are any.
     """

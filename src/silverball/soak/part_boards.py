@@ -285,6 +285,9 @@ def some_levels(pick: random.Random) -> list[Level]:
     return [Level(number=n + 1, gravity=pick.choice(gravities)) for n in range(pick.choice((0, 1, 1, 2)))]
 
 
+NUDGE = 5.0  # [u/s] of the boards with a nudge
+
+
 def part_table(seed: int) -> Table:
     """A valid random table of all kinds of parts; the same seed always gives the same one."""
     pick = random.Random(seed)
@@ -297,6 +300,7 @@ def part_table(seed: int) -> Table:
         friction=0.2 if rubbing else 0.0,
         rolling=rubbing and pick.random() < 0.7,
         jitter=pick.uniform(0.0, 3.0),
+        nudge=NUDGE if seed % 4 == 3 else 0.0,
     )
     levels = some_levels(pick)
     yard = Yard(pick, board, 1 + len(levels))

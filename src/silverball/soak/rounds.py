@@ -221,7 +221,10 @@ def round_batch(options: Options, number: int, only: int | None = None) -> SoakB
 
 
 def play_round(
-    options: Options, number: int, progress: Callable[[int], None] | None = None
+    options: Options,
+    number: int,
+    progress: Callable[[int], None] | None = None,
+    threads: int | None = None,
 ) -> tuple[Totals, list[FindingPlace]]:
     """Run a round.
 
@@ -229,11 +232,14 @@ def play_round(
         options: The options of the soak.
         number: Which round, from 0.
         progress: Called from time to time with the frames of this round so far.
+        threads: Threads to use; None: one for each core.
 
     Returns:
         The totals, and where findings were made.
     """
     soaked = round_batch(options, number)
+    if threads is not None:
+        soaked.batch.threads = threads
     chunk = max(1, CHUNK_TICKS // options.worlds)
     for done in range(0, options.round_ticks, chunk):
         soaked.run(min(chunk, options.round_ticks - done))

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
-from silverball.table.model import Model
-from silverball.table.quantity import Count, Quantity
+from pydantic import model_validator
+
+from silverball.table.model import SINCE_2, Model
+from silverball.table.quantity import Count, Quantity, refuse
+
+MOST_POINTS = 1_000_000_000_000  # for a medal
 
 
 class Arcade(Model):
@@ -46,3 +50,19 @@ class Arcade(Model):
     stall: Annotated[float, Quantity(1.0, 600.0, "s")] = 20.0
     """[s] time without a scoring hit after which the machine shoves in any case, so that a ball cannot be
     held forever; longer than any player needs to aim."""
+    bronze: Annotated[int, Count(0, MOST_POINTS, "points"), SINCE_2] = 0
+    """Points for a bronze medal; 0: this table has no medals. Choose what a beginner reaches."""
+    silver: Annotated[int, Count(0, MOST_POINTS, "points"), SINCE_2] = 0
+    """Points for a silver medal, more than for bronze. Choose what a good game reaches."""
+    gold: Annotated[int, Count(0, MOST_POINTS, "points"), SINCE_2] = 0
+    """Points for a gold medal, more than for silver. Choose what takes many evenings."""
+
+    @model_validator(mode="after")
+    def _rising_medals(self) -> Self:
+        medals = (self.bronze, self.silver, self.gold)
+        if any(medals) and not 0 < self.bronze < self.silver < self.gold:
+            refuse(
+                "bronze, silver and gold must be three points that rise, or all be left out, "
+                f"got {', '.join(map(str, medals))}"
+            )
+        return self

@@ -75,6 +75,7 @@ def _speed_problems(part: PlacedPart, board: Board) -> list[Problem]:
             *(("kick", p.surface.kick) for p in part.primitives),
             *(("exit_velocity", math.hypot(*p.hold.exit_velocity)) for p in part.primitives if p.hold),
             *(("launch", p.launch.greatest) for p in part.primitives if p.launch),
+            *(("auto_launch", p.launch.auto[1]) for p in part.primitives if p.launch and p.launch.auto),
         }
     ):
         if speed > cap:

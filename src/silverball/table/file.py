@@ -15,6 +15,7 @@ import functools
 import hashlib
 import json
 import os
+import re
 import tomllib
 from importlib import resources
 from pathlib import Path
@@ -29,9 +30,10 @@ from silverball.table.arcade import Arcade
 from silverball.table.kinds import Board
 from silverball.table.kinds.part import in_order
 from silverball.table.model import Model, is_since_2, key_of
-from silverball.table.table import PART_KINDS, Table, check_table, checked_table, examine
+from silverball.table.table import PART_KINDS, RULE_SECTIONS, Table, check_table, checked_table, examine
 from silverball.wholefile import NOTHING, STDIN, Unreadable, read_text, write_whole
 
+BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")  # what needs no quotes in TOML
 SIZE_LIMIT = 2**18  # [bytes] of a table file; chosen: a real table of 150 parts takes a tenth of it
 
 
@@ -41,7 +43,7 @@ def table_names() -> tuple[str, ...]:
     Examples:
         >>> import silverball as sb
         >>> sb.table_names()
-        ('classic', 'original', 'parts', 'random', 'rolling')
+        ('classic', 'original', 'parts', 'random', 'rolling', 'silver_comet')
     """
     folder = resources.files("silverball.table") / "tables"
     return tuple(sorted(entry.name[:-5] for entry in folder.iterdir() if entry.name.endswith(".toml")))
@@ -142,7 +144,7 @@ def dump_table(table: Table) -> str:
     blocks = ["\n".join([f"format = {table.format}", f"name = {_literal(table.name)}"])]
     if table.board != Board():
         blocks.append(_block("[board]", table.board))
-    for kind in PART_KINDS:
+    for kind in (*PART_KINDS, *RULE_SECTIONS):
         blocks += [_block(f"[[{kind}]]", part) for part in getattr(table, kind)]
     if table.random is not None:
         blocks.append(_block("[random]", table.random))
@@ -233,7 +235,12 @@ def _literal(value: Any) -> str:
     if isinstance(value, tuple | list):
         return "[" + ", ".join(_literal(item) for item in value) + "]"
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{key} = {_literal(item)}" for key, item in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(key)} = {_literal(item)}" for key, item in value.items()) + " }"
     text = tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")
     # A printed file must not control the terminal; tomli_w escapes only what TOML demands.
     return "".join(letter if plain(letter) == letter else f"\\U{ord(letter):08x}" for letter in text)
+
+
+def _key(name: str) -> str:
+    """A name as a key of TOML, in quotes if it needs them."""
+    return name if BARE_KEY.fullmatch(name) else _literal(name)

@@ -43,11 +43,13 @@ class Piece(NamedTuple):
         core: Three points; fewer are repeated.
         radius: The radius around the core [u].
         outer: For a piece of an arc, the unit direction away from the arc's centre; else zero.
+        passes: The unit direction in which balls pass a one-way piece; else zero.
     """
 
     core: Triangle
     radius: float
     outer: Point = (0.0, 0.0)
+    passes: Point = (0.0, 0.0)
 
 
 def is_solid(primitive: Primitive) -> bool:
@@ -63,7 +65,8 @@ def pieces_of(primitive: Primitive) -> list[Piece]:
             return [Piece((center, center, center), primitive.radius)]
         case Shape.CAPSULE | Shape.LINE:
             start, end = primitive.points
-            return [Piece((start, end, end), primitive.radius)]
+            passes = primitive.one_way or (0.0, 0.0)
+            return [Piece((start, end, end), primitive.radius, passes=passes)]
         case Shape.TRIANGLE:
             a, b, c = primitive.points
             return [Piece((a, b, c), primitive.radius)]
@@ -184,6 +187,7 @@ class Pieces(NamedTuple):
         part: The index of the part that each piece belongs to, shape [piece].
         levels: The levels of each piece as bits, shape [piece].
         outer: The direction away from the centre of an arc, or zero, shape [piece, 2].
+        passes: The direction in which balls pass a one-way piece, or zero, shape [piece, 2].
     """
 
     core: Floats
@@ -191,6 +195,7 @@ class Pieces(NamedTuple):
     part: Indices
     levels: Indices
     outer: Floats
+    passes: Floats
 
     @classmethod
     def of(cls, bodies: Iterable[Iterable[Primitive]]) -> Pieces:
@@ -213,12 +218,12 @@ class Pieces(NamedTuple):
             np.array([part for _, part, _ in found], dtype=np.int64),
             np.array([levels for _, _, levels in found], dtype=np.int64),
             np.array([piece.outer for piece, _, _ in found], dtype=np.float64).reshape(-1, 2),
+            np.array([piece.passes for piece, _, _ in found], dtype=np.float64).reshape(-1, 2),
         )
 
     def only(self, which: Bools | Indices) -> Pieces:
         """Return some of the pieces."""
-        core, radius, part, levels, outer = self
-        return Pieces(core[which], radius[which], part[which], levels[which], outer[which])
+        return Pieces._make(field[which] for field in self)
 
     def on_level(self, level: int) -> Pieces:
         """Return the pieces that balls on a level meet."""
@@ -226,13 +231,7 @@ class Pieces(NamedTuple):
 
     def joined(self, other: Pieces) -> Pieces:
         """Return these pieces followed by others."""
-        return Pieces(
-            np.concatenate([self.core, other.core]),
-            np.concatenate([self.radius, other.radius]),
-            np.concatenate([self.part, other.part]),
-            np.concatenate([self.levels, other.levels]),
-            np.concatenate([self.outer, other.outer]),
-        )
+        return Pieces(*(np.concatenate(fields) for fields in zip(self, other, strict=True)))
 
     def bounds(self) -> tuple[Floats, Floats]:
         """Return a bounding circle of each piece: centres [piece, 2] and radii [piece], in [u]."""

@@ -94,6 +94,8 @@ class Launch(NamedTuple):
     greatest: float  # [u/s] after `charge`
     charge: float  # [s]
     direction: Point  # unit
+    auto: Point | None = None  # [u/s] least and greatest, of balls that a game brings; None: it does not
+    auto_delay: float = 0.0  # [s] before that
 
 
 class Spin(NamedTuple):

@@ -14,9 +14,10 @@ from typing import Annotated, Any, Literal, NamedTuple
 from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
 
 from silverball.errors import Problem, TableError
-from silverball.table import kinds
+from silverball.table import kinds, rulebook
 from silverball.table.arcade import Arcade
 from silverball.table.check import check_layout
+from silverball.table.check_rules import Placed, Rulebook, rule_problems
 from silverball.table.explain import explain, path_of
 from silverball.table.kinds.board import LEVELS, Board
 from silverball.table.kinds.part import Part
@@ -28,9 +29,11 @@ from silverball.table.recipe import RandomRecipe
 
 FORMATS = (1, 2)  # versions of the file format
 ROWS_LIMIT = 4096  # primitives of all parts of a table; real tables have 300
+RULES_LIMIT = 512  # rules, and lamps, of a table; a game with everything has 200
 MESHES_LIMIT = 32  # different meshes of a table; chosen: one may take a second
 
 _AT_MOST = Field(max_length=ROWS_LIMIT)
+_RULES = Field(max_length=RULES_LIMIT)
 
 # Without these a layout cannot be measured; these are what `check` needs to know about a board.
 _MEASURES = frozenset({"length", "width", "ball_radius", "wall_thickness", "gutter"})
@@ -107,6 +110,14 @@ class Table(Model):
     """The lines at which balls change their level."""
     level: Annotated[tuple[kinds.Level, ...], _AT_MOST, SINCE_2] = ()
     """The levels above the playfield."""
+    lamp: Annotated[tuple[rulebook.Lamp, ...], _RULES, SINCE_2] = ()
+    """The lamps that rules light."""
+    counter: Annotated[tuple[rulebook.Counter, ...], _RULES, SINCE_2] = ()
+    """The counters of the rules."""
+    mode: Annotated[tuple[rulebook.PlayMode, ...], _RULES, SINCE_2] = ()
+    """The modes of the rules."""
+    rule: Annotated[tuple[rulebook.Rule, ...], _RULES, SINCE_2] = ()
+    """The rules; a table without rules has the standard ones."""
     random: RandomRecipe | None = None
     """The obstacles to place at random for each seed, if any."""
     arcade: Arcade = Arcade()
@@ -204,7 +215,10 @@ class Table(Model):
         return checked_table(_merged(self, changes), self.name, may_upgrade=True)
 
 
-PART_KINDS = list_sections(Table)
+RULE_SECTIONS = {name: one for name, one in list_sections(Table).items() if one.__name__ in rulebook.__all__}
+"""The sections of a table file that hold the rules of its game, and the model of each."""
+
+PART_KINDS = {name: one for name, one in list_sections(Table).items() if name not in RULE_SECTIONS}
 """The sections of a table file that hold a list of parts, and the model of each."""
 
 
@@ -227,6 +241,7 @@ def check_table(table: Table) -> list[Problem]:
     parts = [(path, part) for path, _, part in table.parts()]
     problems = _count_problems(table.board, parts) or check_layout(Layout.of(table))
     problems += _format_problems(table) if table.format == 1 else _name_problems(parts)
+    problems += rule_problems(_rulebook(table, ()), parts, table.board)
     return problems if _has_error(problems) else problems + try_recipe(table)
 
 
@@ -260,12 +275,14 @@ def examine(
     parts: list[tuple[str, Part]] = []
     levels: Iterable[int] = range(LEVELS)  # whether a part is on one of them is known for valid data only
     problems: list[Problem] = []
+    broken: list[tuple[Any, ...]] = []
     try:
         table = Table.model_validate(data)
         board, recipe, parts = table.board, table.random, [(path, part) for path, _, part in table.parts()]
         levels = [level.number for level in table.level]
     except ValidationError as error:
         problems += explain(error, Table)
+        broken = _broken_places(error)
         board = _valid_board(data, error)
         if board is not None:
             recipe, parts = _valid_recipe(data, error), _valid_parts(data, error)
@@ -281,6 +298,7 @@ def examine(
         problems += too_many or check_layout(
             Layout.of_parts(board, parts, recipe, levels, 1 if is_first else 2)
         )
+        problems += rule_problems(_rulebook(data if table is None else table, broken), parts, board)
     if table is None or _has_error(problems):
         return None, problems
     if table.has_mesh:
@@ -400,6 +418,23 @@ def _each_valid_part(data: Mapping[str, Any], broken: list[tuple[Any, ...]]) -> 
         for index, item in enumerate(data.get(kind, [])):
             if index not in bad:
                 yield f"{kind}[{index}]", model.model_validate(item)
+
+
+def _rulebook(data: Mapping[str, Any] | Table, broken: Iterable[tuple[Any, ...]]) -> Rulebook:
+    """The rules of a table, or of data of which some places are broken."""
+    found: dict[str, list[Placed]] = {}
+    unread: dict[str, set[str]] = {}
+    for section, model in RULE_SECTIONS.items():
+        found[section], unread[section] = [], set()
+        items = getattr(data, section) if isinstance(data, Table) else data.get(section, ())
+        bad = {place[1] if len(place) > 1 else -1 for place in broken if place[0] == section}
+        for index, item in enumerate(items if isinstance(items, list | tuple) else ()):
+            if index in bad or -1 in bad:
+                unread[section].add(str(item.get("name", "")) if isinstance(item, Mapping) else "")
+            else:
+                placed = item if isinstance(item, model) else model.model_validate(item)
+                found[section].append(Placed(f"{section}[{index}]", placed))
+    return Rulebook(found["lamp"], found["counter"], found["mode"], found["rule"], unread)
 
 
 def _with_footprints(

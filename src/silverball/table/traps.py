@@ -11,6 +11,8 @@ every border. A crossing is a pocket if
     to escape over the lower part, the ball would have to climb higher than the small hop that each touch
     gives it.
 
+A one-way part holds a ball on the side to which balls pass only.
+
 A ball can only balance on a single round top, which is not a trap. Paddles are at rest here: a ball that only
 a paddle can free would lie there forever in an unplayed game.
 """
@@ -97,7 +99,8 @@ def level_faces(terrain: Terrain) -> list[LevelFace]:
     pieces, board = terrain.pieces, terrain.board
     normals = outward_normals(pieces.core)
     is_inner = (normals * pieces.outer[:, None]).sum(axis=-1) <= 0.0  # a ball rolls off the outside of an arc
-    is_level = (normals[..., 0] >= math.cos(math.radians(LEVEL))) & is_inner
+    holds = (normals * pieces.passes[:, None]).sum(axis=-1) >= 0.0  # a ball passes the other face of a gate
+    is_level = (normals[..., 0] >= math.cos(math.radians(LEVEL))) & is_inner & holds
     for piece, edge in np.argwhere(is_level).tolist():
         part = int(pieces.part[piece])
         if part in found:
@@ -151,7 +154,7 @@ def _pocket_at(ball: Floats, terrain: Terrain, boxes: tuple[Floats, Floats]) -> 
     contacts = [  # (angle of the normal to the right [rad], piece or border)
         (math.atan2(z, x), piece)
         for piece, gap, (x, z) in zip(near.tolist(), gaps.tolist(), away.tolist(), strict=True)
-        if abs(gap) < CONTACT
+        if abs(gap) < CONTACT and x * pieces.passes[piece, 0] + z * pieces.passes[piece, 1] >= 0.0
     ]
     for border, gap in enumerate((border_gaps(ball, board) - board.ball_radius).tolist()):
         if abs(gap) < CONTACT:

@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from silverball.physics.balls import create_ball
 from silverball.physics.kernel import kernel
 from silverball.physics.records import LOG, BatchGeometry, Fault, Lanes, Outcome, records
-from silverball.physics.step import run_worlds
+from silverball.physics.step import ACTION_COLUMNS, run_worlds
 from silverball.table import Table, generate_table, load_table
 from silverball.world import saved_world
 from silverball.world.arguments import Index, checked_int, checked_row, checked_seeds
@@ -137,9 +137,10 @@ class WorldBatch:
         tick, as after a shorter call.
 
         Args:
-            actions: bool [world, 3] or [world, 4]: left, right, jitter, launch. The buttons are held for all
-                ticks, the jitter comes on the first. Or one such row for every tick, bool [ticks, world, 3]
-                or [ticks, world, 4].
+            actions: bool [world, 3], [world, 4] or [world, 7]: left, right, jitter, launch, and nudge
+                left, right, up. The buttons are held for all ticks, the shoves come on the first. Or one such
+                row for every tick, bool [ticks, world, 3], and so on. What a table does not have does
+                nothing.
             ticks: The number of ticks, 0 or more.
 
         Raises:
@@ -149,11 +150,11 @@ class WorldBatch:
         action_rows = np.ascontiguousarray(actions, np.bool_)
         if action_rows.ndim == 2:
             action_rows = action_rows[None]
-        columns = 4 if action_rows.shape[-1] == 4 else 3  # with the launch button or without it
+        columns = action_rows.shape[-1] if action_rows.shape[-1] in ACTION_COLUMNS else 3
         if action_rows.shape not in ((1, self.count, columns), (ticks, self.count, columns)):
             raise ValueError(
                 f"actions must have the shape ({self.count}, 3) or ({ticks}, {self.count}, 3), "
-                f"or 4 columns with the launch button, got {np.shape(actions)}"
+                f"or 4 columns with the launch button, 7 with the nudges, got {np.shape(actions)}"
             )
         self.step_unchecked(action_rows, ticks)
 
@@ -161,7 +162,7 @@ class WorldBatch:
         """Advance every world, without the checks of `step`.
 
         Args:
-            held: The actions, a C-contiguous bool array [1 or ticks, world, 3 or 4].
+            held: The actions, a C-contiguous bool array [1 or ticks, world, 3, 4 or 7].
             ticks: The number of ticks; a negative one continues the previous call: events are kept, and a
                 single row does not shove again.
         """

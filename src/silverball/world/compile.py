@@ -58,6 +58,7 @@ from silverball.physics.tolerances import (
 from silverball.table import Board, Table, ball_places, expand, table_digest
 from silverball.table.expand import Expansion
 from silverball.table.primitive import Point, Primitive
+from silverball.table.standard_rules import rules_of, standard_rules
 from silverball.world.rows import highest_x, set_row, swept_circle
 
 FIRST_GRID_SIZE = 1024  # initial capacity of a board's grid [int32 entries]; most boards need less
@@ -67,7 +68,7 @@ ANY_SPEED = 1e300  # [u/s] capture speed of what captures every ball
 BUTTONS = {"left": LEFT, "right": RIGHT}
 SHARED_FIELDS = (
     "ball_radius", "ball_restitution", "friction", "gravity", "gutter", "hit_speed", "jitter", "max_balls",
-    "speed_cap",
+    "nudge", "speed_cap",
 )  # fmt: skip
 """Fields that `silverball.table.Board` and BOARD records share."""
 KINDS = {
@@ -139,7 +140,7 @@ def compile_tables(tables: Sequence[Table]) -> Boards:
         np.ascontiguousarray(np.concatenate(places)),
         tuple(part_names(table) for table in tables),
         tuple(table_digest(table) for table in tables),
-        np.array([_is_plain(row, rows) for row, rows in zip(boards, colliders, strict=True)], np.bool_),
+        np.array([_is_plain(*one) for one in zip(tables, boards, colliders, strict=True)], np.bool_),
     )
 
 
@@ -269,12 +270,16 @@ def _set_devices(row: Any, expansion: Expansion, rows: NDArray[Any]) -> None:
             row["bank_time"][number] = max(row["bank_time"][number], primitive.reset_after)
 
 
-def _is_plain(board: Any, rows: NDArray[Any]) -> bool:
-    """Whether PLAIN_WORLD has room for a world on a board, and its kernels know all that is there."""
+def _is_plain(table: Table, board: Any, rows: NDArray[Any]) -> bool:
+    """Whether PLAIN_WORLD has room for a world on a board, and its kernels know all that is there.
+
+    The referee's kernels know the standard rules only.
+    """
     return bool(
-        board["max_balls"] <= PLAIN_BALLS
+        rules_of(table) is standard_rules()
+        and board["max_balls"] <= PLAIN_BALLS
         and board["paddles"] == PLAIN_PADDLES
-        and board["sensors"] == board["switches"] == 0
+        and board["sensors"] == board["switches"] == board["nudge"] == 0
         and not rows["one_way"].any()
         and not (rows["form"] == Shape.ARC).any()
         and (rows["levels"] & 1).all()
@@ -319,6 +324,11 @@ def _set_device_row(row: Any, primitive: Primitive) -> None:
         row["launch_least"], row["launch_greatest"] = launch.least, launch.greatest
         row["charge_time"] = launch.charge
         row["launch_x"], row["launch_z"] = launch.direction
+        # It sends off by itself, as a hole does, a ball that is due.
+        least, greatest = launch.auto or (launch.greatest, launch.greatest)
+        (row["exit_x"], row["exit_z"]), row["exit_level"] = primitive.points[0], min(primitive.levels)
+        row["exit_vx"], row["exit_vz"] = least * launch.direction[0], least * launch.direction[1]
+        row["exit_gain"] = greatest / least - 1.0
 
 
 def _square(start: Point, end: Point) -> float:

@@ -16,13 +16,20 @@ from numpy.typing import NDArray
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import NO_CLOCK, PLAIN_WORLD, WORLD, records as empty_records
+from silverball.physics.records import (
+    NO_CLOCK,
+    PLAIN_WORLD,
+    STILL_WORLD,
+    WORLD,
+    records as empty_records,
+)
 
 MAGIC = b"SILVERBL"
 FORMAT = 1
 FRAME = struct.Struct("<8sqq")  # magic, format, physics version: the start of every header
 HEADER = struct.Struct("<8sqqq32s")
 CHECKSUM = 16
+CABINET = tuple(name for name in WORLD.names or () if name not in (STILL_WORLD.names or ()))
 
 
 def _field_bytes(dtype: np.dtype[Any]) -> int:
@@ -35,7 +42,7 @@ def _field_bytes(dtype: np.dtype[Any]) -> int:
     return sum(_field_bytes(field[0]) for field in dtype.fields.values())
 
 
-assert all(_field_bytes(one) == one.itemsize for one in (WORLD, PLAIN_WORLD)), (
+assert all(_field_bytes(one) == one.itemsize for one in (WORLD, STILL_WORLD, PLAIN_WORLD)), (
     "a world record has padding: hash its fields, not its bytes"
 )
 
@@ -66,6 +73,27 @@ def _copy_fields(source: Any, target: Any) -> None:
             _copy_fields(one, other)
 
 
+def world_bytes(record: Any) -> bytes:
+    """Return the bytes of a world record, without those of its cabinet if that is at rest.
+
+    So the bytes, and with them digests and saved worlds, are the same whether a table knows the nudge or not.
+    """
+    data = bytes(record.tobytes())
+    if len(data) == WORLD.itemsize and not any(data[STILL_WORLD.itemsize :]):
+        return data[: STILL_WORLD.itemsize]
+    return data
+
+
+def is_still(worlds: NDArray[Any]) -> bool:
+    """Whether the cabinets of all worlds with WORLD records are at rest."""
+    return not any(_bits(worlds, name).any() for name in CABINET)
+
+
+def _bits(worlds: NDArray[Any], name: str) -> NDArray[np.int64]:
+    """The bits of a field of 64 bits of world records; −0.0 is not 0 here."""
+    return np.ascontiguousarray(worlds[name]).view(np.int64)
+
+
 def pack(record: Any, table: str, tick_rate: int) -> bytes:
     """Return a world's record with a header and a checksum.
 
@@ -75,7 +103,7 @@ def pack(record: Any, table: str, tick_rate: int) -> bytes:
         tick_rate: Ticks per second.
     """
     header = HEADER.pack(MAGIC, FORMAT, PHYSICS_VERSION, tick_rate, bytes.fromhex(table))
-    return seal(header + record.tobytes())
+    return seal(header + world_bytes(record))
 
 
 def unpack(state: bytes, table: str, tick_rate: int, layout: np.dtype[Any]) -> Any:
@@ -88,6 +116,8 @@ def unpack(state: bytes, table: str, tick_rate: int, layout: np.dtype[Any]) -> A
     """
     data = unseal(state, MAGIC, HEADER, "World.save")
     expected = HEADER.size + layout.itemsize
+    if layout == WORLD and len(data) == HEADER.size + STILL_WORLD.itemsize:
+        data += bytes(expected - len(data))
     if len(data) != expected:
         raise StateError(f"the state is damaged: {len(data)} bytes where {expected} are expected")
     *_, rate, digest = HEADER.unpack(data[: HEADER.size])
@@ -138,7 +168,7 @@ def unseal(state: Any, magic: bytes, header: struct.Struct, maker: str) -> bytes
 
 def digest(record: Any) -> str:
     """Return the SHA-256 of a world record and the physics version, as a hex string."""
-    return hashlib.sha256(PHYSICS_VERSION.to_bytes(8, "little") + record.tobytes()).hexdigest()
+    return hashlib.sha256(PHYSICS_VERSION.to_bytes(8, "little") + world_bytes(record)).hexdigest()
 
 
 def digests(records: NDArray[Any], plain: NDArray[np.bool_]) -> list[str]:
@@ -157,6 +187,13 @@ def digests(records: NDArray[Any], plain: NDArray[np.bool_]) -> list[str]:
 
 def _digests(records: NDArray[Any]) -> list[str]:
     version, size = PHYSICS_VERSION.to_bytes(8, "little"), records.dtype.itemsize
+    lengths = [size] * len(records)
+    if records.dtype == WORLD:
+        is_moving = np.any([_bits(records, name) != 0 for name in CABINET], axis=0)
+        lengths = np.where(is_moving, size, STILL_WORLD.itemsize).tolist()
     data = np.ascontiguousarray(records).tobytes()
     starts = range(0, len(data), size)
-    return [hashlib.sha256(version + data[start : start + size]).hexdigest() for start in starts]
+    return [
+        hashlib.sha256(version + data[start : start + length]).hexdigest()
+        for start, length in zip(starts, lengths, strict=True)
+    ]

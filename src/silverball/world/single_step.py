@@ -19,6 +19,7 @@ from numba.core import cgutils as untyped_cgutils
 from numba.np import arrayobj as untyped_arrayobj
 from numpy.typing import NDArray
 
+from silverball.physics.code_cache import FULL_LAYOUT, PLAIN_LAYOUT
 from silverball.physics.kernel import SETTINGS, bind_types, kernel
 from silverball.physics.records import (
     BOARD,
@@ -47,13 +48,16 @@ ADDRESSES = np.dtype(
 )  # fmt: skip
 """Addresses of the arrays of worlds; see `addresses_of`."""
 
-FULL_MARK, PLAIN_MARK = "full", "plain"  # the last field of a record of addresses
+
+def layout_name(layout: np.dtype[Any]) -> str:
+    """The name of a layout of worlds: the last field of a record of addresses, and in names of files."""
+    return PLAIN_LAYOUT if layout == PLAIN_WORLD else FULL_LAYOUT
 
 
 def addresses_of(layout: np.dtype[Any], addresses: np.dtype[Any] = ADDRESSES) -> np.dtype[Any]:
     """The record of the addresses of worlds in a layout: kernels see by its type which one it is."""
     fields = [(name, addresses[name]) for name in addresses.names or ()]
-    return np.dtype([*fields, (PLAIN_MARK if layout == PLAIN_WORLD else FULL_MARK, "i8")])
+    return np.dtype([*fields, (layout_name(layout), "i8")])
 
 
 class SingleStepper:
@@ -100,7 +104,7 @@ class SingleStepper:
         """Advance the world.
 
         Args:
-            buttons: Bits LEFT, RIGHT, JITTER and LAUNCH.
+            buttons: Bits LEFT, RIGHT, JITTER, LAUNCH and those of the nudges.
             ticks: The number of ticks, as `run_held` takes it.
 
         Returns:
@@ -155,7 +159,7 @@ array_at: Any = _interpreted_array_at if SETTINGS.DISABLE_JIT else _compiled_arr
 @intrinsic  # type: ignore[untyped-decorator]
 def _compiled_layout_of(typing_context: Any, addresses: Any) -> Any:
     """The record of the worlds at some addresses, as `array_at` takes it."""
-    record = from_dtype(PLAIN_WORLD if PLAIN_MARK in addresses.fields else WORLD)
+    record = from_dtype(PLAIN_WORLD if PLAIN_LAYOUT in addresses.fields else WORLD)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return context.get_dummy_value()
@@ -165,7 +169,7 @@ def _compiled_layout_of(typing_context: Any, addresses: Any) -> Any:
 
 def _interpreted_layout_of(addresses: Any) -> np.dtype[Any]:
     """Return the same without the compiler."""
-    return PLAIN_WORLD if PLAIN_MARK in addresses.dtype.names else WORLD
+    return PLAIN_WORLD if PLAIN_LAYOUT in addresses.dtype.names else WORLD
 
 
 layout_of: Any = _interpreted_layout_of if SETTINGS.DISABLE_JIT else _compiled_layout_of

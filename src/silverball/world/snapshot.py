@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from silverball.errors import StateError
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import PLAIN_WORLD, WORLD, records
+from silverball.physics.records import PLAIN_WORLD, STILL_WORLD, WORLD, records
 from silverball.world import saved_world
 from silverball.world.arguments import Index, resolve_index
 
@@ -91,7 +91,12 @@ class Snapshot:
         header = HEADER.pack(MAGIC, saved_world.FORMAT, PHYSICS_VERSION, self.tick_rate, len(used), len(self))
         plain = self.plain[used].astype(PLAIN_FLAG).tobytes()
         numbers = table_of.astype("<i8").tobytes()
-        return saved_world.seal(header + tables + plain + numbers + self.records.tobytes())
+        worlds, size = self.records, self.records.dtype.itemsize
+        if worlds.dtype == WORLD and saved_world.is_still(worlds):
+            size = STILL_WORLD.itemsize  # the cabinets come last
+        every = np.ascontiguousarray(worlds).view(np.uint8).reshape(len(worlds), worlds.dtype.itemsize)
+        data = every[:, :size].tobytes()
+        return saved_world.seal(header + tables + plain + numbers + data)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Snapshot:
@@ -109,7 +114,10 @@ class Snapshot:
         plain = np.frombuffer(body[plain_at:numbers_at].ljust(numbers_at - plain_at), PLAIN_FLAG) == 1
         layout = PLAIN_WORLD if plain.all() else WORLD
         records_at = numbers_at + count * 8
-        end = records_at + count * layout.itemsize
+        size = layout.itemsize
+        if layout == WORLD and len(body) == records_at + count * STILL_WORLD.itemsize:
+            size = STILL_WORLD.itemsize  # all cabinets are at rest
+        end = records_at + count * size
         if len(body) != end or count < 0:
             raise StateError(f"the state is damaged: {len(body)} bytes where {end} are expected")
         table_of = np.frombuffer(body, "<i8", count, numbers_at).astype(np.int64)
@@ -118,8 +126,8 @@ class Snapshot:
         starts = range(HEADER.size, plain_at, TABLE_HASH)
         tables = tuple(body[start : start + TABLE_HASH].hex() for start in starts)
         saved = records(count, layout)
-        whole = _whole(layout)
-        saved.view(whole)[:] = np.frombuffer(body, whole, count, records_at)
+        rows = saved.view(np.uint8).reshape(count, layout.itemsize)
+        rows[:, :size] = np.frombuffer(body, np.uint8, count * size, records_at).reshape(count, size)
         return cls(saved, tables, table_of, tick_rate, plain)
 
     def __reduce__(self) -> tuple[Any, ...]:

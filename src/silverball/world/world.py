@@ -27,6 +27,9 @@ from silverball.physics.records import (
     JITTER,
     LAUNCH,
     LEFT,
+    NUDGE_LEFT,
+    NUDGE_RIGHT,
+    NUDGE_UP,
     RIGHT,
     BoardGeometry,
     Device,
@@ -49,6 +52,7 @@ BALL_FIELDS = ("x", "z", "vx", "vz", "spin_x", "spin_y", "spin_z")
 PLACE_FIELDS = ("x", "z", "id", "motion")
 CHUNK_TICKS = 2**12  # ticks per call, some milliseconds; Python notices Ctrl-C between two calls
 COUNTS = tuple(name for name, _ in HEADER)
+NUDGE_BITS = {"left": NUDGE_LEFT, "right": NUDGE_RIGHT, "up": NUDGE_UP}
 
 
 class World:
@@ -126,6 +130,8 @@ class World:
         jitter: bool = False,
         ticks: int = 1,
         launch: bool = False,
+        *,
+        nudge: str | None = None,
     ) -> None:
         """Advance the world by a number of ticks.
 
@@ -138,19 +144,51 @@ class World:
             jitter: Whether to shove the balls once, at the start of the first tick.
             ticks: The number of ticks, 0 or more.
             launch: Whether the launch button is held, in all ticks.
+            nudge: Where the cabinet is pushed at the start of the first tick: "left", "right", "up" or None.
 
         Raises:
             FaultError: The state of the world has become impossible, and it has stopped.
-            ValueError: The number of ticks is not an integer ≥ 0.
+            ValueError: The number of ticks is not an integer ≥ 0, or the cabinet cannot be nudged so.
         """
         buttons = (LEFT if left else 0) + (RIGHT if right else 0) + (JITTER if jitter else 0)
         if launch:
             buttons += LAUNCH
+        if nudge is not None:
+            buttons += self._nudge_bit(nudge)
         if ticks.__class__ is not int or not 0 <= ticks <= CHUNK_TICKS:
             ticks = checked_int("ticks", ticks, 0, 2**40)
             ticks = self._step_in_chunks(buttons, ticks)
         if self._stepper.step(buttons, ticks):
             self._raise_fault()
+
+    def _nudge_bit(self, nudge: str) -> int:
+        if nudge not in NUDGE_BITS:
+            raise ValueError(f"nudge must be {', '.join(NUDGE_BITS)} or None, got {nudge!r}")
+        if not self.has_nudge:
+            raise ValueError(
+                f"the table {self.table.name!r} cannot be nudged: give [board] nudge, in u/s, or use jitter"
+            )
+        return NUDGE_BITS[nudge]
+
+    @property
+    def has_nudge(self) -> bool:
+        """Whether the cabinet can be nudged; else there is the jitter."""
+        return bool(self._board["nudge"] != 0.0)
+
+    @property
+    def cabinet(self) -> tuple[float, float]:
+        """How far the cabinet has swung from its place at rest after a nudge: x and z [u].
+
+        Examples:
+            >>> import silverball as sb
+            >>> world = sb.World("silver_comet")
+            >>> world.step(nudge="right", ticks=10)
+            >>> world.cabinet[0], world.cabinet[1] > 0.05
+            (0.0, True)
+        """
+        if not self.has_nudge:
+            return 0.0, 0.0
+        return float(self._record["cabinet_x"]), float(self._record["cabinet_z"])
 
     def create_ball(
         self, position: Sequence[float] | None = None, velocity: Sequence[float] = (0.0, 0.0)

@@ -133,7 +133,7 @@ def center(evening) -> float:
 
 def settle(evening, words: str | None = None) -> None:
     """Let the program look at the files until it has said something, or for three looks."""
-    limit = time.monotonic() + 20.0
+    limit = time.monotonic() + 120.0
     evening.go(3.5 * FILE_CHECK_INTERVAL)
     while words is not None and not any(words in said for said in evening.said):
         assert time.monotonic() < limit, evening.said
@@ -310,7 +310,7 @@ def test_an_edited_file_is_noticed_while_it_is_played_and_told_of_once(mine, edi
 @pytest.mark.parametrize("edit", EDITS)
 def test_an_edited_file_is_seen_at_once_while_nobody_plays(mine, edit):
     edit(mine.path, GOOD.format("Mine", 2.0))
-    limit = time.monotonic() + 20.0
+    limit = time.monotonic() + 120.0
     while center(mine) != 2.0:
         assert time.monotonic() < limit
         mine.go(FILE_CHECK_INTERVAL)
@@ -452,7 +452,7 @@ def test_the_chosen_file_is_read_before_all_the_others_that_wait(tmp_path, monke
         catalog.watch_file(str(chosen))
         catalog.refresh(whole=False)
         gate.set()
-        limit = time.monotonic() + 60.0
+        limit = time.monotonic() + 120.0
         while "zz.toml" not in read:
             assert time.monotonic() < limit
             time.sleep(0.01)
@@ -504,7 +504,7 @@ def test_the_scores_follow_what_the_file_says_and_a_game_goes_by_what_it_was_pla
     path.write_text(dump_table(changed), encoding="utf-8")
     execute(WatchScore(str(row.id)), program)
     assert program.board.table.cylinder == LEAKY.cylinder  # the replay has its own
-    program.end_watching()
+    program.watching.end()
     assert program.board.table.cylinder == changed.cylinder
     evening.store.close()
 

@@ -11,7 +11,7 @@ from evenings import LEAKY, Evening
 from holder import ALONE, WRITES, held
 from silverball.app.controls import Action
 from silverball.app.game_archive import NOT_YET_SAVED, PENDING, REMIND_SECONDS, RETRY_SECONDS, SAVED
-from silverball.app.program import GAME_OVER_SECONDS
+from silverball.app.player_games import GAME_OVER_SECONDS
 from silverball.app.settings import Settings
 from silverball.game.scores import database
 from silverball.game.scores.store import FILE, Store

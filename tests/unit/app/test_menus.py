@@ -109,6 +109,7 @@ def test_the_volume_ends_at_its_ends():
         ("EFFECTS", "effects", {"full", "less"}),
         ("PICTURES/S", "frame_rate", {"screen", "60", "120", "144"}),
         ("FULL SCREEN", "full_screen", {True, False}),
+        ("CABINET", "cabinet", {"off", "upright", "left", "right"}),
     ],
 )
 def test_every_setting_goes_through_all_its_values(label, field, values):
@@ -265,7 +266,7 @@ def test_after_a_game_one_plays_again_watches_or_saves():
     assert choose(menus, "SAVE REPLAY") == SaveReplay()
     menus.show_message("saved as game.txt")
     assert reads(menus.draw(0.7), "SAVED AS GAME.TXT")
-    assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "classic", None)
+    assert choose(menus, "PLAY AGAIN") == Play(Mode.ARCADE, "silver_comet", None)
 
 
 def test_initials_start_with_those_of_last_time():
@@ -328,8 +329,11 @@ def test_nobody_at_the_menu_for_a_while_starts_the_show_and_a_button_ends_it():
     assert menus.tick(5.0 + 1.5 * ATTRACT_AFTER) is None
     assert menus.tick(5.0 + 2.0 * ATTRACT_AFTER) == Attract(True)
     assert menus.page == "attract"
-    assert press(menus, START) == Attract(False)
+    assert press(menus, RIGHT) == Attract(False)
     assert menus.page == "main"
+    menus.tick(5.0 + 4.0 * ATTRACT_AFTER)
+    assert menus.page == "attract"
+    assert press(menus, START) == Play(Mode.ARCADE, "silver_comet")  # at once to the plunger
 
 
 def test_no_show_starts_over_a_paused_game_or_in_a_game():

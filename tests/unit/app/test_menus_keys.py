@@ -54,7 +54,7 @@ def asking(label: str, what: str = "NEW KEY", kind: str = "KEYS", settings: Sett
 
 
 def test_a_free_key_is_taken_at_once():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     assert menus.wants_key
     assert not menus.wants_pad
     menus.capture("q")
@@ -69,7 +69,7 @@ def test_one_more_key_joins_those_that_are_there():
 
 
 def test_a_gamepad_button_is_asked_for_like_a_key():
-    menus = asking("JITTER", "NEW BUTTON", "GAMEPAD")
+    menus = asking("NUDGE LEFT", "NEW BUTTON", "GAMEPAD")
     assert menus.wants_pad
     menus.capture("rightstick")
     assert menus.context.settings.current.pad == {"jitter": ("rightstick",)}
@@ -77,11 +77,11 @@ def test_a_gamepad_button_is_asked_for_like_a_key():
 
 
 def test_a_key_that_is_used_is_named_with_its_action_and_taken_only_if_meant():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     assert menus.capture("p") is None
     assert menus.page == "conflict"
     dots = menus.draw(LATER)
-    assert reads(dots, "P FOR JITTER?")
+    assert reads(dots, "P FOR NUDGE LEFT?")
     assert reads(dots, "P IS PAUSE NOW")
     assert menus.context.settings.current == Settings()
     choose(menus, "TAKE IT")
@@ -90,21 +90,21 @@ def test_a_key_that_is_used_is_named_with_its_action_and_taken_only_if_meant():
 
 
 def test_a_conflict_can_be_left_or_answered_with_another_key():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     menus.capture("p")
     choose(menus, "LEAVE IT")
     assert menus.context.settings.current == Settings()
     assert menus.page == "keys of an action"
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     menus.capture("p")
     choose(menus, "OTHER KEY")
     assert menus.wants_key
-    menus.capture("x")
-    assert keys_for(menus.context.settings.current, BINDINGS["jitter"]) == ("x",)
+    menus.capture("q")
+    assert keys_for(menus.context.settings.current, BINDINGS["jitter"]) == ("q",)
 
 
 def test_the_last_key_of_a_needed_action_is_refused_in_words():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     assert menus.capture("space") is None
     assert menus.wants_key
     frames = [menus.draw(LATER + tick / 5) for tick in range(40)]
@@ -114,7 +114,7 @@ def test_the_last_key_of_a_needed_action_is_refused_in_words():
 
 
 def test_one_of_several_keys_of_a_needed_action_can_be_taken():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     menus.capture("a")
     choose(menus, "TAKE IT")
     assert keys_for(menus.context.settings.current, BINDINGS["left"]) == ("left", "left shift")
@@ -123,14 +123,14 @@ def test_one_of_several_keys_of_a_needed_action_can_be_taken():
 
 def test_esc_and_buttons_end_the_waiting_without_a_change():
     for end in (lambda menus: menus.capture("escape"), *(lambda menus, b=b: menus.press(b) for b in Button)):
-        menus = asking("JITTER")
+        menus = asking("NUDGE LEFT")
         assert end(menus) is None
         assert menus.page == "keys of an action"
         assert menus.context.settings.current == Settings()
 
 
 def test_waiting_ends_by_itself():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     menus.tick(1.0)
     menus.tick(5.0)
     assert menus.wants_key
@@ -139,7 +139,7 @@ def test_waiting_ends_by_itself():
 
 
 def test_a_key_without_a_name_is_answered_in_words():
-    menus = asking("JITTER")
+    menus = asking("NUDGE LEFT")
     assert menus.capture("") is None
     assert reads(menus.draw(LATER), "THAT KEY HAS NO NAME")
 
@@ -147,7 +147,7 @@ def test_a_key_without_a_name_is_answered_in_words():
 def test_reset_brings_the_defaults_back_for_one_action_and_for_all():
     changed = Settings(keys={"jitter": ("q",), "mute": ("w",)}, pad={"jitter": ("x",)})
     menus = Menus(PlayerSettings(changed), (), lambda table, mode: ())
-    for item in ("SETTINGS", "KEYS", "JITTER", "RESET"):
+    for item in ("SETTINGS", "KEYS", "NUDGE LEFT", "RESET"):
         choose(menus, item)
     assert menus.context.settings.current.keys == {"mute": ("w",)}
     press(menus, BACK)
@@ -164,7 +164,7 @@ def test_reset_brings_the_defaults_back_for_one_action_and_for_all():
 def test_resetting_an_action_takes_its_keys_back_from_others_but_never_the_last_one():
     taken = with_assignment(Settings(), ACTIONS, "keys", "create", ("z",))
     menus = Menus(PlayerSettings(taken), (), lambda table, mode: ())
-    for item in ("SETTINGS", "KEYS", "JITTER", "RESET"):
+    for item in ("SETTINGS", "KEYS", "NUDGE LEFT", "RESET"):
         choose(menus, item)
     assert menus.context.settings.current == taken
     assert reads(menus.draw(0.0), "NEW BALL NEEDS Z") or reads(menus.draw(0.7), "NEW BALL NEEDS Z")
@@ -213,7 +213,7 @@ def test_settings_from_elsewhere_that_give_a_key_twice_are_read_in_one_way():
 
 
 def test_a_button_of_a_joystick_is_kept_for_its_make_and_leaves_gamepads_as_they_were():
-    menus = asking("JITTER", "NEW BUTTON", "GAMEPAD")
+    menus = asking("NUDGE LEFT", "NEW BUTTON", "GAMEPAD")
     menus.capture("button 7", "a guid")
     menus.context.joysticks = (JoystickEntry("a guid", "Cabinet", 12),)
     assert menus.page == "conflict"
@@ -232,7 +232,7 @@ def test_a_button_of_a_joystick_is_kept_for_its_make_and_leaves_gamepads_as_they
 def test_pages_write_what_stands_on_the_keys_of_the_layout():
     menus = Menus(PlayerSettings(Settings()), (), lambda table, mode: ())
     menus.context.key_labels = {"z": "я", ".": ":"}
-    for item in ("SETTINGS", "KEYS", "JITTER"):
+    for item in ("SETTINGS", "KEYS", "NUDGE LEFT"):
         choose(menus, item)
     assert menus.context.key_label("jitter") == "Я"
     assert menus.context.key_label("faster") == "COLON"

@@ -69,10 +69,10 @@ FORSAKEN = [
     ("main", "SETTINGS"),
     ("main", "SETTINGS", "VOLUME"),
     ("main", "SETTINGS", "KEYS"),
-    ("main", "SETTINGS", "KEYS", "JITTER"),
-    ("main", "SETTINGS", "KEYS", "JITTER", "NEW KEY"),
+    ("main", "SETTINGS", "KEYS", "NUDGE LEFT"),
+    ("main", "SETTINGS", "KEYS", "NUDGE LEFT", "NEW KEY"),
     ("main", "SETTINGS", "GAMEPAD"),
-    ("main", "SETTINGS", "GAMEPAD", "JITTER", "NEW BUTTON"),
+    ("main", "SETTINGS", "GAMEPAD", "NUDGE LEFT", "NEW BUTTON"),
     ("over",),
     ("initials",),
     ("ended replay",),
@@ -99,7 +99,7 @@ PAUSED = [
     ("pause", "SETTINGS"),
     ("pause", "SETTINGS", "VOLUME"),
     ("pause", "SETTINGS", "KEYS"),
-    ("pause", "SETTINGS", "KEYS", "JITTER"),
+    ("pause", "SETTINGS", "KEYS", "NUDGE LEFT"),
     ("pause", "SETTINGS", "GAMEPAD"),
 ]
 

@@ -106,7 +106,7 @@ def test_every_page_of_the_main_menu_is_reached_and_left_with_three_buttons(main
     edges, _ = main_walk
     pages = {page for state in edges if state != "out" for page, _ in state}
     assert pages == {
-        "main", "table", "board", "seed", "watch", "high_scores", "scores", "settings",
+        "main", "table", "board", "seed", "watch", "high_scores", "scores", "settings", "challenges",
         "keys", "keys of an action", "pad", "pad of an action", "capture",
     }  # fmt: skip
     back = leading_to(edges, lambda state: state != "out" and len(state) == 1 and state[0][0] == "main")
@@ -160,10 +160,13 @@ def test_both_paddles_held_for_a_second_go_back_once(root):
     assert menus.signature == after
 
 
-def test_the_attract_pages_lead_to_the_main_menu_by_any_button():
+def test_the_attract_pages_lead_to_the_main_menu_and_with_space_to_a_game():
     for button in Button:
-        menus, _ = reached("attract", (button,))
-        assert menus.page == "main"
+        menus, command = reached("attract", (button,))
+        if button is Button.START:
+            assert (menus.page, command) == ("", Play(Mode.ARCADE, "silver_comet"))
+        else:
+            assert menus.page == "main"
 
 
 def test_without_scores_or_a_last_game_there_is_no_dead_end_either():

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import time
 
 import pytest
@@ -41,6 +44,26 @@ def test_every_demo_player_gets_ready():
         DEMO_PLAYERS
     )
     assert not player_warmup.is_ready("nobody")
+
+
+@pytest.mark.campaign
+@pytest.mark.parametrize("first", warmup_module.TABLES.values())
+def test_what_is_compiled_for_one_table_is_not_taken_for_what_another_one_needs(tmp_path, first):
+    """A player that is ready never compiles in the process of the game, which would stand still."""
+    code = f"""
+from silverball.app.demo_players import BEST_PLAYER
+from silverball.app.player_warmup import TABLES, is_compiled_on_disk, warm_up_player
+from silverball.table import load_table
+for table in ({first!r}, *(set(TABLES.values()) - {{{first!r}}})):
+    print(is_compiled_on_disk(BEST_PLAYER))
+    warm_up_player(BEST_PLAYER, load_table(table))
+print(is_compiled_on_disk(BEST_PLAYER))
+"""
+    environment = os.environ | {"SILVERBALL_CACHE": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=900, check=True
+    )
+    assert done.stdout.split() == ["False", "False", "True"]
 
 
 def test_closing_the_window_right_after_the_start_does_not_wait(monkeypatch):

@@ -8,7 +8,8 @@ from evenings import NOTHING, Evening
 from reading import reads
 from silverball.app.command_handlers import watch_replay_text
 from silverball.app.controls import Action
-from silverball.app.program import GAME_OVER_SECONDS, SPEEDS
+from silverball.app.machine import SPEEDS
+from silverball.app.player_games import GAME_OVER_SECONDS
 from silverball.app.sessions import DemoSession
 from silverball.app.settings import Settings
 from silverball.app.startup import Progress
@@ -77,6 +78,37 @@ def test_who_goes_back_before_the_physics_is_ready_is_in_the_menu_and_no_game_be
     evening.program.finish_loading()
     assert evening.program.session is None
     assert evening.program.menus.page == "main"
+    evening.store.close()
+
+
+def test_a_game_on_a_table_whose_code_is_not_loaded_waits_for_it_and_the_one_before_is_kept(tmp_path):
+    """Compiling it at once would freeze the window for half a minute."""
+    evening = Evening(tmp_path)
+    program = evening.program
+    program.finish_loading("full")
+    program.play(Mode.ARCADE, "silver_comet", 1)
+    program.play(Mode.FREE, "original", 1)
+    assert program.session is None
+    assert not program.is_ready
+    assert program.loading.waiting.table.name == "Original 1"
+    assert reads(program.dots(0.0), "GETTING READY")
+    assert "Silver Comet" in evening.store.last_game()
+    program.finish_loading("plain")
+    assert program.is_ready
+    assert program.session.game.table.name == "Original 1"
+    evening.store.close()
+
+
+def test_who_does_not_wait_for_the_code_of_another_table_can_play_the_one_before(tmp_path):
+    evening = Evening(tmp_path)
+    program = evening.program
+    program.play(Mode.ARCADE, "silver_comet", 1)  # before anything is loaded
+    program.finish_loading("plain")
+    assert program.session is None, "the code of another layout has been loaded"
+    evening.tap(Action.BACK)
+    assert program.is_ready
+    program.play(Mode.ARCADE, "classic", 1)
+    assert program.session.game.table.name == "Classic"
     evening.store.close()
 
 
@@ -238,7 +270,7 @@ def test_a_program_that_ends_in_the_very_moment_of_the_end_has_kept_the_score(ev
         if game.phase is not Phase.PLAY:
             evening.press(Action.CREATE)
         evening.advance(8)
-    evening.program.save_last_game()
+    evening.program.games.save_last_game()
     assert [row.score for row in evening.store.scores()] == [game.score]
 
 
@@ -252,9 +284,9 @@ def test_a_replay_whose_inputs_cannot_be_given_is_put_away_in_one_sentence(eveni
     replay = evening.program.session.game.replay
     evening.program.watch(replace(replay, tail="+a+a+a+a"))  # four balls at once
     if move == "jump":
-        evening.program.jump(5.0)
+        evening.program.watching.jump(5.0)
     elif move == "tick":
-        evening.program.is_replay_paused = True
+        evening.program.machine.is_replay_paused = True
         evening.program.single_tick(NOTHING)
     else:
         evening.go(0.1)
@@ -337,7 +369,7 @@ def test_a_single_tick_that_is_not_possible_gives_the_reason(evening, state, wor
     if "replay" in state:
         program.watch(Replay.from_text(evening.store.last_game()))
     if state == "ended replay":
-        program.jump(1e6)
+        program.watching.jump(1e6)
         evening.go(0.1)
         assert program.session.has_ended
     elif state == "game":

@@ -113,6 +113,7 @@ def test_ball_save_blinks_while_it_lasts():
         (news(GameEventKind.BALL_LOST, 2), "BALL 2 LOST"),
         (news(GameEventKind.SCORED, 250), "+250"),
         (news(GameEventKind.UNSTUCK), "STUCK BALL SHOVED"),
+        ((GameEvent(GameEventKind.MESSAGE, 1, 0, "lock is lit"),), "LOCK IS LIT"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

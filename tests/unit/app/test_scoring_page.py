@@ -5,6 +5,7 @@ import re
 import pytest
 from hypothesis import given, strategies as st
 
+from rule_tables import comet
 from silverball.app.scoring import how_to_score, quick_shoves
 from silverball.game.builtin_rules import ArcadeRules
 from silverball.game.rules import RuleState
@@ -124,3 +125,17 @@ def test_free_play_tells_of_no_rule_that_it_does_not_have():
 def test_the_key_that_shoves_is_named():
     assert how_to_score(table_with(), Mode.ARCADE, "Q")[-2].text.startswith("Q shoves")
     assert how_to_score(table_with(), Mode.ARCADE, "")[-2].text.startswith("A shove")
+
+
+def test_a_table_with_rules_of_its_own_tells_its_missions_lights_and_rules_with_names():
+    table = comet()
+    told = {rule.title: rule.text for rule in how_to_score(table, Mode.ARCADE)}
+    assert list(told) == ["Missions", "While lit", "Multiball", "Rules", "Ball save", "Tilt", "Game"]
+    assert told["Missions"].startswith("chase the comet")
+    assert ": right orbit, then 40 s; " in told["Missions"]
+    assert "in chase the comet spinner brings 100,000" in told["Missions"]
+    assert "saucer: locks the ball" in told["While lit"]
+    assert "locks: 2 balls" in told["Multiball"]
+    assert told["Rules"].startswith("a hit gives its points; the bonus is counted out; ")
+    nameless = table.model_copy(update={"rule": (table.rule[2],)})
+    assert how_to_score(nameless, Mode.ARCADE)[0].text == f"{table.name} has 1 rules of its own"

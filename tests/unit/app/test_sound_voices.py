@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
+from silverball.app.sound.calls import CALLS, CUES, seconds_of
 from silverball.app.sound.levels import FULL_SPEED, pan, strength_of
 from silverball.app.sound.rolling import _SILENT, LANES, ROLL_SPEEDS, Rolling
 from silverball.app.sound.synth import BELL_STEPS
@@ -21,6 +24,7 @@ from silverball.app.sound.voices import (
 )
 from silverball.game.view import GameEvent, GameEventKind
 from silverball.table import Cylinder, SlantWall, Table, TriangularPrism, load_table
+from silverball.table.rulebook import PlayMode
 from silverball.world.events import Event
 
 RATE, WIDTH = 240, 10.0
@@ -385,3 +389,70 @@ def test_every_ball_has_a_lane_and_there_are_never_more():
         gains = rolling.update(balls, FRAME, WIDTH)
     assert len({lane for lane, _ in gains}) <= LANES
     assert len(gains) <= LANES * len(ROLL_SPEEDS)
+
+
+# --- calls ------------------------------------------------------------------------------------------
+
+
+def called(voices: Voices, *events: tuple[GameEventKind, str]) -> list[str]:
+    """The calls of a frame's events."""
+    notes = voices.game_events([GameEvent(kind, 1, 0, part) for kind, part in events])
+    return [note.key.name for note in notes if note.key.name in CALLS]
+
+
+def cue(name: str) -> tuple[GameEventKind, str]:
+    return GameEventKind.CUE, name
+
+
+@pytest.mark.parametrize(
+    ("name", "call"),
+    [
+        ("jackpot", "jackpot"),
+        ("Jackpot, left", "jackpot"),
+        ("super jackpot", "super_jackpot"),
+        ("super jackpot lit", "lit"),
+        ("mission lost", "mission_lost"),
+        ("mission won", "mission_won"),
+        ("mission", "mission_start"),
+        ("lost", "mission_lost"),
+        ("rainbow", ""),
+        ("jackpots", ""),
+    ],
+)
+def test_a_cue_plays_the_call_whose_words_are_in_it(name, call):
+    assert called(Voices(TABLE), cue(name)) == ([call] if call else [])
+
+
+def test_every_call_is_played_by_a_cue_and_every_cue_plays_a_call():
+    assert {call for _, call in CUES} == CALLS.keys()
+
+
+def test_events_of_the_game_have_calls():
+    for kind, call in (
+        (GameEventKind.EXTRA_BALL, "extra_ball"),
+        (GameEventKind.MULTIBALL, "multiball"),
+        (GameEventKind.BALL_LOCKED, "lock"),
+    ):
+        assert called(Voices(TABLE), (kind, "")) == [call]
+
+
+def test_a_mission_that_starts_is_called_and_a_short_mode_is_not():
+    table = TABLE.replace(mode=(PlayMode(name="long", seconds=40.0), PlayMode(name="short", seconds=3.0)))
+    voices = Voices(table)
+    assert called(voices, (GameEventKind.MODE_STARTED, "short")) == []
+    assert called(voices, (GameEventKind.MODE_STARTED, "long")) == ["mission_start"]
+
+
+def test_of_several_calls_the_highest_is_heard_and_no_lower_one_while_it_sounds():
+    voices = Voices(TABLE)
+    assert called(voices, cue("combo"), cue("super jackpot"), cue("jackpot")) == ["super_jackpot"]
+    assert called(voices, cue("jackpot")) == []
+    voices.advance(seconds_of("super_jackpot") + 0.1)
+    assert called(voices, cue("jackpot")) == ["jackpot"]
+    assert called(voices, cue("super jackpot")) == ["super_jackpot"]
+
+
+def test_the_page_about_sound_has_every_cue_with_its_call():
+    page = (Path(__file__).parents[3] / "docs" / "sound.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([a-z; ]+) \| `(\w+)` \|$", page, re.MULTILINE)
+    assert {(words, call) for cell, call in rows for words in cell.split("; ")} == set(CUES)

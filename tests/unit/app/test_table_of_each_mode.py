@@ -10,7 +10,7 @@ from silverball.game.scores.store import Store
 from silverball.game.view import Mode
 from silverball.table import table_names
 
-FIRST = {"arcade": "classic", "free": "original"}
+FIRST = {"arcade": "silver_comet", "free": "original"}
 
 
 @pytest.mark.parametrize("mode", list(Mode))
@@ -51,11 +51,11 @@ def test_a_table_that_makes_no_sense_gives_way_to_the_default(table, mode):
 def test_the_menu_shows_the_table_of_the_game_that_it_offers(tmp_path):
     with Store(tmp_path) as store:
         program = Program(store, Settings(), Catalog(store, tmp_path))
-        assert program.board.recipe.name == "Classic"
+        assert program.board.recipe.name == "Silver Comet"
         program.press_menu(Button.RIGHT)  # from PLAY to MODE
         program.press_menu(Button.START)
         program.press_menu(Button.RIGHT)
         assert program.settings.current.mode == "free"
         assert program.board.recipe.name == "Original"
         program.press_menu(Button.RIGHT)
-        assert program.board.recipe.name == "Classic"
+        assert program.board.recipe.name == "Silver Comet"

@@ -9,7 +9,7 @@ import pytest
 
 from reading import reads
 from silverball.app import startup
-from silverball.app.menus.page_layout import MIDDLE_Y
+from silverball.app.dot_game import DotGame
 from silverball.app.startup import LINE_Y, MIN_SHARE, Progress, draw_line, draw_page
 from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.physics import kernel
@@ -23,18 +23,18 @@ def lit(dots: Dots, y: int) -> int:
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.9, 1.0])
 def test_the_bar_is_as_long_as_the_share_that_is_compiled(share):
-    page = draw_page(3.0, Progress(8.0, share))
-    assert lit(page, MIDDLE_Y + 4) == pytest.approx(share * WIDTH, abs=3)
+    page = draw_page(3.0, Progress(8.0, share), DotGame())
     menu = Dots()
     draw_line(menu, Progress(8.0, share))
-    assert lit(menu, LINE_Y) == pytest.approx(share * WIDTH, abs=1)
+    for dots in (page, menu):
+        assert lit(dots, LINE_Y) == pytest.approx(share * WIDTH, abs=1)
 
 
 def test_the_time_so_far_and_in_all_is_always_there():
     for seconds in np.arange(0.0, 20.0, 0.7):
         progress = Progress(seconds, 0.25)
         assert progress.text == f"{seconds:.0f}/{max(seconds / 0.25, seconds + 1.0):.0f} S"
-        assert reads(draw_page(seconds, progress), progress.text)
+        assert reads(draw_page(seconds, progress, DotGame()), progress.text)
         menu = Dots()
         draw_line(menu, progress)
         assert reads(menu, f"COMPILING {progress.text}")
@@ -55,24 +55,36 @@ def test_a_long_time_does_not_reach_into_the_marks_of_the_menu():
 
 
 def test_while_all_is_only_loaded_something_moves():
-    assert reads(draw_page(0.0, None), "GETTING READY")
-    assert (draw_page(0.0, None).pixels != draw_page(0.5, None).pixels).any()
+    pages = [draw_page(seconds, None, DotGame()) for seconds in (0.0, 0.5)]
+    assert reads(pages[0], "GETTING READY")
+    assert (pages[0].pixels != pages[1].pixels).any()
+
+
+class Elsewhere:
+    """Compiles nothing, at once."""
+
+    def __init__(self, *command) -> None:
+        self.start = self.close = lambda: None
+
+    def finish(self, stop, most_seconds) -> bool:
+        return True
 
 
 def test_the_share_grows_as_kernels_are_compiled_and_nothing_is_said_of_what_is_only_loaded(monkeypatch):
     table = load_table("classic")
-    monkeypatch.setattr(kernel, "is_compiled", lambda: True)
+    monkeypatch.setattr(startup, "is_compiled_on_disk", lambda layout: True)
     starting = startup.Startup(table)
     starting.wait()
     assert starting.is_done
     assert starting.progress is None
-    monkeypatch.setattr(kernel, "is_compiled", lambda: False)
+    monkeypatch.setattr(startup, "is_compiled_on_disk", lambda layout: False)
+    monkeypatch.setattr(startup, "Compiler", Elsewhere)
     monkeypatch.setattr(kernel, "evict_old_code", lambda: None)
     monkeypatch.setattr(startup, "warm_up", lambda _: time.sleep(0.2))
     compiling = startup.Startup(table)
     compiling.wait()
     assert compiling.progress.seconds >= 0.2
-    assert 0.0 < compiling.progress.share <= 1.0
+    assert compiling.progress.share == 0.0, "nothing has been compiled since"
 
     def nothing(number):
         return number

@@ -33,7 +33,7 @@ def ended(command: str, before: str = "") -> tuple[int, str, str]:
     body = "\n".join(f"    {line}" for line in command.strip().splitlines())
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT.format(before=before, command=body)],
-        capture_output=True, text=True, timeout=60, check=False,
+        capture_output=True, text=True, timeout=120, check=False,
         preexec_fn=hear_ctrl_c if sys.platform != "win32" else None,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr
@@ -148,3 +148,23 @@ def test_what_is_called_when_an_object_goes_is_not_left_half_done():
         del thing
 
     assert frame_in(goes) == [False]
+
+
+@posix
+def test_a_signal_is_not_lost_where_c_code_looks_something_up():
+    """NumPy asks the class of what it compares for attributes, and discards every exception of that."""
+    command = """
+import enum, numpy
+numbers = []
+class Asked(enum.EnumMeta):
+    def __getattr__(cls, name):
+        numbers.append(name)
+        os.kill(os.getpid(), signal.SIGINT)
+        return super().__getattr__(name)
+class Role(enum.IntEnum, metaclass=Asked):
+    GUTTER = 1
+numpy.zeros(1) == Role.GUTTER
+print(bool(numbers), flush=True)
+time.sleep(5)
+"""
+    assert ended(command) == (130, "True\n", "stopped\n")

@@ -33,7 +33,7 @@ def test_a_table_keeps_its_digest_whatever_keys_are_new(name: str):
     assert table_digest(load_table(name)) == DIGESTS[name]
 
 
-@pytest.mark.parametrize("name", table_names())
+@pytest.mark.parametrize("name", sorted(set(table_names()) - {"silver_comet"}))  # which has medals
 def test_default_rules_are_not_in_the_text(name: str):
     table = load_table(name)
     assert table.arcade == Arcade()

@@ -10,8 +10,8 @@ from boards import PADDLES
 from silverball.errors import BoardFull, SilverballError
 from silverball.game.game import Game
 from silverball.game.mechanisms import points_by_part
-from silverball.game.stuck import CHECK_RATE
 from silverball.game.view import GameEventKind, Mode, Phase
+from silverball.referee.stillness import CHECK_RATE
 from silverball.table import SlantWall, generate_table, load_table
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from silverball.game.builtin_rules import ArcadeRules, FreeRules
 from silverball.game.game import Game
+from silverball.game.referee_state import StuckTracker
 from silverball.game.replay.recording import (
     BALL,
     LAUNCH,
@@ -20,7 +21,6 @@ from silverball.game.replay.recording import (
 )
 from silverball.game.rules import InPlay, RuleState
 from silverball.game.saved_game import GameState
-from silverball.game.stuck import StuckTracker
 from silverball.table import load_table
 
 DIGESTS = "q3Zx0aKfB1Gg"

@@ -326,7 +326,7 @@ PLAY, END = line_of("--- play"), line_of("--- end")
 REFUSED = {
     "empty": ("", "the file is empty"),
     "foreign": ('{"format": 1}\n', r"line 1: this is not a replay: it begins with '\{"),
-    "newer format": (TEXT.replace("replay 1", "replay 3", 1), "line 1: .*format 3.*newer Silverball"),
+    "newer format": (TEXT.replace("replay 1", "replay 4", 1), "line 1: .*format 4.*newer Silverball"),
     "newer physics": (changed(2, "physics = 999"), "line 3: .*physics 999.*newer Silverball"),
     "older physics": (changed(2, "physics = 0"), r"line 3: .*physics 0.*play it with Silverball \d"),
     "newer rules": (changed(3, "rules = 99"), "line 4: .*rules 99.*newer Silverball"),

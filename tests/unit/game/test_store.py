@@ -50,6 +50,8 @@ def test_a_score_is_complete_after_the_file_is_opened_again(tmp_path):
             "",
             True,
             "",
+            1,
+            0,
         )
         assert store.score(number) == score
         assert store.replay(number) == "the replay\n"

@@ -18,7 +18,10 @@ import pytest
 
 import killed_player
 from killed_player import initials
+from silverball.game.replay.format import Replay
+from silverball.game.scores.score_records import Score
 from silverball.game.scores.store import FILE, Store
+from silverball.table import table_digest
 
 MOST_THINGS = 12  # that are shown to a player before he is killed: three games
 LONGEST = {"write": 0.003, "game": 0.04}  # [s] that he lives on then; what takes about so long
@@ -62,15 +65,17 @@ class Expected:
     """What must be there, and what may be because it was being written at the end."""
 
     def __init__(self) -> None:
-        self.scores: dict[int, tuple[int, int]] = {}
+        self.scores: dict[int, tuple[int, ...]] = {}
         self.initials: dict[int, str] = {}
         self.last_game = self.settings = -1
+        self.proven: set[int] = set()  # seeds of games whose replays were played again
+        self.with_rules = 0  # of these, games on a table with rules
 
     def learn(self, shown: list[Any]) -> None:
         for what, *values in shown:
             if what == "score":
-                id, score, seed = values
-                self.scores[id] = (score, seed)
+                id, *score = values
+                self.scores[id] = tuple(score)
                 self.initials[id] = "OLD"
             elif what == "renamed":
                 self.initials[values[0]] = initials(values[0])
@@ -89,16 +94,32 @@ class Expected:
             there = {score.id: score for score in store.scores(limit=-1)}
             unseen = set(there) - set(self.scores)
             assert len(unseen) <= (last[0] == "last_game")
-            for id, (points, seed) in self.scores.items():
+            for id, shown_score in self.scores.items():
                 score = there[id]
-                assert (score.score, score.seed) == (points, seed)
-                entered = {initials(id)} if last == ("score", id, points, seed) else set()
+                assert (score.score, score.seed, score.player, score.rank) == shown_score
+                entered = {initials(id)} if last == ("score", id, *shown_score) else set()
                 assert score.initials in {self.initials[id]} | entered
-            assert all(score.has_replay and store.replay(score.id) for score in there.values())
+            for score in there.values():
+                assert score.has_replay
+                self.check_the_replay(score, store.replay(score.id))
             self.check_the_single_ones(store, last, shown)
             # What was not shown may stay; from now on it must.
-            self.learn([("score", id, there[id].score, there[id].seed) for id in unseen])
+            new = [there[id] for id in unseen]
+            self.learn([("score", one.id, one.score, one.seed, one.player, one.rank) for one in new])
+            ranks = sum(store.rank("arcade", table_digest(table)) for table in killed_player.TABLES)
+            assert ranks == sum(one.rank for one in there.values())
             self.initials |= {id: score.initials for id, score in there.items()}
+
+    def check_the_replay(self, score: Score, text: str | None) -> None:
+        """See that a score has the whole replay of its game; once for each game, it is played again too."""
+        assert text is not None
+        replay = Replay.from_text(text)
+        assert replay.seed == score.seed
+        assert replay.score == score.score or (replay.score > score.score and replay.players > 1)
+        if score.seed not in self.proven:
+            assert replay.verify().ok
+            self.proven.add(score.seed)
+            self.with_rules += bool(replay.table.rule)
 
     def check_the_single_ones(self, store: Store, last: tuple[Any, ...], shown: list[Any]) -> None:
         game = store.last_game()
@@ -135,6 +156,7 @@ def kill_and_look(players: Players, folder: Path, kills: int, seed: int) -> None
             expected.check(place, shown)
         ends.add(shown[-1][0] if shown else "")
     assert len(old.scores) > kills / 2  # otherwise no player had time to play
+    assert kills / 5 < old.with_rules < len(old.scores)  # and games of both kinds
     assert len(ends) > 3
 
 

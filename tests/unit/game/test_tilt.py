@@ -7,7 +7,7 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from silverball.game import tilt
+from silverball.referee import tilt
 
 
 @given(st.floats(0.1, 10.0), st.integers(0, 5000), st.floats(100.0, 5000.0))

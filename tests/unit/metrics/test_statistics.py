@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from silverball.metrics.statistics import NORMAL_95, mean, median_life, ratio, share
+from silverball.metrics.statistics import NORMAL_95, interquartile_mean, mean, median_life, ratio, share
 
 
 def test_a_ratio_of_cases_that_are_all_alike_is_certain() -> None:
@@ -77,3 +77,19 @@ def test_the_median_of_a_worked_example() -> None:
     assert median_life(times, ended)[0] == 4.0  # 4/6 · 2/3 = 0.444
     ended[2] = True
     assert median_life(times, ended)[0] == 3.0
+
+
+def test_the_interquartile_mean_leaves_out_the_lower_and_the_upper_quarter() -> None:
+    assert interquartile_mean([0.0, 1.0, 2.0, 1000.0]).value == 1.5
+    assert interquartile_mean([[4.0, 5.0], [6.0, 7.0]]).value == 5.5
+    assert interquartile_mean([3.0]) == (3.0, 3.0, 3.0)
+    assert math.isnan(interquartile_mean([]).value)
+
+
+def test_the_interval_of_the_interquartile_mean_holds_the_true_one_nineteen_times_in_twenty() -> None:
+    rng = np.random.default_rng(1)
+    inside = 0
+    for draw in range(200):  # of a symmetric distribution, whose interquartile mean is 0
+        estimate = interquartile_mean(rng.normal(size=100), draws=200, seed=draw)
+        inside += estimate.low <= 0.0 <= estimate.high
+    assert 180 <= inside <= 199  # 190 ± 3.2 standard deviations

@@ -7,7 +7,7 @@ import pytest
 from numba import njit
 
 from boards import FIRST_SHAPE, full_table
-from silverball.benchmarks.marks import crowded_table
+from silverball.benchmarks.step_costs import crowded_table
 from silverball.physics.audit import part_gap
 from silverball.physics.broad_phase import cell_of
 from silverball.table import generate_table

@@ -62,7 +62,7 @@ def test_cached_code_never_uses_a_stale_callee_or_constant_of_another_file(tmp_p
         callee.write_text(source, encoding="utf-8")
         printed = subprocess.run(
             [sys.executable, "-c", "import silverball.world.caller"],
-            env=environment, capture_output=True, text=True, check=True, timeout=60,
+            env=environment, capture_output=True, text=True, check=True, timeout=120,
         ).stdout  # fmt: skip
         result, hits = printed.split()
         return int(result), int(hits)
@@ -78,7 +78,7 @@ def test_cached_code_never_uses_a_stale_callee_or_constant_of_another_file(tmp_p
 def test_importing_the_package_alone_loads_nothing_heavy():
     script = "import sys, silverball; print(sorted({name.split('.')[0] for name in sys.modules}))"
     printed = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120
     ).stdout
     loaded = set(ast.literal_eval(printed))
     assert "silverball" in loaded
@@ -99,3 +99,17 @@ def test_a_full_disk_costs_the_cache_and_nothing_else(tmp_path, monkeypatch):
     assert compiled(4) == 8
     assert tried, "nothing was to be written: numba keeps its cache elsewhere, mend code_cache.py"
     assert not list(tmp_path.rglob("*.nb?"))
+
+
+def test_the_names_of_files_say_for_which_worlds_code_was_compiled():
+    from silverball.app.startup import compile_rules, is_compiled_on_disk
+
+    for layout, table in (("plain", "classic"), ("full", "parts")):
+        silverball.World(table).step()
+        compile_rules(layout)
+        for name in ("step_single_world", "judge_single_game"):
+            assert kernel.is_compiled(name, layout=layout)
+            (found,) = codecache.find_code(kernel.code_folder(), name, layout)
+            assert f".{layout}-" in found.name
+        assert is_compiled_on_disk(layout)
+        assert not kernel.is_compiled("step_single_world", layout="another")

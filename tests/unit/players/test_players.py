@@ -15,7 +15,7 @@ from silverball.players.simple import RANDOM_HOLD
 from silverball.world import World, WorldBatch
 from silverball.world.saved_world import digest
 
-SIMPLE = ("idle", "random", "reflex", "hold")  # the planner has tests of its own
+SIMPLE = ("idle", "random", "blind", "reflex", "hold")  # the planner has tests of its own
 
 
 def test_the_idle_player_presses_nothing() -> None:
@@ -115,5 +115,5 @@ def test_the_totals_of_a_rollout_add_up() -> None:
 def test_an_unknown_player_is_refused_with_the_nearest_name() -> None:
     with pytest.raises(SilverballError, match="reflex"):
         make_player("reflexx")
-    with pytest.raises(SilverballError, match="idle, random, reflex, hold, planner, trained"):
+    with pytest.raises(SilverballError, match="idle, random, blind, reflex, hold, planner, trained"):
         make_player("no-such-player")

@@ -27,7 +27,7 @@ from silverball.world.saved_world import digest
 
 pytestmark = pytest.mark.usefixtures("unregistered")
 
-BUILT_IN = ("idle", "random", "reflex", "hold", "planner", "trained")
+BUILT_IN = ("idle", "random", "blind", "reflex", "hold", "planner", "trained")
 
 
 class FastSwatter(Swatter):
@@ -73,7 +73,7 @@ def test_a_name_that_is_taken_or_malformed_is_refused(name, factory, words) -> N
 
 def test_an_unknown_name_is_refused_with_the_nearest_one_registered_ones_included() -> None:
     register("swatter", Swatter)
-    with pytest.raises(PlayerError, match=r"'swater', there are idle, .*, swatter; did you mean 'swatter'\?"):
+    with pytest.raises(PlayerError, match=r"'swater'; there are idle, .*, swatter; did you mean 'swatter'\?"):
         make_player("swater")
     with pytest.raises(SilverballError, match="did you mean 'reflex'"):
         play(WorldBatch("classic"), "reflexx", 1.0)

@@ -9,11 +9,10 @@ from boards import LEFT, PADDLES, full_table, launched, table_of
 from silverball.errors import SilverballError
 from silverball.metrics.ball_time import time_balls
 from silverball.players import make_player
+from silverball.players.exact_layers import ROWS, SCALE
 from silverball.players.features import COLUMNS, ENCODED, MIRRORED, Raw, encode, raw_features
 from silverball.players.rollout import play
 from silverball.players.trained import (
-    ROWS,
-    SCALE,
     Policy,
     Trained,
     press_batch,

@@ -217,6 +217,15 @@ def test_a_gate_is_a_way_in_its_direction_only(passes, leads_out):
     assert no_way_out(Table(slant_wall=walls, gate=[gate])) != leads_out
 
 
+@pytest.mark.parametrize(("passes", "holds"), [("down", False), ("up", True)])
+def test_a_gate_holds_a_ball_on_one_side_only(passes, holds):
+    wall = SlantWall(start=(2.0, -1.0), end=(1.0, 0.0))
+    pocket = Table(slant_wall=[wall], gate=[Gate(start=(1.0, 0.0), end=(2.0, 1.0), passes=passes)])
+    level = Table(gate=[Gate(start=(-2.0, -1.0), end=(-2.0, 1.0), passes=passes)])
+    assert any("pocket" in problem.message for problem in check_table(pocket)) == holds
+    assert any("level within" in problem.message for problem in check_table(level)) == holds
+
+
 def test_a_drop_target_and_a_held_gate_are_ways_in_both_directions():
     walls = [SlantWall(start=(-2.0, -5.0), end=(-2.0, -1.0)), SlantWall(start=(-2.0, 1.0), end=(-2.0, 5.0))]
     ends = {"start": (-2.0, -1.0), "end": (-2.0, 1.0)}

@@ -65,7 +65,7 @@ def test_the_built_in_tables_load_without_a_problem(name):
 
 
 def test_the_built_in_tables_are_these():
-    assert table_names() == ("classic", "original", "parts", "random", "rolling")
+    assert table_names() == ("classic", "original", "parts", "random", "rolling", "silver_comet")
 
 
 def test_the_rolling_table_has_the_parts_of_the_classic_one_where_they_are():
@@ -195,7 +195,7 @@ def test_eight_different_mistakes_are_all_reported_with_their_paths(tmp_path):
         ("[[ramp]]", "ramp", "`passage`"),
         ("[[bumpers]]", "bumpers", "`cylinder`"),
         ("[board]\ndrain = -9", "board.drain", "`gutter`"),
-        ("[board]\nnudge = 1", "board.nudge", "`jitter`"),
+        ("[board]\nnudge = 1", "board.nudge", "new in format 2"),
         ("[board]\nBall-Radius = 1", "board.Ball-Radius", "`ball_radius`"),
         ("[board]\nflipper = 1", "board.flipper", "[[paddle]]"),
         ("gravity = 9", "gravity", "belongs in [board]"),

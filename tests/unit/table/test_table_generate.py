@@ -96,9 +96,16 @@ def test_300_boards_keep_all_rules():
         assert_board_keeps_the_rules(seed)
 
 
-@pytest.mark.slow
-def test_10_000_boards_keep_all_rules():
-    for seed in range(10_000):
+@pytest.mark.parametrize(
+    "seeds",
+    [
+        pytest.param(range(300, 3000), marks=pytest.mark.slow),
+        pytest.param(range(3000, 10_000), marks=pytest.mark.campaign),
+    ],
+    ids=str,
+)
+def test_10_000_boards_keep_all_rules(seeds):
+    for seed in seeds:
         assert_board_keeps_the_rules(seed)
 
 

@@ -77,7 +77,7 @@ def test_finding_the_cells_takes_a_moment_only():
     ball_places(CLASSIC)
     times = []
     for _ in range(5):
-        start = time.perf_counter()
+        start = time.process_time()
         ball_places(CLASSIC)
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     assert min(times) < 0.015

@@ -189,4 +189,4 @@ if child == 0:
     os._exit(7)
 sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 """
-    assert subprocess.run([sys.executable, "-c", script], timeout=60, check=False).returncode == 7
+    assert subprocess.run([sys.executable, "-c", script], timeout=120, check=False).returncode == 7

@@ -9,12 +9,14 @@ from numba.core.errors import TypingError
 
 from boards import PADDLES
 from silverball.envs.pointers import ADDRESSES
-from silverball.physics import for_devices as module
+from silverball.physics import two_codes
 from silverball.physics.for_devices import for_devices
 from silverball.physics.kernel import SETTINGS, internal, kernel
 from silverball.physics.records import PLAIN_WORLD, WORLD, Lane, records
 from silverball.table import Board, Table, load_table
 from silverball.table.kinds import Cylinder, Gate, Hole, Rollover
+from silverball.table.rulebook import Rule
+from silverball.table.standard_rules import standard_rules
 from silverball.world import Snapshot, World, WorldBatch
 from silverball.world.single_step import addresses_of
 
@@ -35,6 +37,9 @@ FULL = {
         paddle=PADDLES,
         gate=(Gate(start=(3.0, -1.0), end=(3.0, 1.0), held=True, name="held"),),
     ),
+    "rules of its own": Table(
+        name="rules", format=2, paddle=PADDLES, rule=(Rule(on_press=("left",), award=1),)
+    ),
     "another level": Table(
         name="level", format=2, paddle=PADDLES, cylinder=(CYLINDER.model_copy(update={"level": 1}),)
     ),
@@ -50,6 +55,17 @@ def test_tables_of_format_1_are_plain(name: str) -> None:
 @pytest.mark.parametrize("table", FULL.values(), ids=FULL)
 def test_a_board_with_anything_that_a_plain_world_has_no_room_for_is_not_plain(table: Table) -> None:
     assert World(table).records[0].dtype == WORLD
+
+
+def test_the_standard_rules_need_no_more_than_plain_worlds_have_code_for() -> None:
+    given = {
+        name
+        for rule in standard_rules().rule
+        for name, field in type(rule).model_fields.items()
+        if getattr(rule, name) != field.default
+    }
+    assert given <= {"name", "on_hit", "add", "set", "award", "award_part", "times"}
+    assert not standard_rules().lamp + standard_rules().counter + standard_rules().mode
 
 
 def batches() -> tuple[WorldBatch, WorldBatch]:
@@ -148,7 +164,7 @@ def test_undecorated_code_for_devices_does_not_compile_for_plain_worlds() -> Non
 
 
 def test_code_for_devices_is_replaced_without_the_compiler_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module.SETTINGS, "DISABLE_JIT", 1)
+    monkeypatch.setattr(two_codes.SETTINGS, "DISABLE_JIT", 1)
     choose = for_devices(lambda lane: 7)(lambda lane: lane.world["off"] + 1)
     assert choose(Lane(np.zeros(1, PLAIN_WORLD)[0], 0, 0, 0)) == 7
     assert choose(Lane(np.zeros(1, WORLD)[0], 0, 0, 0)) == 1

@@ -10,6 +10,7 @@ from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Attract, Button, Command
 from silverball.app.menus.context import MenuContext, Page
 from silverball.app.menus.high_scores import MODE_LABELS
+from silverball.app.menus.pages import play
 from silverball.drawing.dotmatrix.animations import draw_ball
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots, scroll, wipe
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
@@ -21,20 +22,23 @@ SHINE = 90  # brightness of the letters under the light that sweeps over them
 
 
 class AttractPage(Page):
-    """Alternating pages; any button leads to the main menu."""
+    """Alternating pages; Space begins a game, any other button leads to the main menu."""
 
     name = "attract"
     repeats = False
     allows_attract = False
 
     def press(self, button: Button, context: MenuContext) -> Command | None:
-        """Go back to the main menu."""
+        """Begin a game with Space; go back to the main menu with any other button."""
+        if button is Button.START:
+            context.close()
+            return play(context)
         context.back()
         return Attract(False)
 
     def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """Draw the current page, or the transition to it."""
-        pages = self._pages(context)
+        pages = self._pages(context, below)
         turn, at = divmod(max(seconds - self.shown_at, 0.0), PAGE_TIME)
         now = pages[int(turn) % len(pages)](context, at)
         if turn < 1.0 or at >= CHANGE_TIME:
@@ -43,10 +47,12 @@ class AttractPage(Page):
         share = at / CHANGE_TIME
         return wipe(before, now, share, "right") if int(turn) % 2 else scroll(before, now, share, "up")
 
-    def _pages(self, context: MenuContext) -> list[Callable[[MenuContext, float], Dots]]:
+    def _pages(self, context: MenuContext, below: Dots) -> list[Callable[[MenuContext, float], Dots]]:
+        """Return the pages in their order; the display of the game that is played comes twice as long."""
         pages: list[Callable[[MenuContext, float], Dots]] = [title_picture, _start_picture]
         if context.demo_player is not None:
             pages.append(_demo_player_picture)
+            pages += 2 * [lambda context, at: below.copy()]
         for index in range(min(len(context.score_lists), 3)):
             pages.append(lambda context, at, index=index: _best_picture(context, at, index))  # type: ignore[misc]
             pages.append(_start_picture)

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.context import MenuContext, Page
+from silverball.app.menus.listing import Listing, Row
 from silverball.drawing.dotmatrix.canvas import WIDTH, Dots
 
 
@@ -111,10 +112,13 @@ class ChoicePage(Page):
         if button is Button.START:
             return self._choose(items[self.index], context)
         step = -1 if button is Button.LEFT else 1
-        self.index = (self.index + step) % len(items)
-        self._key = items[self.index].key
-        self.shown_at, self._moved_at, self._direction = context.now, context.now, step
+        self._select((self.index + step) % len(items), items, context)
+        self._moved_at, self._direction = context.now, step
         return None
+
+    def _select(self, index: int, items: Sequence[Item], context: MenuContext) -> None:
+        self.index, self._key = index, items[index].key
+        self.shown_at = context.now
 
     def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """Draw the title, the visible item, and its hint."""
@@ -134,6 +138,44 @@ class ChoicePage(Page):
             page_layout.arrows(dots, seconds)
         page_layout.foot(dots, self._help(item, context), elapsed)
         return dots
+
+    def listing(self, context: MenuContext) -> Listing:
+        """Return all items, settings with their values."""
+        items = self._current_items()
+        item = items[self.index]
+        title = self._title if isinstance(self._title, str) else self._title()
+        hint = ""  # the list shows it beside the label
+        if item.value is not None:
+            hints = item.value.hints
+            hint = hints[item.value.current_index(context)] if hints else item.hint
+        return Listing(
+            title,
+            tuple(_row(item, context) for item in items),
+            self.index,
+            hint,
+            is_editing=self._is_editing,
+        )
+
+    def point(self, index: int, context: MenuContext) -> bool:
+        """Select the item under the mouse pointer; return whether it is another one."""
+        items = self._current_items()
+        if not 0 <= index < len(items) or index == self.index:
+            return False
+        self._is_editing = False  # what the paddles have set so far stays
+        self._select(index, items, context)
+        return True
+
+    def click(self, index: int, context: MenuContext, step: int) -> Command | None:
+        """Choose an item, or change its setting by a step."""
+        self.point(index, context)
+        items = self._current_items()
+        if index != self.index:
+            return None
+        item = items[index]
+        if item.value is not None:
+            item.value.step(context, step)
+            return None
+        return item.choose() if item.choose is not None else None
 
     def signature(self) -> Hashable:
         """Return which item is visible, and whether its value is being edited."""
@@ -180,6 +222,12 @@ class ChoicePage(Page):
             return self._back()
         context.back()
         return None
+
+
+def _row(item: Item, context: MenuContext) -> Row:
+    if item.value is None:
+        return Row(item.label, item.hint, item.choose is not None)
+    return Row(item.label, item.value.labels[item.value.current_index(context)], is_value=True)
 
 
 def _draw_value(dots: Dots, item: Item, context: MenuContext, elapsed: float) -> None:

@@ -22,6 +22,15 @@ class Button(StrEnum):
     BACK = "back"  # Esc, or both paddles held for a second: to the page below
 
 
+class Rivalry(StrEnum):
+    """Who plays beside the player."""
+
+    NOBODY = ""
+    BEST = "best"  # the best game of the table
+    TODAY = "today"  # the best game of the day
+    PLANNER = "planner"
+
+
 @dataclass(frozen=True)
 class Play:
     """Begin a game; the menu has closed itself.
@@ -30,11 +39,15 @@ class Play:
         mode: Mode of the game.
         table: A built-in name or a path, as in the settings.
         seed: Seed of the board; None: a new one, or the table has no random parts.
+        players: How many take turns.
+        rival: Who plays beside the player.
     """
 
     mode: Mode
     table: str
     seed: int | None = None
+    players: int = 1
+    rival: Rivalry = Rivalry.NOBODY
 
 
 @dataclass(frozen=True)
@@ -115,9 +128,15 @@ class SaveReplay:
 
 @dataclass(frozen=True)
 class Initials:
-    """Put these three initials, already saved in the settings, on the latest score."""
+    """Put these three initials, already saved in the settings, on the latest score.
+
+    Attributes:
+        text: The initials.
+        player: Whose score it is in a match, from 1; 0 with one player.
+    """
 
     text: str
+    player: int = 0
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from silverball.app.bindings import ActionBinding, display_name, keys_for
 from silverball.app.demo_players import DemoPlayer
 from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
+from silverball.app.menus.listing import Listing
 from silverball.app.settings import PlayerSettings
 from silverball.drawing.dotmatrix.canvas import Dots
 from silverball.drawing.dotmatrix.fonts import NORMAL
@@ -52,6 +53,40 @@ class ScoreRow(NamedTuple):
     key: str = ""
 
 
+class Standing(NamedTuple):
+    """How the player stands on a table.
+
+    Attributes:
+        title: The name of the table.
+        medal: The best medal that was won; empty if there is none.
+        goal: What takes the next medal, as a text; empty if there is nothing to win.
+        rank: The missions finished in all games on it.
+    """
+
+    title: str
+    medal: str = ""
+    goal: str = ""
+    rank: int = 0
+
+
+class Challenges(NamedTuple):
+    """What can be challenged on the chosen table.
+
+    Attributes:
+        day: The date of today as text; empty if there is no daily board.
+        seed: The seed of today.
+        today: The scores of today's board, best first.
+        best: The best score of the table that has a replay; None if there is none.
+        standings: The medals and ranks of all tables that have any.
+    """
+
+    day: str = ""
+    seed: int = 0
+    today: Sequence[ScoreRow] = ()
+    best: ScoreRow | None = None
+    standings: Sequence[Standing] = ()
+
+
 class JoystickEntry(NamedTuple):
     """A connected joystick.
 
@@ -87,6 +122,18 @@ class Page(ABC):
     def draw(self, context: MenuContext, seconds: float, below: Dots) -> Dots:
         """Draw the page at a time of the clock of `context.now`; `below` is the display of the game."""
 
+    def listing(self, context: MenuContext) -> Listing | None:
+        """Return the page as data, for a list; None if it is shown as dots only."""
+        return None
+
+    def point(self, index: int, context: MenuContext) -> bool:
+        """Select the row of the listing under the mouse pointer; return whether another one was selected."""
+        return False
+
+    def click(self, index: int, context: MenuContext, step: int) -> Command | None:
+        """Handle a click on a row of the listing; a setting takes a step of −1 or +1."""
+        return None
+
     def tick(self, context: MenuContext) -> Command | None:
         """Handle the passing of time."""
         return None
@@ -105,6 +152,7 @@ class MenuContext:
         scores: The scores of a table and a mode, best first.
         actions: All actions that have keys.
         themes: Names of all themes.
+        challenges: Returns what can be challenged on the chosen table.
         seed: Seed of the next random board; None draws one.
         last_seed: Seed of the random board shown last; None if there was none.
         has_last_game: Whether there is a last game to watch.
@@ -129,6 +177,7 @@ class MenuContext:
         self.scores = scores
         self.actions = actions
         self.themes = themes
+        self.challenges: Callable[[], Challenges] = Challenges
         self.seed: int | None = None
         self.last_seed: int | None = None
         self.has_last_game = False

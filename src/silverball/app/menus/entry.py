@@ -14,11 +14,14 @@ from silverball.app.bindings import keys_for
 from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.context import MenuContext, Page
+from silverball.app.menus.listing import Listing, Row
 from silverball.drawing.dotmatrix.canvas import FULL, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL
 
 DELETE, END = "◄", "END"
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.- "
+CELLS = {DELETE: "DEL", " ": "SPACE"}  # what cells of a grid say for these letters
+COLUMNS = 10  # cells of that grid
 BACKSPACE = "backspace"
 SIGN_TIMEOUT = 25.0  # [s] without a button, after which a score gets the offered initials
 HELP_TURN = 2.5  # [s] for each help text
@@ -162,6 +165,30 @@ class LettersPage(Page):
             x = left + (count - 1) * step
             dots.invert(x - 1, y, step, 11 * scale)
 
+    def listing(self, context: MenuContext) -> Listing:
+        """Return the text so far, and what can follow as cells of a grid."""
+        places = [*self.text, *("_" * (self._max_length - len(self.text)))]
+        index = -1 if self._is_typed else self._turn
+        rows = tuple(Row(CELLS.get(choice, choice)) for choice in self.choices)
+        hint = f"TYPE, OR CLICK, OR TURN WITH THE PADDLES. {context.key_label('create')}: TAKE"
+        if self._is_typed:
+            hint = f"BACKSPACE: DELETE. {context.key_label('create')} OR ENTER: DONE"
+        return Listing(self._title, rows, index, hint, " ".join(places), columns=COLUMNS)
+
+    def point(self, index: int, context: MenuContext) -> bool:
+        """Select the letter under the mouse pointer; return whether it is another one."""
+        if not 0 <= index < len(self.choices) or (index == self._turn and not self._is_typed):
+            return False
+        self._turn, self._is_typed = index, False
+        return True
+
+    def click(self, index: int, context: MenuContext, step: int) -> Command | None:
+        """Take a letter, delete the last one, or end."""
+        if not 0 <= index < len(self.choices):
+            return None
+        self.point(index, context)
+        return self.press(Button.START, context)
+
     def signature(self) -> Hashable:
         """Return the number of letters, the current choice, and whether keys type."""
         return len(self.text), self._turn, self._is_typed
@@ -197,12 +224,21 @@ class InitialsPage(LettersPage):
         rank: Its rank in the high scores, from 1.
         offered: The initials entered last, preselected.
         done: Callback that receives the initials.
+        player: Whose score it is in a match, from 1; 0 with one player.
     """
 
     allows_attract = False  # the score must get its initials first
 
-    def __init__(self, score: int, rank: int, offered: str, done: Callable[[str], Command | None]) -> None:
-        super().__init__("initials", f"NO. {rank} WITH {score:,}", LETTERS, 3, done, offered=offered)
+    def __init__(
+        self,
+        score: int,
+        rank: int,
+        offered: str,
+        done: Callable[[str], Command | None],
+        player: int = 0,
+    ) -> None:
+        whose = f"PLAYER {player}: " if player else ""
+        super().__init__("initials", f"{whose}NO. {rank} WITH {score:,}", LETTERS, 3, done, offered=offered)
 
     def _leave(self, context: MenuContext) -> Command | None:
         # A score is never lost: without an entry it gets the offered initials.

@@ -7,6 +7,7 @@ from collections.abc import Hashable, Sequence
 from silverball.app.menus import page_layout
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.context import MenuContext, Page, ScoreRow, TableEntry
+from silverball.app.menus.listing import Listing, Row
 from silverball.drawing.dotmatrix.canvas import HEIGHT, WIDTH, Dots
 from silverball.drawing.dotmatrix.fonts import BOLD, NORMAL, TINY
 from silverball.game.view import Mode
@@ -54,6 +55,34 @@ class ScoresPage(Page):
             dots, f"{entry.title.upper()} · {MODE_LABELS[mode]}", index, len(score_lists), since
         )
         return dots
+
+    def listing(self, context: MenuContext) -> Listing:
+        """Return the scores of the shown list, and the rows that turn to another list or go back."""
+        lists = context.score_lists
+        if not lists:
+            return Listing("SCORES", (Row("BACK"),), 0, "NO SCORES YET")
+        index = min(self._index, len(lists) - 1)
+        entry, mode, rows = lists[index]
+        scores = [
+            Row(f"{place}  {row.initials}  {row.score:,}", row.date, can_choose=False)
+            for place, row in enumerate(rows[:ROWS], 1)
+        ]
+        buttons = [Row(label) for label, _ in self._buttons(len(lists))]
+        title = f"{entry.title.upper()} · {MODE_LABELS[mode]}"
+        hint = f"LIST {index + 1} OF {len(lists)}" if len(lists) > 1 else ""
+        return Listing(title, (*scores, *buttons), len(scores) + len(buttons) - 1, hint)
+
+    def click(self, index: int, context: MenuContext, step: int) -> Command | None:
+        """Turn to another list, or go back."""
+        lists = context.score_lists
+        buttons = self._buttons(len(lists))
+        first = len(lists[min(self._index, len(lists) - 1)][2][:ROWS]) if lists else 0
+        return self.press(buttons[index - first][1], context) if index >= first else None
+
+    def _buttons(self, lists: int) -> list[tuple[str, Button]]:
+        """Return the labels of what can be done, and the buttons that do it."""
+        turns = [("< PREVIOUS LIST", Button.LEFT), ("NEXT LIST >", Button.RIGHT)] if lists > 1 else []
+        return [*turns, ("BACK", Button.START)]
 
     def signature(self) -> Hashable:
         """Return which list is shown."""

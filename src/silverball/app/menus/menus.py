@@ -18,7 +18,9 @@ from silverball.app.menus.attract import AttractPage
 from silverball.app.menus.commands import Attract, Button, Command, EndReplay, Initials
 from silverball.app.menus.context import MenuContext, ScoreRow, TableEntry
 from silverball.app.menus.entry import InitialsPage, LettersPage
-from silverball.app.menus.pages import main_page, over_page, pause_page
+from silverball.app.menus.game_over import GameOver, Signing, over_page
+from silverball.app.menus.listing import Listing
+from silverball.app.menus.pages import main_page, pause_page
 from silverball.app.menus.remap import CapturePage
 from silverball.app.menus.transport import ReplayStatus, TransportPage
 from silverball.app.settings import PlayerSettings
@@ -142,6 +144,31 @@ class Menus:
         self._active_at = context.now
         return True
 
+    @property
+    def listing(self) -> Listing | None:
+        """The visible page as data; None if it is shown as dots only, or none is open."""
+        return self.context.pages[-1].listing(self.context) if self.context.pages else None
+
+    def point(self, index: int) -> bool:
+        """Select the row of the listing under the mouse pointer; return whether another one was selected."""
+        self._active_at = self.context.now
+        return bool(self.context.pages) and self.context.pages[-1].point(index, self.context)
+
+    def click(self, index: int, step: int = 1) -> Command | None:
+        """Handle a click on a row of the listing; a setting takes a step of −1 or +1."""
+        self._active_at = self.context.now
+        if not self.context.pages:
+            return None
+        return self._ended(self.context.pages[-1].click(index, self.context, step))
+
+    def adjust(self, step: int) -> bool:
+        """Change the setting of the selected row by a step; return whether it is one."""
+        listing = self.listing
+        if listing is None or listing.chosen < 0 or not listing.rows[listing.chosen].is_value:
+            return False
+        self.click(listing.chosen, step)
+        return True
+
     def tick(self, seconds: float) -> Command | None:
         """Repeat held buttons, let pages time out, and begin the attract mode after some idle time.
 
@@ -210,26 +237,32 @@ class Menus:
         self.context.close()
         self.context.open(pause_page(self.context))
 
-    def open_over(self, score: int, rank: int | None = None) -> None:
+    def open_over(self, score: int, rank: int | None = None, what: GameOver | None = None) -> None:
         """Show the page after a game.
 
         Args:
             score: Its points.
             rank: Its rank in the high scores, from 1, which asks for initials first; None without a rank.
+            what: What the game came to; its `signings` take the place of `rank`.
         """
-        context, settings = self.context, self.context.settings
+        context = self.context
         context.has_last_game = True
         self._active_at = None
         context.close()
-        context.open(over_page(context, score))
+        what = what or GameOver(signings=() if rank is None else (Signing(score, rank),))
+        context.open(over_page(context, score, what))
+        for signing in reversed(what.signings):
+            context.open(self._initials_page(signing))
+
+    def _initials_page(self, signing: Signing) -> InitialsPage:
+        context, settings = self.context, self.context.settings
 
         def done(text: str) -> Command:
             context.back()
             settings.change(initials=text)
-            return Initials(text)
+            return Initials(text, signing.player)
 
-        if rank is not None:
-            context.open(InitialsPage(score, rank, context.settings.current.initials, done))
+        return InitialsPage(signing.score, signing.rank, settings.current.initials, done, signing.player)
 
     def open_transport(self, status: ReplayStatus) -> None:
         """Show the transport line of a replay."""
@@ -258,7 +291,10 @@ class Menus:
         return isinstance(page, CapturePage) and page.kind == kind
 
     def _press_page(self, button: Button) -> Command | None:
-        command = self.context.pages[-1].press(button, self.context)
+        return self._ended(self.context.pages[-1].press(button, self.context))
+
+    def _ended(self, command: Command | None) -> Command | None:
+        """Pass on a command; the pages below a replay come back, and closed pages hold no button."""
         if isinstance(command, EndReplay):
             self.reopen()
         if not self.context.pages:

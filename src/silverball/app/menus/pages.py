@@ -1,10 +1,12 @@
-"""The choice pages: main menu, table, board, what to watch, settings, pause, and game over."""
+"""The choice pages: main menu, table, board, what to watch, settings, and pause."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+from silverball.app.cabinet_mode import CabinetMode
 from silverball.app.demo_players import demo_players
+from silverball.app.menus.challenges import challenges_page
 from silverball.app.menus.choice import ChoicePage, Item, Value
 from silverball.app.menus.commands import (
     Command,
@@ -13,7 +15,6 @@ from silverball.app.menus.commands import (
     Quit,
     Restart,
     Resume,
-    SaveReplay,
     ShowBoard,
     ShowTableProblem,
     WatchDemo,
@@ -37,23 +38,29 @@ MODE = Value(
 )
 
 
+def play(context: MenuContext) -> Play:
+    """Close the menu and begin a game by the settings."""
+    context.close()
+    seed = context.seed if context.table.is_random else None
+    return Play(context.mode, context.settings.current.table, seed)
+
+
 def main_page(context: MenuContext) -> ChoicePage:
     """The main menu."""
-
-    def play() -> Command:
-        context.close()
-        return Play(
-            context.mode, context.settings.current.table, context.seed if context.table.is_random else None
-        )
 
     def items() -> list[Item]:
         title = _title(context.table)
         return [
-            Item("PLAY", f"{MODE.labels[MODE.current_index(context)]} · {title}", play),
+            Item("PLAY", f"{MODE.labels[MODE.current_index(context)]} · {title}", lambda: play(context)),
             Item("MODE", MODE.hints[MODE.current_index(context)], value=MODE),
             Item("TABLE", f"IS {title}", lambda: context.open(table_page(context))),
             Item("WATCH", "YOUR GAMES, OR A DEMO", lambda: context.open(watch_page(context))),
             Item("SCORES", "THE BEST OF EVERY TABLE", lambda: context.open(ScoresPage())),
+            Item(
+                "CHALLENGES",
+                "TODAY'S BOARD, RIVALS, 2 TO 4 PLAYERS",
+                lambda: context.open(challenges_page(context, context.challenges())),
+            ),
             Item("SETTINGS", "COLOURS, SOUND, KEYS", lambda: context.open(settings_page(context))),
             Item("QUIT", "GOOD BYE", Quit),
         ]
@@ -180,6 +187,10 @@ def settings_page(context: MenuContext) -> ChoicePage:
     values = [
         ("COLOURS", Value("theme", themes, tuple(theme.upper().replace("_", " ") for theme in themes))),
         ("VOLUME", Value("volume", tuple(range(11)), tuple(str(step) for step in range(11)), wraps=False)),
+        (
+            "MUSIC",
+            Value("music", tuple(range(11)), ("OFF", *(str(step) for step in range(1, 11))), wraps=False),
+        ),
         ("SOUND", Value("muted", (False, True), ("ON", "OFF"))),
         (
             "EFFECTS",
@@ -196,9 +207,15 @@ def settings_page(context: MenuContext) -> ChoicePage:
                 hints=("AS MANY AS IT SHOWS", "", "", ""),
             ),
         ),
+        ("FULL SCREEN", Value("full_screen", (False, True), ("OFF", "ON"))),
         (
-            "FULL SCREEN",
-            Value("full_screen", (False, True), ("OFF", "ON")),
+            "CABINET",
+            Value(
+                "cabinet",
+                tuple(CabinetMode),
+                ("OFF", "UPRIGHT", "TURNED LEFT", "TURNED RIGHT"),
+                hints=("", *3 * ("BACKGLASS ON A SECOND SCREEN",)),
+            ),
         ),
     ]
 
@@ -258,41 +275,6 @@ def pause_page(context: MenuContext) -> ChoicePage:
         ]
 
     return ChoicePage("pause", "PAUSE", items, back=resume, allows_attract=False)
-
-
-def over_page(context: MenuContext, score: int) -> ChoicePage:
-    """The menu after a game."""
-    saved = False
-
-    def again() -> Command:
-        context.close()
-        return Play(
-            context.mode, context.settings.current.table, context.seed if context.table.is_random else None
-        )
-
-    def watch() -> Command:
-        context.suspend()
-        return WatchLast()
-
-    def save() -> Command:
-        nonlocal saved
-        saved = True
-        return SaveReplay()
-
-    def menu() -> Command:
-        context.close()
-        context.open(main_page(context))
-        return EndGame()
-
-    def items() -> list[Item]:
-        return [
-            Item("PLAY AGAIN", f"SCORE {score:,}", again),
-            Item("WATCH IT", "THE GAME FROM THE START", watch),
-            Item("SAVE REPLAY", "SAVED" if saved else "KEEP IT AS A FILE", save),
-            Item("MENU", "MODE, TABLE, SCORES, SETTINGS", menu),
-        ]
-
-    return ChoicePage("over", "GAME OVER", items, back=menu)
 
 
 def _confirm_page(context: MenuContext, title: str, do: Callable[[], Command]) -> ChoicePage:

@@ -24,6 +24,7 @@ from silverball.app.menus import page_layout
 from silverball.app.menus.choice import ChoicePage, Item
 from silverball.app.menus.commands import Button, Command
 from silverball.app.menus.context import JoystickEntry, MenuContext, Page
+from silverball.app.menus.listing import Listing, Row
 from silverball.drawing.dotmatrix.canvas import Dots
 
 CAPTURE_TIMEOUT = 8.0  # [s] to press the key; afterwards the page goes back, also without a keyboard
@@ -168,6 +169,16 @@ class CapturePage(Page):
                 dots, 30, page_layout.FOOT_Y, 100, 1.0 - (seconds - self.shown_at) / CAPTURE_TIMEOUT
             )
         return dots
+
+    def listing(self, context: MenuContext) -> Listing:
+        """Return what is asked for."""
+        asked = f"PRESS A {INPUT_NOUN[self.kind]}"
+        return Listing(self._binding.label, (Row("CANCEL"),), hint=self._problem, text=asked)
+
+    def click(self, index: int, context: MenuContext, step: int) -> Command | None:
+        """Go back."""
+        context.back()
+        return None
 
     def signature(self) -> Hashable:
         """Return the kind, the action and the change that the page waits for."""

@@ -14,7 +14,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from silverball.app.sound import hits, mechanics, tunes
+from silverball.app.sound import calls, hits, mechanics, tunes
+from silverball.app.sound.calls import CALLS, call_recipe
 from silverball.app.sound.levels import loudness
 from silverball.app.sound.rolling import (
     ROLL_LEVEL,
@@ -24,6 +25,7 @@ from silverball.app.sound.rolling import (
     roll_spectrum,
     roll_wobble,
 )
+from silverball.app.sound.sound_sets import DEFAULT_SET, SoundSet
 from silverball.app.sound.synth import BELL_STEPS, Wave, finished, looped, soft_limit
 
 
@@ -35,19 +37,21 @@ class Recipe(NamedTuple):
         level: Loudness of its loudest moment at full strength [dB], see `loudness`.
         layers: Number of layers.
         variations: Number of variations of each layer.
+        is_of_set: Whether it differs between sound sets; `make` then takes the set as a third argument.
     """
 
-    make: Callable[[int, np.random.Generator], Wave]
+    make: Callable[..., Wave]
     level: float
     layers: int = 1
     variations: int = 1
+    is_of_set: bool = False
 
 
 RECIPES: dict[str, Recipe] = {
     "wall": Recipe(hits.wall, -20.0, 2, 3),
     "slant_wall": Recipe(hits.slant_wall, -20.0, 2, 3),
     "prism": Recipe(hits.prism, -18.0, 2, 3),
-    "cylinder": Recipe(hits.cylinder, -17.0, BELL_STEPS, 2),
+    "cylinder": Recipe(hits.cylinder, -17.0, BELL_STEPS, 2, is_of_set=True),
     "coil": Recipe(hits.coil, -23.0, 1, 3),
     "stop": Recipe(hits.stop, -22.0, 2, 3),
     "paddle_hit": Recipe(hits.paddle_hit, -20.0, 2, 3),
@@ -57,7 +61,7 @@ RECIPES: dict[str, Recipe] = {
     "drain": Recipe(hits.drain, -18.0, 1, 2),
     "ball_saved": Recipe(tunes.ball_saved, -18.0),
     "warning": Recipe(tunes.warning, -18.0),
-    "tilt": Recipe(tunes.tilt, -16.0),
+    "tilt": Recipe(calls.tilt, -16.0, is_of_set=True),
     "unstuck": Recipe(tunes.unstuck, -20.0),
     "double_on": Recipe(tunes.double_on, -18.0),
     "game_over": Recipe(tunes.game_over, -18.0),
@@ -82,9 +86,12 @@ RECIPES: dict[str, Recipe] = {
     "plunger_pull": Recipe(mechanics.plunger_pull, -25.0, 1, 2),
     "launch": Recipe(mechanics.launch, -19.0, 1, 2),
     "ramp": Recipe(mechanics.ramp, -23.0, 1, 2),
+    **{name: Recipe(call_recipe(name), call.level, is_of_set=True) for name, call in CALLS.items()},
 }
 """All sounds except the rolling of a ball, which is in `rolling.py`. The place of a recipe seeds its random
 generator: new ones belong at the end."""
+
+_NUMBERS = {name: number for number, name in enumerate(RECIPES)}
 
 
 Samples: TypeAlias = NDArray[np.int16]
@@ -120,17 +127,44 @@ class Bank(NamedTuple):
 
 
 @lru_cache(maxsize=1)
-def make_bank() -> Bank:
-    """Make all sounds, deterministically."""
-    waves = {}
-    for number, (name, recipe) in enumerate(RECIPES.items()):
-        for layer in range(recipe.layers):
-            for variation in range(recipe.variations):
-                random = np.random.default_rng([number, variation])  # the same for all layers
-                wave = finished(recipe.make(layer, random))
-                waves[Key(name, layer, variation)] = to_samples(levelled(wave, recipe.level))
+def make_bank(sounds: SoundSet = DEFAULT_SET) -> Bank:
+    """Make all sounds of a set, deterministically; what is the same in all sets is made once."""
+    common = common_sounds()
+    waves = {
+        key: wave for name in RECIPES for key, wave in (common.waves.get(name) or _made(name, sounds)).items()
+    }
+    return Bank(waves, common.loops)
+
+
+class CommonSounds(NamedTuple):
+    """What is the same in all sound sets.
+
+    Attributes:
+        waves: By the name of the recipe, then by key.
+        loops: As in `Bank`.
+    """
+
+    waves: dict[str, dict[Key, Samples]]
+    loops: tuple[Samples, ...]
+
+
+@lru_cache(maxsize=1)
+def common_sounds() -> CommonSounds:
+    """Make the sounds that are the same in all sound sets."""
+    waves = {name: _made(name) for name, recipe in RECIPES.items() if not recipe.is_of_set}
     loops = (to_samples(levelled(roll_loop(number), ROLL_LEVEL)) for number in range(len(ROLL_SPEEDS)))
-    return Bank(waves, tuple(loops))
+    return CommonSounds(waves, tuple(loops))
+
+
+def _made(name: str, *sounds: SoundSet) -> dict[Key, Samples]:
+    """Make all waves of a recipe."""
+    recipe, waves = RECIPES[name], {}
+    for layer in range(recipe.layers):
+        for variation in range(recipe.variations):
+            random = np.random.default_rng([_NUMBERS[name], variation])  # the same for all layers
+            wave = finished(recipe.make(layer, random, *sounds))
+            waves[Key(name, layer, variation)] = to_samples(levelled(wave, recipe.level))
+    return waves
 
 
 def roll_loop(number: int) -> Wave:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from silverball.app.sound.sound_sets import DEFAULT_SET, SoundSet
 from silverball.app.sound.synth import (
     BAR,
     BELL,
@@ -15,6 +16,7 @@ from silverball.app.sound.synth import (
     TUNED_BAR,
     Partial,
     Wave,
+    edge,
     envelope,
     glide,
     mix,
@@ -32,7 +34,8 @@ def wall(layer: int, random: np.random.Generator) -> Wave:
         208.0 + 14.0 * layer, BAR, 0.16, brightness=0.5 + 0.2 * layer, damping=0.8, detune=0.03, random=random
     )
     knock = puff(0.06, 160.0, 900.0 + 900.0 * layer, 0.03, random)
-    return mix(0.22, (0.0, 1.0, ring(body, 0.22)), (0.0, 0.25 + 0.15 * layer, knock))
+    click = (0.0, 0.12 + 0.16 * layer, edge(0.02, random))
+    return mix(0.22, (0.0, 1.0, ring(body, 0.22)), (0.0, 0.25 + 0.15 * layer, knock), click)
 
 
 def slant_wall(layer: int, random: np.random.Generator) -> Wave:
@@ -47,7 +50,8 @@ def slant_wall(layer: int, random: np.random.Generator) -> Wave:
         random=random,
     )
     knock = puff(0.05, 250.0, 1200.0 + 1200.0 * layer, 0.025, random)
-    return mix(0.24, (0.0, 1.0, ring(body, 0.24)), (0.0, 0.22 + 0.13 * layer, knock))
+    click = (0.0, 0.14 + 0.2 * layer, edge(0.02, random))
+    return mix(0.24, (0.0, 1.0, ring(body, 0.24)), (0.0, 0.22 + 0.13 * layer, knock), click)
 
 
 def prism(layer: int, random: np.random.Generator) -> Wave:
@@ -64,27 +68,30 @@ def prism(layer: int, random: np.random.Generator) -> Wave:
     )
     thud = ring([Partial(98.0, 1.0, 0.12)], 0.15)
     knock = puff(0.05, 200.0, 1000.0 + 800.0 * layer, 0.03, random)
-    return mix(0.45, (0.0, 1.0, ring(bar, 0.45)), (0.0, 0.7, thud), (0.0, 0.2, knock))
+    click = (0.0, 0.12 + 0.16 * layer, edge(0.02, random))
+    return mix(0.45, (0.0, 1.0, ring(bar, 0.45)), (0.0, 0.7, thud), (0.0, 0.2, knock), click)
 
 
-def cylinder(layer: int, random: np.random.Generator) -> Wave:
+def cylinder(layer: int, random: np.random.Generator, sounds: SoundSet = DEFAULT_SET) -> Wave:
     """A bell chord on a step of the scale, over the thump of the coil that throws the ball off."""
     layers = []
     for above, strength in ((0, 1.0), (2, 0.34), (4, 0.22)):
         bell = struck(
-            pitch_of(layer + above), BELL, 0.95, brightness=0.5, damping=0.7, detune=0.002, random=random
-        )
+            pitch_of(layer + above), sounds.bell, 0.95,
+            brightness=0.5, damping=sounds.bell_damping, detune=0.002, random=random,
+        )  # fmt: skip
         bell.append(Partial(pitch_of(layer + above) * 1.003, 0.35, 0.8))  # beating with the lowest partial
         layers.append((0.012 * above, strength, ring(bell, 0.95)))
     thump = ring([Partial(104.0, 1.0, 0.14), Partial(147.0, 0.5, 0.09)], 0.16)
-    return mix(0.95, *layers, (0.0, 0.8, thump), (0.0, 0.1, puff(0.03, 400.0, 2500.0, 0.02, random)))
+    snap = puff(0.03, 400.0, 2500.0, 0.02, random)
+    return mix(0.95, *layers, (0.0, 0.8, thump), (0.0, 0.1, snap), (0.004, 0.4, edge(0.04, random)))
 
 
 def coil(layer: int, random: np.random.Generator) -> Wave:
     """The coil of a paddle: a dull clack with a trace of mains hum."""
     clack = puff(0.05, 240.0, 1500.0, 0.045, random, rise=0.0015)
     pull = ring([Partial(118.0 * random.uniform(0.97, 1.03), 1.0, 0.09), Partial(236.0, 0.4, 0.06)], 0.11)
-    return mix(0.12, (0.0, 0.5, clack), (0.0, 0.9, pull))
+    return mix(0.12, (0.0, 0.5, clack), (0.0, 0.9, pull), (0.006, 0.45, edge(0.03, random)))
 
 
 def stop(layer: int, random: np.random.Generator) -> Wave:
@@ -102,6 +109,7 @@ def stop(layer: int, random: np.random.Generator) -> Wave:
         0.15,
         (0.0, 1.0, ring(body, 0.15)),
         (0.0, 0.3, puff(0.03, 200.0, 800.0 + 1200.0 * layer, 0.02, random)),
+        (0.0, (0.15, 0.4)[layer], edge(0.025, random)),
     )
 
 
@@ -112,6 +120,7 @@ def paddle_hit(layer: int, random: np.random.Generator) -> Wave:
         0.2,
         (0.0, 1.0, ring(body, 0.2)),
         (0.0, 0.2 + 0.15 * layer, puff(0.04, 200.0, 1000.0 + 1000.0 * layer, 0.025, random)),
+        (0.0, 0.14 + 0.2 * layer, edge(0.015, random)),
     )
 
 
@@ -126,7 +135,9 @@ def balls(layer: int, random: np.random.Generator) -> Wave:
         )
     ]
     knock = ring([Partial(420.0, 1.0, 0.05), Partial(690.0, 0.5, 0.04)], 0.08)
-    return mix(0.14, (0.0, 1.0, ring(click, 0.14)), (0.0, 0.9, knock))
+    return mix(
+        0.14, (0.0, 1.0, ring(click, 0.14)), (0.0, 0.9, knock), (0.0, 0.4 + 0.3 * layer, edge(0.03, random))
+    )
 
 
 def created(layer: int, random: np.random.Generator) -> Wave:
@@ -136,13 +147,16 @@ def created(layer: int, random: np.random.Generator) -> Wave:
     low, high = (
         ring(struck(pitch_of(step), BELL, 0.5, brightness=0.35, random=random), 0.55) for step in (0, 3)
     )
-    return mix(0.75, (0.0, 1.0, knock), (0.02, 0.35, rush), (0.08, 0.35, low), (0.2, 0.4, high))
+    click = (0.0, 0.35, edge(0.04, random))
+    return mix(0.75, (0.0, 1.0, knock), (0.02, 0.35, rush), (0.08, 0.35, low), (0.2, 0.4, high), click)
 
 
 def shove(layer: int, random: np.random.Generator) -> Wave:
-    """A hand against the cabinet: a low, soft thump and a rattle inside."""
+    """A hand against the cabinet: a low, soft thump, a rattle inside and in the glass."""
     body = ring(struck(98.0, SKIN, 0.24, brightness=0.65, damping=0.7, detune=0.03, random=random), 0.3)
-    return mix(0.32, (0.0, 1.0, body), (0.03, 0.12, puff(0.16, 300.0, 1200.0, 0.14, random, rise=0.02)))
+    rattle = puff(0.16, 300.0, 1200.0, 0.14, random, rise=0.02)
+    glass = [(start, 0.2, edge(0.03, random)) for start in (0.03, 0.08)]
+    return mix(0.32, (0.0, 1.0, body), (0.03, 0.12, rattle), *glass)
 
 
 def drain(layer: int, random: np.random.Generator) -> Wave:
@@ -160,4 +174,6 @@ def drain(layer: int, random: np.random.Generator) -> Wave:
         (0.17, 0.7, second),
         (0.06, 0.55, fall),
         (0.02, 0.12, puff(0.3, 150.0, 500.0, 0.3, random, rise=0.03)),
+        (0.0, 0.2, edge(0.03, random)),
+        (0.17, 0.12, edge(0.03, random)),
     )

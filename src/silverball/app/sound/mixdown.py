@@ -15,18 +15,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from silverball.app.sound.bank import FULL, Bank, Samples, make_bank, to_samples
+from silverball.app.sound.calls import CALLS, seconds_of
+from silverball.app.sound.ducking import ROLL_UNDER_MUSIC, Ducker
+from silverball.app.sound.moods import MoodReader
+from silverball.app.sound.music import Mood, band_of
+from silverball.app.sound.music_track import MusicTrack
 from silverball.app.sound.rolling import LANES, Gains, Rolling, RollingBall
+from silverball.app.sound.sound_sets import DEFAULT_SET, SoundSet
 from silverball.app.sound.synth import RATE, Wave, as_float32, soft_limit
 from silverball.app.sound.voices import Note, Voices
 
 if TYPE_CHECKING:
+    from silverball.game.core import GameCore
     from silverball.game.view import GameEvent
     from silverball.table import Table
     from silverball.world import Event, World
 
-VOLUME = 0.8
-"""Strength of a film's sound."""
+VOLUME = 1.1
+"""Strength of a film's sound: games with music have about −24 LUFS, see `silverball bench sound`."""
 
+MUSIC_VOLUME = 0.565
+"""Strength of a film's music: that of the usual volume in the settings."""
 
 MAX_FADE = RATE // 2  # [sample] longest change of a strength; in longer frames it is constant afterwards
 
@@ -54,6 +63,7 @@ class Frame(NamedTuple):
         buttons: Whether the left and the right paddle button are down, and the launch button.
         game_events: Game events since the previous frame.
         menu: A menu sound, see `Sounds.play_menu`.
+        mood: The mood of the music; None: there is none.
     """
 
     time: float
@@ -63,6 +73,7 @@ class Frame(NamedTuple):
     buttons: tuple[bool, ...] = (False, False)
     game_events: tuple[GameEvent, ...] = ()
     menu: str = ""
+    mood: Mood | None = None
 
     @classmethod
     def of(
@@ -72,9 +83,12 @@ class Frame(NamedTuple):
         events: Iterable[Event],
         buttons: tuple[bool, ...] = (False, False),
         game_events: Iterable[GameEvent] = (),
+        mood: Mood | None = None,
     ) -> Self:
         """Return the frame that ends with the current state of a world, at a time in the film [s]."""
-        return cls(time, world.time, tuple(events), rolling_balls(world), buttons, tuple(game_events))
+        return cls(
+            time, world.time, tuple(events), rolling_balls(world), buttons, tuple(game_events), mood=mood
+        )
 
 
 class FilmSound:
@@ -84,10 +98,22 @@ class FilmSound:
         table: The board.
         tick_rate: Ticks per second of the world.
         frame_rate: Frames per second of the film.
+        sounds: The sound set.
+        has_music: Whether it has music, where pictures are added with their game.
     """
 
-    def __init__(self, table: Table, tick_rate: int, frame_rate: float) -> None:
+    def __init__(
+        self,
+        table: Table,
+        tick_rate: int,
+        frame_rate: float,
+        sounds: SoundSet = DEFAULT_SET,
+        *,
+        has_music: bool = True,
+    ) -> None:
         self._table, self._tick_rate, self._frame_rate = table, tick_rate, frame_rate
+        self._sounds = sounds
+        self._moods = MoodReader(table) if has_music else None
         self._frames: list[Frame] = []
 
     def add_picture(
@@ -96,15 +122,23 @@ class FilmSound:
         events: Iterable[Event],
         buttons: tuple[bool, ...] = (False, False),
         game_events: Iterable[GameEvent] = (),
+        game: GameCore | None = None,
     ) -> None:
-        """Add a frame: the current state of a world, the events since the last frame, and the buttons."""
+        """Add a frame: the current state of a world, the events since the last frame, and the buttons.
+
+        The music follows the game; without one there is none.
+        """
         time = (len(self._frames) + 1) / self._frame_rate
-        self._frames.append(Frame.of(world, time, events, buttons, game_events))
+        mood = None
+        if self._moods is not None and game is not None:
+            mood = self._moods.read(game, 1.0 / self._frame_rate)
+        self._frames.append(Frame.of(world, time, events, buttons, game_events, mood))
 
     def track(self) -> Soundtrack:
         """Return the sound of all frames so far, for `write_film`."""
         seconds = len(self._frames) / self._frame_rate
-        return Soundtrack(mixdown(self._frames, seconds, self._table, self._tick_rate), RATE)
+        samples = mixdown(self._frames, seconds, self._table, self._tick_rate, self._sounds)
+        return Soundtrack(samples, RATE)
 
 
 def rolling_balls(world: World) -> tuple[RollingBall, ...]:
@@ -117,7 +151,9 @@ def rolling_balls(world: World) -> tuple[RollingBall, ...]:
     )
 
 
-def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: int) -> Samples:
+def mixdown(
+    frames: Iterable[Frame], seconds: float, table: Table, tick_rate: int, sounds: SoundSet = DEFAULT_SET
+) -> Samples:
     """Return the sound of a film: int16 `[sample, 2]`, left and right, `RATE` samples per second.
 
     Args:
@@ -125,31 +161,67 @@ def mixdown(frames: Iterable[Frame], seconds: float, table: Table, tick_rate: in
         seconds: Length of the film; longer sounds end with a short fade.
         table: The board.
         tick_rate: Ticks per second of the world.
+        sounds: The sound set.
     """
-    bank = make_bank()
-    loops = [as_float32(np.concatenate([loop, loop[:MAX_FADE]]) / FULL) for loop in bank.loops]
-    total = np.zeros((2, max(round(seconds * RATE), 1)), np.float32)
-    width = table.board.width
-    voices, rolling = Voices(table), Rolling()
-    gains: Gains = {}
-    before = 0.0
+    mixing = _Mixing(seconds, table, tick_rate, sounds)
     for frame in frames:
-        dt = max(frame.time - before, 0.0)
-        notes = voices.game_events(frame.game_events)
-        notes += voices.world_events(frame.events, tick_rate, width, frame.world_time)
-        # The buttons were pressed at the beginning of the frame.
-        notes += [note._replace(ago=dt) for note in voices.buttons(*frame.buttons)]
-        notes += voices.advance(dt) + voices.menu(frame.menu)
-        for note in notes:
-            _add_note(total, bank, note, frame.time - min(note.ago, dt))
-        following = rolling.update(frame.balls, dt, width)
-        begin, end = (min(round(time * RATE), total.shape[1]) for time in (before, frame.time))
-        for start in range(begin, end, MAX_FADE):
-            _add_rolling(total, loops, (gains, following), slice(start, min(start + MAX_FADE, end)))
-            gains = following
-        gains, before = following, max(frame.time, before)
+        mixing.add(frame)
+    total = mixing.total
     _fade_out(total)
     return to_samples(soft_limit(VOLUME * total).T)
+
+
+class _Mixing:
+    """A film whose frames are added one after the other.
+
+    Attributes:
+        total: The samples so far, `[2, sample]`.
+    """
+
+    def __init__(self, seconds: float, table: Table, tick_rate: int, sounds: SoundSet) -> None:
+        self.total = np.zeros((2, max(round(seconds * RATE), 1)), np.float32)
+        self._tick_rate, self._width = tick_rate, table.board.width
+        self._bank: Bank = make_bank(sounds)
+        self._loops = [
+            as_float32(np.concatenate([loop, loop[:MAX_FADE]]) / FULL) for loop in self._bank.loops
+        ]
+        self._voices, self._rolling, self._ducker = Voices(table), Rolling(), Ducker()
+        self._music: MusicTrack | None = None
+        self._table, self._sounds = table, sounds
+        self._gains: Gains = {}
+        self._before = 0.0  # [s] the end of the last frame
+
+    def add(self, frame: Frame) -> None:
+        """Add a frame."""
+        dt = max(frame.time - self._before, 0.0)
+        for note in self._notes(frame, dt):
+            _add_note(self.total, self._bank, note, frame.time - min(note.ago, dt))
+            if note.key.name in CALLS:
+                self._ducker.call(seconds_of(note.key.name))
+        ducks = self._ducker.gain, self._ducker.update(dt)
+        if frame.mood is not None and self._music is None:
+            self._music = MusicTrack(band_of(self._table, self._sounds), MUSIC_VOLUME)
+        following = self._rolling.update(frame.balls, dt, self._width)
+        begin, end = (min(round(time * RATE), self.total.shape[1]) for time in (self._before, frame.time))
+        if self._music is not None:
+            self._music.add(self.total, slice(begin, end), frame.mood, ducks)
+        strength = ducks[1] * (ROLL_UNDER_MUSIC if self._music is not None and self._music.is_heard else 1.0)
+        following_gains = {
+            key: (strength * left, strength * right) for key, (left, right) in following.items()
+        }
+        for start in range(begin, end, MAX_FADE):
+            span = slice(start, min(start + MAX_FADE, end))
+            _add_rolling(self.total, self._loops, (self._gains, following_gains), span)
+            self._gains = following_gains
+        self._gains, self._before = following_gains, max(frame.time, self._before)
+
+    def _notes(self, frame: Frame, dt: float) -> list[Note]:
+        voices = self._voices
+        notes = voices.game_events(frame.game_events)
+        notes += voices.world_events(frame.events, self._tick_rate, self._width, frame.world_time)
+        # The buttons were pressed at the beginning of the frame.
+        notes += [note._replace(ago=dt) for note in voices.buttons(*frame.buttons)]
+        return notes + voices.advance(dt) + voices.menu(frame.menu)
 
 
 def write_wav(path: Path, samples: Samples) -> None:

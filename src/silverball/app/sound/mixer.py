@@ -3,6 +3,9 @@
 Strengths are set on a channel while it is idle, before its sound starts: otherwise the mixer thread could
 play the first few milliseconds at full strength. If the mixer was closed meanwhile, that first call raises an
 error; `play` alone would crash.
+
+A sound is kept until no channel can have it. Were the mixer the last to let go of it, pygame would free it
+while a channel still names it, and a sound that ends in just that moment would be freed twice.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ import contextlib
 import os
 from collections import deque
 from collections.abc import Iterator
+from typing import TypeAlias
 
 import numpy as np
 import pygame
@@ -25,8 +29,12 @@ BUFFERS = (512, 1024, 2048)
 physics is compiled."""
 
 HIT_CHANNELS = 20
+MUSIC_STEP = 1.0 / 256.0  # least change of the music's strength: half of what the mixer can tell apart
+MusicBar: TypeAlias = pygame.mixer.Sound
 _SPARE = 4  # channels kept free for the next frame
 _FADE = 15  # [ms] to fade out a sound
+_REST = 64  # [sample] of silence
+_KEPT_BANKS = 3  # that were replaced, and whose last sounds may still play
 
 
 class Mixer:
@@ -38,15 +46,20 @@ class Mixer:
 
     def __init__(self) -> None:
         self._open()
-        pygame.mixer.set_num_channels(HIT_CHANNELS + LANES * len(ROLL_SPEEDS))
+        pygame.mixer.set_num_channels(HIT_CHANNELS + LANES * len(ROLL_SPEEDS) + 1)
         channels = [pygame.mixer.Channel(number) for number in range(pygame.mixer.get_num_channels())]
         self._free = channels[:HIT_CHANNELS]
         self._busy: deque[pygame.mixer.Channel] = deque()  # oldest first
         self._fading: list[pygame.mixer.Channel] = []
-        self._roll = channels[HIT_CHANNELS:]
+        self._roll = channels[HIT_CHANNELS:-1]
+        self._music = channels[-1]
         self._rolling: dict[int, tuple[float, float]] = {}
+        self._music_volume = -1.0
         self._sounds: dict[Key, pygame.mixer.Sound] = {}
         self._loops: list[pygame.mixer.Sound] = []
+        self._replaced: deque[object] = deque(maxlen=_KEPT_BANKS)  # banks
+        self._bars: list[MusicBar] = []  # that play, wait or did so just now
+        self._rest = pygame.mixer.Sound(buffer=bytes(4 * _REST))
 
     def _open(self) -> None:
         pygame.mixer.quit()  # it may have been opened with another rate
@@ -61,6 +74,7 @@ class Mixer:
 
     def load(self, bank: Bank) -> None:
         """Load the waves into the mixer; may be called from a thread."""
+        self._replaced.append((self._sounds, self._loops))
         loops = [_sound(loop) for loop in bank.loops]
         self._sounds = {key: _sound(wave) for key, wave in bank.waves.items()}
         self._loops = loops
@@ -72,7 +86,7 @@ class Mixer:
 
     @property
     def voices(self) -> int:
-        """The number of playing sounds, including rolling."""
+        """The number of playing sounds, including rolling, without the music."""
         return sum(channel.get_busy() for channel in [*self._busy, *self._fading, *self._roll])
 
     def play(self, note: Note, volume: float) -> None:
@@ -114,16 +128,61 @@ class Mixer:
             self._roll[number].fadeout(4 * _FADE)
         self._rolling = {}
 
+    # --- music ----------------------------------------------------------------------------------------
+
+    @staticmethod
+    def music_bar(samples: Samples) -> MusicBar:
+        """Make a bar of int16 `[sample, 2]`; may be called from a thread."""
+        return pygame.mixer.Sound(buffer=samples.tobytes())
+
+    @property
+    def music(self) -> MusicBar | None:
+        """The bar that plays now."""
+        return self._music.get_sound() if self._music.get_busy() else None
+
+    def play_music(self, bar: MusicBar) -> None:
+        """Play a bar now."""
+        self._bars.append(bar)
+        self._music.play(bar)
+        self._drop_bars()
+
+    def queue_music(self, bar: MusicBar) -> None:
+        """Play a bar when the present one ends, to the sample; it replaces another one that waits."""
+        self._bars.append(bar)
+        self._music.queue(bar)
+        self._drop_bars()
+
+    def _drop_bars(self) -> None:
+        """Let go of the bars that the mixer has let go of."""
+        had = (self._music.get_sound(), self._music.get_queue())
+        self._bars = [bar for bar in self._bars if any(bar is one for one in had)]
+
+    def set_music_volume(self, volume: float) -> None:
+        """Set the strength of the music, 0 to 1."""
+        if abs(volume - self._music_volume) >= MUSIC_STEP:
+            self._music.set_volume(volume)
+            self._music_volume = volume
+
+    def stop_music(self, milliseconds: int) -> None:
+        """Fade out the music and forget the bar that waits."""
+        if self._music.get_queue() is not None:
+            self._music.queue(self._rest)  # a channel that has faded out begins what waits
+        self._music.fadeout(milliseconds)
+
     def fade_all(self) -> None:
-        """Fade out all sounds."""
+        """Fade out all sounds but the music."""
         self.fade_rolling()
         for channel in self._busy:
             channel.fadeout(2 * _FADE)
 
     def close(self) -> None:
         """Close the device."""
-        self._sounds, self._loops = {}, []
+        if pygame.mixer.get_init() is not None:
+            for _ in range(2):  # a bar that waits begins when the one before it stops
+                pygame.mixer.stop()
         pygame.mixer.quit()
+        self._sounds, self._loops, self._bars = {}, [], []
+        self._replaced.clear()
 
     def _tidy(self) -> None:
         """Collect free channels; if there are few, fade out the oldest sounds."""

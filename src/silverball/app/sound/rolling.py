@@ -44,7 +44,7 @@ def roll_spectrum(pitch: float) -> Callable[[Wave], Wave]:
         octaves = np.log2(np.maximum(pitches, 1.0) / pitch)
         hump = np.exp(-0.5 * (octaves / 0.16) ** 2)
         wood = 0.22 * np.exp(-0.5 * ((octaves - math.log2(2.756)) / 0.3) ** 2)
-        hiss = 0.02 * np.exp(-0.5 * (np.log2(np.maximum(pitches, 1.0) / (8.0 * pitch)) / 0.8) ** 2)
+        hiss = 0.02 * np.exp(-0.5 * (np.log2(np.maximum(pitches, 1.0) / (10.0 * pitch)) / 0.95) ** 2)
         return hump + wood + hiss
 
     return strength

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from silverball.app.settings import Settings
 from silverball.app.sound.bank import make_bank
+from silverball.app.sound.calls import CALLS, seconds_of
+from silverball.app.sound.ducking import ROLL_UNDER_MUSIC, Ducker
+from silverball.app.sound.moods import MoodReader
+from silverball.app.sound.music import band_of
+from silverball.app.sound.music_player import MusicPlayer
+from silverball.app.sound.music_track import STOP_SECONDS
 from silverball.app.sound.rolling import Rolling
+from silverball.app.sound.sound_sets import SoundSet, sound_set
 from silverball.app.sound.voices import Note, Voices
+from silverball.background_thread import BackgroundThread
 
 if TYPE_CHECKING:
     from silverball.app.sound.mixer import Mixer
+    from silverball.app.sound.music import Mood
+    from silverball.game.core import GameCore
     from silverball.game.view import GameEvent
     from silverball.table import Table
     from silverball.world import Event
@@ -23,13 +33,18 @@ def master_volume(settings: Settings) -> float:
     return 0.0 if settings.muted else (settings.volume / 10.0) ** 1.6
 
 
+def music_volume(settings: Settings) -> float:
+    """Return the strength of the music before that of all sounds, 0 to 1, by the same curve."""
+    return float((settings.music / 10.0) ** 1.6)
+
+
 class Sounds:
     """The sounds of a window; silent until `open`, and without a sound device.
 
-    In each frame call `play_game_events`, `play_events`, `set_buttons`, then `set_rolling`.
+    In each frame call `play_game_events`, `play_events`, `set_buttons`, `set_rolling`, then `follow`.
 
     Args:
-        settings: Settings with the volume and mute.
+        settings: Settings with the volumes, mute, and the theme, which has a sound set of its own.
 
     Attributes:
         warning: Why there is no sound, in one sentence; empty if there is.
@@ -37,11 +52,16 @@ class Sounds:
 
     def __init__(self, settings: Settings) -> None:
         self.warning = ""
-        self._volume = master_volume(settings)
+        self._volume, self._music_volume = master_volume(settings), music_volume(settings)
+        self._set: SoundSet = sound_set(settings.theme)
         self._voices = Voices()
         self._rolling = Rolling()
+        self._ducker = Ducker()
+        self._music = MusicPlayer()
+        self._moods: MoodReader | None = None
+        self._table: Table | None = None
         self._mixer: Mixer | None = None
-        self._maker: threading.Thread | None = None
+        self._maker: BackgroundThread | None = None
         self._is_paused = False
 
     # --- life cycle -----------------------------------------------------------------------------------
@@ -58,21 +78,27 @@ class Sounds:
         except Exception as error:  # no error of the sound system may stop the game
             self.warning = f"no sound: no audio device could be opened ({error})"
             return
-        self._maker = threading.Thread(
-            target=self._load, args=[self._mixer], name="silverball sounds", daemon=True
-        )
+        self._start_loading(self._mixer)
+
+    def _start_loading(self, mixer: Mixer) -> None:
+        """Make the sounds of the set in a thread; until they are ready, those of the last one play."""
+        before = self._maker
+        self._maker = BackgroundThread(partial(self._load, mixer, self._set, before), "sounds")
         self._maker.start()
 
-    def _load(self, mixer: Mixer) -> None:
+    def _load(self, mixer: Mixer, sounds: SoundSet, before: BackgroundThread | None) -> None:
+        if before is not None:
+            before.join()
         try:
-            mixer.load(make_bank())
+            mixer.load(make_bank(sounds))
         except Exception as error:
             self.warning = f"no sound: the sounds could not be made ({error})"
 
     def wait(self) -> None:
-        """Wait until the sounds are made."""
+        """Wait until the sounds, and the next bar of the music, are made."""
         if self._maker is not None:
             self._maker.join()
+        self._music.wait()
 
     def close(self) -> None:
         """Stop all sounds and close the device."""
@@ -87,19 +113,60 @@ class Sounds:
         return 0 if self._mixer is None else self._mixer.voices
 
     def apply_settings(self, settings: Settings) -> None:
-        """Set the volume; muting fades out all sounds."""
-        self._volume = master_volume(settings)
+        """Set the volumes and the sound set of the theme; muting fades out all sounds."""
+        self._volume, self._music_volume = master_volume(settings), music_volume(settings)
         if self._volume == 0.0:
             self._try(lambda mixer: mixer.fade_all())
+        if self._volume * self._music_volume == 0.0:
+            self._end_music()
+        if sound_set(settings.theme) != self._set:
+            self._set = sound_set(settings.theme)
+            self._end_music()
+            self._choose_band()
+            if self._mixer is not None:
+                self._start_loading(self._mixer)
 
     # --- events ---------------------------------------------------------------------------------------
 
     def begin_game(self, table: Table) -> None:
-        """Begin another game on a table; the timing of the paddles' stops depends on it."""
+        """Begin another game on a table; its music and the timing of the paddles' stops depend on it."""
         self._voices.begin_game(table)
         self._end_rolling()
+        self._end_music()
+        self._ducker.reset()
+        self._table, self._moods = table, MoodReader(table)
+        self._choose_band()
 
-    def play_game_events(self, events: Iterable[GameEvent]) -> None:
+    def _choose_band(self) -> None:
+        table, sounds = self._table, self._set
+        if table is not None:
+            self._music.begin(lambda: band_of(table, sounds))
+
+    def follow(self, game: GameCore, seconds: float) -> None:
+        """Let the music follow a game, some seconds after the last call."""
+        ducked = self._ducker.update(seconds)
+        if self._moods is None or self._is_paused:
+            return
+        mood = self._moods.read(game, seconds)
+        volume = self._volume * self._music_volume
+        if mood is None or volume == 0.0:
+            self._end_music()
+            return
+        self._try(lambda mixer: self._play_music(mixer, mood, volume * ducked))
+
+    def _play_music(self, mixer: Mixer, mood: Mood, volume: float) -> None:
+        mixer.set_music_volume(volume)
+        self._music.update(mixer, mood)
+
+    @property
+    def mood(self) -> Mood | None:
+        """The mood of the music that plays; None: there is none."""
+        return self._music.mood
+
+    def _end_music(self) -> None:
+        self._try(lambda mixer: self._music.stop(mixer, round(1000 * STOP_SECONDS)))
+
+    def play_game_events(self, events: Sequence[GameEvent]) -> None:
         """Play events of the game; call it before `play_events`, so that bells know the hits in a row."""
         self._play(self._voices.game_events(events))
 
@@ -118,16 +185,18 @@ class Sounds:
             return
         self._play(self._voices.advance(dt))
         gains = self._rolling.update(balls, dt, width)
-        self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, self._volume))
+        strength = self._volume * self._ducker.gain * (ROLL_UNDER_MUSIC if self._music.is_playing else 1.0)
+        self._try(lambda mixer: mixer.roll(gains if self._volume > 0.0 else {}, strength))
 
     def play_menu(self, name: str) -> None:
         """Play a menu sound: "move", "choose", "back", "refuse", "high_score" or "attract"."""
         self._play(self._voices.menu(name))
 
     def pause(self) -> None:
-        """Pause: rolling fades, hits ring out, menus stay audible."""
+        """Pause: rolling and music fade, hits ring out, menus stay audible."""
         self._is_paused = True
         self._end_rolling()
+        self._end_music()
 
     def resume(self) -> None:
         """Continue after a pause."""
@@ -141,6 +210,8 @@ class Sounds:
         def play(mixer: Mixer) -> None:
             for note in notes:
                 mixer.play(note, self._volume)
+                if note.key.name in CALLS:
+                    self._ducker.call(seconds_of(note.key.name))
 
         if notes:
             self._try(play)

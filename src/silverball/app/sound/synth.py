@@ -48,6 +48,9 @@ Wave: TypeAlias = NDArray[np.floating[Any]]
 
 FADE_IN = 0.0004  # [s] at the start of every sound: a shorter fade clicks; a longer one dulls the attack
 FADE_OUT = 0.012  # [s] at its end
+EDGE_LOW, EDGE_HIGH = 2_200.0, 6_000.0  # [Hz] band of the click of a blow; it falls off by 12 dB per octave
+EDGE_RISE = 0.0003  # [s]
+STEEL = (2_780.0, 4_350.0, 6_910.0)  # [Hz] small steel parts: coil plungers, brackets, plates; chosen
 DECAY_FLOOR = -80.0  # [dB] below which a decay is cut off
 _BLOCK = 256  # samples of decaying tones computed at once
 _EDGE = 480  # samples in which a layer of a mix fades out
@@ -146,6 +149,22 @@ def puff(
     """Return a burst of noise that rises in `rise` [s] and falls by 60 dB in `decay` [s]."""
     time = np.arange(sample_count(seconds), dtype=np.float32) / RATE
     return noise(seconds, low, high, random) * np.minimum(time / rise, 1.0) * _fall(time, decay)
+
+
+def edge(decay: float, random: np.random.Generator) -> Wave:
+    """Return the bright edge of a blow, 2 to 10 kHz: the click of hard surfaces and a trace of ringing steel.
+
+    Args:
+        decay: Time in which it falls by 60 dB [s]; 10 ms for wood, 60 ms for free steel.
+        random: Draws the noise, and the pitches of the steel around those of `STEEL`.
+    """
+    seconds = 1.2 * decay
+    click = puff(seconds, EDGE_LOW, EDGE_HIGH, decay, random, rise=EDGE_RISE)
+    steel = [
+        Partial(pitch * random.uniform(0.96, 1.04), 0.5, 1.5 * decay * (STEEL[0] / pitch) ** 0.5)
+        for pitch in STEEL
+    ]
+    return as_float32(click + ring(steel, seconds))
 
 
 def glide(

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from silverball.app.sound import part_sounds
 from silverball.app.sound.bank import RECIPES, Key
+from silverball.app.sound.calls import CALLS, call_of_cue, seconds_of
 from silverball.app.sound.levels import pan, strength_of
+from silverball.app.sound.moods import missions_of
 from silverball.app.sound.synth import BELL_STEPS, SCALE
 from silverball.game.mechanisms import primitives_by_part
 from silverball.game.view import GameEvent, GameEventKind
@@ -47,13 +49,19 @@ SIDES = {"left": -1.0, "right": 1.0}
 _RATTLE_DECAY = 0.25  # [s] time constant of a ball's hit count
 _RATTLE_LIMIT = 3.0  # decayed hit count above which a ball gets softer
 
-_GAME_SOUNDS = {
+EAR_PLACE = pan(0.0, 1.0)  # of what has no place on the table
+GAME_SOUNDS = {
     GameEventKind.BALL_SAVED: "ball_saved",
     GameEventKind.WARNING: "warning",
     GameEventKind.TILT: "tilt",
     GameEventKind.UNSTUCK: "unstuck",
     GameEventKind.DOUBLE_ON: "double_on",
     GameEventKind.OVER: "game_over",
+}
+GAME_CALLS = {
+    GameEventKind.EXTRA_BALL: "extra_ball",
+    GameEventKind.MULTIBALL: "multiball",
+    GameEventKind.BALL_LOCKED: "lock",
 }
 MENU = {
     "move": "menu_move",
@@ -100,6 +108,8 @@ class Voices:
         self._run, self._run_time = 0, -math.inf
         self._combos: dict[int, int] = {}  # tick → hits in a row, from the game
         self._is_tilted = False
+        self._missions = frozenset(() if table is None else missions_of(table))
+        self._call_rank, self._call_left = 0, 0.0  # of the call that sounds, and how long it still does [s]
 
     # --- events of the board ------------------------------------------------------------------------
 
@@ -187,7 +197,7 @@ class Voices:
 
     # --- events of the game and the menus -----------------------------------------------------------
 
-    def game_events(self, events: Iterable[GameEvent]) -> list[Note]:
+    def game_events(self, events: Sequence[GameEvent]) -> list[Note]:
         """Return the notes of game events; combos are remembered for the bells of the same ticks."""
         notes = []
         for event in events:
@@ -197,13 +207,29 @@ class Voices:
                 self._is_tilted = True
             elif event.kind in (GameEventKind.BALL_READY, GameEventKind.OVER):
                 self._is_tilted = False
-            if event.kind in _GAME_SOUNDS:
-                notes.append(self._note(_GAME_SOUNDS[event.kind], 0, 1.0, pan(0.0, 1.0)))
-        return notes
+            if event.kind in GAME_SOUNDS:
+                notes.append(self._note(GAME_SOUNDS[event.kind], 0, 1.0, EAR_PLACE))
+        return notes + self._calls(events)
+
+    def _calls(self, events: Sequence[GameEvent]) -> list[Note]:
+        """Return the note of the call of the highest rank, unless one of a higher rank still sounds."""
+        names = [name for event in events if (name := self._call_of(event))]
+        name = max(names, key=lambda one: CALLS[one].rank, default="")
+        if not name or (self._call_left > 0.0 and CALLS[name].rank < self._call_rank):
+            return []
+        self._call_rank, self._call_left = CALLS[name].rank, seconds_of(name)
+        return [self._note(name, 0, 1.0, EAR_PLACE)]
+
+    def _call_of(self, event: GameEvent) -> str:
+        if event.kind is GameEventKind.CUE:
+            return call_of_cue(event.part)
+        if event.kind is GameEventKind.MODE_STARTED:
+            return "mission_start" if event.part in self._missions else ""
+        return GAME_CALLS.get(event.kind, "")
 
     def menu(self, name: str) -> list[Note]:
         """Return the note of a menu sound, a key of `MENU`; other names are silent."""
-        return [self._note(MENU[name], 0, 1.0, pan(0.0, 1.0))] if name in MENU else []
+        return [self._note(MENU[name], 0, 1.0, EAR_PLACE)] if name in MENU else []
 
     # --- the paddles --------------------------------------------------------------------------------
 
@@ -228,6 +254,7 @@ class Voices:
 
     def advance(self, seconds: float) -> list[Note]:
         """Return the notes of some seconds: paddles that reach their stops, more softly on their return."""
+        self._call_left = max(self._call_left - seconds, 0.0)
         notes = []
         for paddle in self._paddles:
             ago = paddle.move(seconds)

@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from silverball.world.threads import cores
 
-CLASSIC, RANDOM, PIXELS = (
+CLASSIC, RANDOM, PIXELS, MISSIONS = (
     "silverball/PinballClassic-v0",
     "silverball/Pinball-v0",
     "silverball/PinballPixels-v0",
+    "silverball/PinballMissions-v1",
 )
 FEW, MANY = 2048, 8192  # environments with state observations: their records fit the cache, or do not
 FEW_PICTURED, MANY_PICTURED = 256, 1024  # environments with pictures: the same
@@ -61,6 +62,7 @@ def candidates() -> list[Candidate]:
         Candidate("one, through gymnasium.make", lambda: _one(CLASSIC)),
         Candidate("one, steps of 4 frames", lambda: _one(CLASSIC, frame_skip=4)),
         *(_states(count, **options) for count, options in STATES),
+        *(_games(count, **options) for count, options in GAMES),
         *(_pictures(stack, count, **options) for stack, count, options in PICTURES),
         Candidate("save_state", _saving, "", unit="µs"),
         Candidate("restore_state", _restoring, "", unit="µs"),
@@ -74,6 +76,13 @@ STATES: list[tuple[int, dict[str, Any]]] = [
     (FEW, {"frame_skip": 4}),
     (MANY, {}),
     (MANY, {"zero_copy": True}),
+]
+GAMES: list[tuple[int, dict[str, Any]]] = [
+    (1, {"rules": False}),
+    (1, {}),
+    (FEW, {"threads": 1, "rules": False}),
+    (FEW, {"threads": 1}),
+    (FEW, {}),
 ]
 PICTURES: list[tuple[int, int, dict[str, Any]]] = [
     (1, MANY_PICTURED, {}),
@@ -90,6 +99,14 @@ def _states(count: int, **options: Any) -> Candidate:
         f"state, {count} environments{_suffix(options)}",
         lambda: _many(RANDOM, count, boards=BOARDS, **options),
     )
+
+
+def _games(count: int, **options: Any) -> Candidate:
+    what = "silver_comet, " + ("hits only" if "rules" in options else "games by its rules")
+    if count == 1:
+        return Candidate(f"{what}, one", lambda: _one(MISSIONS, **options))
+    threads = ", one thread" if "threads" in options else ""
+    return Candidate(f"{what}, {count} environments{threads}", lambda: _many(MISSIONS, count, **options))
 
 
 def _pictures(stack: int, count: int, **options: Any) -> Candidate:

@@ -48,7 +48,8 @@ def playfield_paint(s: StageRecord, inks: Inks, x: float, z: float, pixel: float
     paint, light = _pinstripes(s, inks, x, z, pixel, paint, light)
     if rho < 3.2 * size:
         paint, light = _emblem(s, inks, rho, angle, size, pixel, paint, light)
-    paint, light = _arrows(s, inks, from_x, abs(z), size, pixel, paint, light)
+    if s.has_lamps == 0:
+        paint, light = _arrows(s, inks, from_x, abs(z), size, pixel, paint, light)
     return paint, light
 
 
@@ -165,8 +166,10 @@ def _pinstripes(
 def _emblem(
     s: StageRecord, inks: Inks, rho: float, angle: float, size: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
-    """A faceted star in two rings, and a ring of inserts around it."""
+    """A faceted star in two rings, and a ring of painted inserts around it where no real ones are."""
     shine = 0.0 if s.art == Art.PLAIN else (1.0 if s.art == Art.COSMOS else 0.25)
+    if s.has_lamps != 0:
+        shine *= 0.3  # paint, which must not be taken for something lit
     one, two = ink(inks, Ink.ORNAMENT), ink(inks, Ink.ORNAMENT_2)
     disc = coverage(rho - 1.30 * size, pixel)
     paint = mix(paint, scale(paint, 0.35), 0.75 * disc)
@@ -179,7 +182,9 @@ def _emblem(
     paint = mix(paint, two, 0.9 * line)
     light = add_scaled(light, two, shine * (0.5 * line + 0.10 * exp(-abs(rho - 1.14 * size) / (0.10 * size))))
     paint, light = _star(inks, rho, angle, size, pixel, shine, paint, light)
-    # Inserts: twelve round lenses, every third one larger; all computed as one by folding the angle.
+    if s.has_lamps != 0:
+        return paint, light
+    # Painted inserts: twelve round lenses, every third one larger; all computed as one by folding the angle.
     step = 2.0 * pi / 12.0
     number = int((angle + pi) / step)
     turned = angle + pi - (number + 0.5) * step
@@ -239,7 +244,7 @@ def _lens(
 def _arrows(
     s: StageRecord, inks: Inks, from_x: float, z: float, size: float, pixel: float, paint: RGB, light: RGB
 ) -> tuple[RGB, RGB]:
-    """Rows of arrow inserts that point up the table: three between paddles and emblem, two above."""
+    """Rows of painted arrows that point up the table: three between paddles and emblem, two above."""
     shine = 0.0 if s.art == Art.PLAIN else (1.0 if s.art == Art.COSMOS else 0.25)
     for row in range(3):
         if row == 0:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from silverball.drawing.kernels.inserts import insert_light
 from silverball.drawing.kernels.march import trace
 from silverball.drawing.kernels.shade import part_glow, radiance
 from silverball.drawing.kernels.solids import cell_at
@@ -140,12 +141,34 @@ def _place_in_pixel(ray: int, rays: int) -> tuple[float, float]:
     return 0.125, 0.375
 
 
+@inlined
+def _is_lit_by(scene: Scene, solid: int, x: float, z: float) -> bool:
+    """Whether a solid is among those that light up the surroundings of (x, z)."""
+    cell = cell_at(scene.stage[0], x, z)
+    is_near = False
+    for place in range(scene.lit[cell], scene.lit[cell + 1]):
+        is_near = is_near or scene.lit[place] == solid
+    return is_near
+
+
 @kernel
-def bake_flash(
-    scene: Scene, canvas: Canvas, index: int, left: int, top: int, patch: Pixels, first: int, end: int
+def bake_light(
+    scene: Scene, canvas: Canvas, source: int, left: int, top: int, patch: Pixels, first: int, end: int
 ) -> None:
-    """Compute the light that a hit of one solid adds: uint8 [row, column, 3], from (left, top) on."""
+    """Compute the light that a hit of a solid adds, or a lit lamp: one kernel, to compile surfaces once.
+
+    Args:
+        scene: The table.
+        canvas: It, baked.
+        source: The number of the solid; those of inserts follow.
+        left: First column of the picture of light.
+        top: Its first row.
+        patch: Receives the light, uint8 [row, column, 3].
+        first: The first row to compute.
+        end: The row after the last.
+    """
     s = scene.stage[0]
+    strength = s.exposure if source >= len(scene.solids) else FLASH * s.exposure
     for i in range(first, end):
         for j in range(patch.shape[1]):
             row, column = top + i, left + j
@@ -155,20 +178,19 @@ def bake_flash(
             dx, dy, dz = _ray_direction(s, column + 0.5, row + 0.5)
             t = (canvas.height[row, column] - s.eye_y) / dy
             x, y, z = s.eye_x + t * dx, canvas.height[row, column], t * dz
-            near = False
-            cell = cell_at(s, x, z)
-            for place in range(scene.lit[cell], scene.lit[cell + 1]):
-                near = near or scene.lit[place] == index
-            if not near:
+            if source < len(scene.solids) and not _is_lit_by(scene, source, x, z):
                 continue
             f = surface_of(scene, part, x, y, z, t / s.focal)
-            if part == index:
+            if source >= len(scene.solids):
+                insert = source - len(scene.solids)
+                glow = insert_light(scene, insert, part, (x, y, z), (f.nx, f.ny, f.nz), f.paint)
+            elif part == source:
                 glow = f.light
-                if scene.solids[index].material == Material.BUMPER:
+                if scene.solids[source].material == Material.BUMPER:
                     glow = add_scaled(glow, f.paint, 0.25)
             else:
-                glow = part_glow(scene, index, part, f, x, y, z)
+                glow = part_glow(scene, source, part, f, x, y, z)
             for channel in range(3):
                 light = canvas.light[row, column, channel]
-                more = tone_map(light + FLASH * s.exposure * glow[channel]) - tone_map(light)
+                more = tone_map(light + strength * glow[channel]) - tone_map(light)
                 patch[i, j, channel] = int(255.0 * min(max(more, 0.0), 1.0))

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from math import sqrt
 
-from silverball.drawing.kernels.stage import Box, Heights, Pixels, Records, Spots, StageRecord
+from silverball.drawing.kernels.stage import Box, Boxes, Cells, Heights, Pixels, Records, Spots, StageRecord
 from silverball.physics.kernel import inlined, kernel
+
+TILE = 32  # [pixel] side of the squares of a picture that lamps light anew
 
 
 @kernel
@@ -60,6 +62,59 @@ def add_light(rows: Pixels, left: int, top: int, patch: Pixels, strength: int) -
         line, more = rows[top + i], patch[i]
         for j in range(patch.shape[1]):
             line[3 * left + j] = min(line[3 * left + j] + (more[j] * strength >> 8), 255)
+
+
+@kernel
+def relight(
+    still: Pixels, lit: Pixels, tiles: Cells, boxes: Boxes, light: Pixels, levels: Boxes, changed: Pixels
+) -> None:
+    """Light the tiles of a picture anew whose lamps have changed.
+
+    Args:
+        still: The picture without lamps, uint8 [row, 3 · column].
+        lit: The same with lamps.
+        tiles: The lamps that shine on each tile, as `list_cells` lists solids.
+        boxes: First column, first row, rows and columns of each lamp's light, and where it begins in
+            `light`, int64 [lamp, 5].
+        light: The light of all lamps, one picture after the other, uint8.
+        levels: How bright each lamp was and is, 0 to 256, int64 [2, lamp].
+        changed: Receives whether each tile was lit anew, uint8 [tile row, tile column].
+    """
+    rows, columns = changed.shape
+    for tile in range(rows * columns):
+        first, end = tiles[tile], tiles[tile + 1]
+        is_new = False
+        for place in range(first, end):
+            is_new = is_new or levels[0, tiles[place]] != levels[1, tiles[place]]
+        top, left = tile // columns * TILE, tile % columns * TILE
+        changed[tile // columns, tile % columns] = is_new
+        if not is_new:
+            continue
+        bottom, right = min(top + TILE, still.shape[0]), min(left + TILE, still.shape[1] // 3)
+        for row in range(top, bottom):
+            old, line = still[row, 3 * left : 3 * right], lit[row, 3 * left : 3 * right]
+            for j in range(len(line)):  # from 0 on: indices that may be negative are not vectorised
+                line[j] = old[j]
+        for place in range(first, end):
+            lamp = tiles[place]
+            if levels[1, lamp] > 0:
+                _add_lamp(lit, boxes, light, lamp, levels[1, lamp], (left, top, right, bottom))
+
+
+@inlined
+def _add_lamp(lit: Pixels, boxes: Boxes, light: Pixels, lamp: int, level: int, tile: Box) -> None:
+    """Add the light of a lamp at a level to a tile."""
+    left, top, rows, columns, start = (
+        boxes[lamp, 0], boxes[lamp, 1], boxes[lamp, 2], boxes[lamp, 3], boxes[lamp, 4],
+    )  # fmt: skip
+    first, end = max(left, tile[0]), min(left + columns, tile[2])
+    if first >= end:
+        return
+    for row in range(max(top, tile[1]), min(top + rows, tile[3])):
+        line = lit[row, 3 * first : 3 * end]
+        more = light[start + 3 * ((row - top) * columns + first - left) :]
+        for j in range(len(line)):
+            line[j] = min(line[j] + (more[j] * level >> 8), 255)
 
 
 @kernel

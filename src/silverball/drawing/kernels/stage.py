@@ -26,12 +26,14 @@ Box: TypeAlias = tuple[int, int, int, int]
 # Arguments of kernels, whose types Numba checks; to mypy they are Any.
 StageRecord: TypeAlias = Any  # a STAGE record
 SolidRecord: TypeAlias = Any  # a SOLID record
+InsertRecord: TypeAlias = Any  # an INSERT record
 Records: TypeAlias = Any  # an array of records, shape [solid], or [1] for a stage
 Corners: TypeAlias = Any  # corners of polygons (x, z) [u], float64 [corner, 2]
 Inks: TypeAlias = Any  # linear colours, float64 [Ink, 3]
 Pixels: TypeAlias = Any  # RGB, uint8 or float32 [row, column, 3]
 Heights: TypeAlias = Any  # [u] above the playfield, float32 [row, column]
 Spots: TypeAlias = Any  # place, radius [u] and colour, float64 [spot, 7]
+Boxes: TypeAlias = Any  # numbers by lamp, int64, see `relight`
 Cells: TypeAlias = Any  # a grid of parts, int32, see `list_cells`
 
 FLOOR, RAIL, APRON, ROOM = -1, -2, -3, -4
@@ -77,6 +79,17 @@ class Material(IntEnum):
     PIT = 11  # a hole in the playfield with a steel rim
     BLADE = 12  # a plate with a coloured stripe on either side
     MOUTH = 13  # arrows in the playfield
+
+
+class Lens(IntEnum):
+    """The shape of an insert."""
+
+    ROUND = 0
+    SQUARE = 1
+    BAR = 2
+    TRIANGLE = 3
+    ARROW = 4
+    STAR = 5
 
 
 class Ink(IntEnum):
@@ -148,12 +161,25 @@ SOLID = np.dtype(
     align=True,
 )  # fmt: skip
 
+INSERT = np.dtype(
+    [
+        ("shape", "i8"),  # Lens
+        ("is_painted", "i8"),  # 0: another light of the lens before it
+        ("x", "f8"), ("z", "f8"), ("size", "f8"),  # [u] its middle and its radius
+        ("sine", "f8"), ("cosine", "f8"),  # where it points: x and z of a unit vector
+        ("red", "f8"), ("green", "f8"), ("blue", "f8"),
+    ],
+    align=True,
+)  # fmt: skip
+"""The lens of a lamp in the playfield, with the colour of its light."""
+
 STAGE = np.dtype(
     [
         ("half_length", "f8"), ("half_width", "f8"), ("thickness", "f8"), ("rail", "f8"),
         ("rail_height", "f8"), ("apron_height", "f8"), ("apron_top", "f8"), ("top", "f8"), ("unit", "f8"),
         ("near", "f8"),  # [u] solids farther away than this are not listed, for marching
         ("art", "i8"), ("frame", "i8"),
+        ("has_lamps", "i8"),  # whether lamps stand for the inserts that are else painted
         ("exposure", "f8"), ("key", "f8"), ("fill", "f8"), ("lacquer", "f8"), ("halo", "f8"),
         ("cap_ground", "f8"),
         ("light_x", "f8"), ("light_y", "f8"),
@@ -178,6 +204,7 @@ class Scene(NamedTuple):
         near: The grid of the solids to march in each cell, see `list_cells`.
         lit: The grid of the solids that light up a cell.
         label: Brightness of the lettering on the apron, float32 [row, column].
+        inserts: INSERT records, shape [light].
     """
 
     stage: NDArray[Any]
@@ -187,3 +214,4 @@ class Scene(NamedTuple):
     near: NDArray[np.int32]
     lit: NDArray[np.int32]
     label: NDArray[np.float32]
+    inserts: NDArray[Any]

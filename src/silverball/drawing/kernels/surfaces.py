@@ -6,6 +6,7 @@ from math import atan2, cos, exp, pi, sin, sqrt
 from typing import NamedTuple
 
 from silverball.drawing.kernels.art import playfield_paint
+from silverball.drawing.kernels.inserts import add_inserts
 from silverball.drawing.kernels.solids import (
     CAP_SHARE,
     apron_distance,
@@ -83,6 +84,7 @@ def surface_of(scene: Scene, part: int, x: float, y: float, z: float, pixel: flo
     s = scene.stage[0]
     if part == FLOOR:
         paint, light = playfield_paint(s, scene.inks, x, z, pixel)
+        paint, light = add_inserts(scene, x, z, pixel, paint, light)
         return Surface(0.0, 1.0, 0.0, paint, light, 0.04, 0.0)
     nx, ny, nz = _normal(scene, part, x, y, z)
     hit = Hit(x, y, z, nx, ny, nz, pixel)

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from silverball.physics import PHYSICS_VERSION
-from silverball.physics.records import LEFT, PADDLE, PLAIN_WORLD, WORLD, Part
+from silverball.physics.records import LEFT, PADDLE, PLAIN_WORLD, STILL_WORLD, WORLD, Part
+from silverball.world.saved_world import CABINET, world_bytes
 
 if TYPE_CHECKING:
     from silverball.world import World
@@ -85,7 +86,7 @@ def record_bytes(world: World, physics: int) -> bytes:
     """
     record, board, colliders = world.records
     if physics == PHYSICS_VERSION:
-        return bytes(record.tobytes())
+        return world_bytes(record)
     then = np.zeros((), _WORLD_3)
     for name in _WORLD_3["ball"].base.names or ():
         then["ball"][name] = record["ball"][name][:2]
@@ -99,9 +100,9 @@ def record_bytes(world: World, physics: int) -> bytes:
     return bytes(then.tobytes())
 
 
-def _spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:
+def group_spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:
     """The first byte and the end of every field of each group but the last, in the order of the layout."""
-    groups = (("paddle",), ("seed", "draws"), ("ball",), (), ("score",))
+    groups = (("paddle", *CABINET), ("seed", "draws"), ("ball",), (), ("score",))
     named = {name for group in groups for name in group}
     assert layout.fields is not None, "a world record has fields"
     spans = {}
@@ -114,8 +115,10 @@ def _spans(layout: np.dtype[Any]) -> tuple[tuple[tuple[int, int], ...], ...]:
     )
 
 
-_SPANS = {layout.itemsize: _spans(layout) for layout in (WORLD, PLAIN_WORLD)}  # by the length of a record
-_SPANS_3 = _spans(_WORLD_3)
+_SPANS = {
+    layout.itemsize: group_spans(layout) for layout in (WORLD, STILL_WORLD, PLAIN_WORLD)
+}  # by the length of a record
+_SPANS_3 = group_spans(_WORLD_3)
 
 
 def differing_groups(expected: str, got: str) -> tuple[str, ...]:

@@ -12,7 +12,8 @@
     ...
     checksum = 0a1b...            of all text before this line
 
-Format 2 has one more line before the table, `own_rules = NAME`, for games with custom rules.
+Format 2 has one more line before the table, `own_rules = NAME`, for games with custom rules, and format 3
+`players = N`, for matches of several players.
 `reader` reads and checks untrusted text.
 """
 
@@ -28,13 +29,14 @@ from silverball.errors import OutputError, StateError
 from silverball.game.replay.reader import (
     END,
     PLAY,
+    PLAYERS_KEY,
     RULES_KEY,
     TABLE,
     TEXT_LIMIT,
     Reader,
     checksum,
 )
-from silverball.game.replay.recording import FIRST, FORMAT, FORMAT_WITH_RULES
+from silverball.game.replay.recording import FIRST, FORMAT, FORMAT_OF_MATCH, FORMAT_WITH_RULES
 from silverball.game.replay.verify import Verdict, verify
 from silverball.game.rules import RULES_VERSION
 from silverball.game.view import Mode
@@ -62,11 +64,12 @@ class Replay:
         lines: One line for every whole second: digests and inputs, see `recording`.
         tail: The inputs after the last whole second.
         ticks: The length of the game [ticks].
-        score: The points at the end.
+        score: The points at the end; in a match those of the best player.
         ended: "over", "stopped" (by the player), "running" (the game went on), or the name of a fault.
         digest: The digest of the whole state at the end.
         rules: The name of the rules that scored it; empty for the built-in rules of the mode.
         physics: The version of the physics that moved the balls, in whose layout the digests are.
+        players: How many players took turns.
 
     Examples:
         >>> import silverball as sb
@@ -91,6 +94,7 @@ class Replay:
     digest: str
     rules: str = ""
     physics: int = PHYSICS_VERSION
+    players: int = 1
 
     @classmethod
     def of(
@@ -104,13 +108,14 @@ class Replay:
         ended: str,
         digest: str,
         rules: str = "",
+        players: int = 1,
     ) -> Self:
         """The replay of a game; see the attributes for the arguments."""
         from silverball import __version__
 
         return cls(
             __version__, mode, world.table.resolved(), world.seed, world.tick_rate,
-            lines, tail, world.tick, score, ended, digest, rules,
+            lines, tail, world.tick, score, ended, digest, rules, players=players,
         )  # fmt: skip
 
     @property
@@ -120,12 +125,14 @@ class Replay:
 
     def to_text(self) -> str:
         """The replay as text, for `from_text`."""
-        form = FORMAT_WITH_RULES if self.rules else FORMAT
+        form = FORMAT_WITH_RULES if self.rules else FORMAT if self.players == 1 else FORMAT_OF_MATCH
         head = [f"{FIRST} {form}", f"program = {self.program}", f"physics = {self.physics}"]
         head += [f"rules = {RULES_VERSION}", f"mode = {self.mode}", f"seed = {self.seed}"]
         head += [f"tick_rate = {self.tick_rate}", f"table = {table_digest(self.table)}"]
         if self.rules:
             head.append(f"{RULES_KEY} = {self.rules}")
+        if form == FORMAT_OF_MATCH:
+            head.append(f"{PLAYERS_KEY} = {self.players}")
         play = [*self.lines]
         if self.tail or self.ticks % self.tick_rate:
             play.append(f"= {self.tail}" if self.tail else "=")

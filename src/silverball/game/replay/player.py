@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 
 from silverball.errors import SilverballError, StateError
 from silverball.game.core import GameCore
-from silverball.game.replay.recording import BALL, LAUNCH, LEFT, RIGHT, Input, parse_inputs
+from silverball.game.replay.recording import BALL, LAUNCH, LEFT, NUDGES, RIGHT, SHOVE, Input, parse_inputs
 
 if TYPE_CHECKING:
     from silverball.game.replay.format import Replay
     from silverball.game.rules import Rules
 
 SNAPSHOT_SECONDS = 2  # [s] of play between snapshots: replaying it takes a few ms, an hour needs 3 MB
+
+DIRECTIONS = {kind: direction for direction, kind in NUDGES.items()}
 
 
 class InputRefusedError(SilverballError):
@@ -44,7 +46,9 @@ class Playback:
     def __init__(self, replay: Replay, rules: Rules | None = None) -> None:
         check_rules(replay, rules)
         self.replay = replay
-        self.game = GameCore(replay.table, replay.seed, replay.mode, replay.tick_rate, rules=rules)
+        self.game = GameCore(
+            replay.table, replay.seed, replay.mode, replay.tick_rate, rules=rules, players=replay.players
+        )
         self.at_end = False
         self._held, self._is_launch_held = (False, False), False
         self._second = -1  # the one that the inputs below belong to
@@ -112,7 +116,9 @@ class Playback:
         try:
             if kind == BALL:
                 self.game.create_ball()
-            elif not self.game.jitter():
+            elif kind != SHOVE and not self.game.world.has_nudge:
+                raise SilverballError("the table cannot be nudged")
+            elif not self.game.nudge(DIRECTIONS[kind]):
                 raise SilverballError("the table is tilted, or was shoved already")
         except SilverballError as error:
             raise InputRefusedError(f"tick {self.tick}: {what} was recorded, but {error}") from None

@@ -17,10 +17,12 @@ from typing import Any, NamedTuple, NoReturn
 from pydantic import ValidationError
 
 from silverball.errors import StateError
+from silverball.game.match import MAX_PLAYERS
 from silverball.game.replay.digest import OLDEST_PHYSICS
 from silverball.game.replay.recording import (
     FIRST,
     FORMAT,
+    FORMAT_OF_MATCH,
     FORMAT_WITH_RULES,
     LINE,
     MAX_TICK_RATE,
@@ -39,12 +41,14 @@ from silverball.table import Table, table_digest
 from silverball.table.explain import explain
 from silverball.table.file import SIZE_LIMIT as TABLE_LIMIT
 
-FORMATS = (FORMAT, FORMAT_WITH_RULES)
+FORMATS = (FORMAT, FORMAT_WITH_RULES, FORMAT_OF_MATCH)
 TEXT_LIMIT = PLAY_LIMIT + TABLE_LIMIT + 10_000
 ENDINGS = ("running", "over", "stopped", *(fault.name.lower() for fault in Fault if fault))
 TABLE, PLAY, END = "--- table", "--- play", "--- end"
 HEADER_KEYS = ("program", "physics", "rules", "mode", "seed", "tick_rate", "table")
 RULES_KEY = "own_rules"
+PLAYERS_KEY = "players"
+MORE_KEYS = {FORMAT: (), FORMAT_WITH_RULES: (RULES_KEY,), FORMAT_OF_MATCH: (PLAYERS_KEY,)}
 HEADER_LINE = 2  # the first line of the header
 END_KEYS = ("ticks", "score", "ended", "digest", "checksum")
 COPY_AGAIN = "copy the file again from where it was written"
@@ -81,8 +85,7 @@ class Reader:
         form = self._checked_format()
         head, table, play, end = self._sections()
         self._check_checksum(end)
-        keys = HEADER_KEYS if form == FORMAT else (*HEADER_KEYS, RULES_KEY)
-        values = self._values(head, keys)
+        values = self._values(head, (*HEADER_KEYS, *MORE_KEYS[form]))
         physics = self._integer(head, 1, values[1], OLDEST_PHYSICS, PHYSICS_VERSION)
         self._integer(head, 2, values[2], RULES_VERSION, RULES_VERSION)
         mode = self._choice(head, 3, values[3], tuple(Mode))
@@ -100,7 +103,8 @@ class Reader:
                 table.first, f"expected a table of format 1 with physics {physics}, got {board.format}"
             )
         program = plain(values[0][:40])
-        rules = "" if form == FORMAT else self._own_rules(head, 7, values[7])
+        rules = self._own_rules(head, 7, values[7]) if form == FORMAT_WITH_RULES else ""
+        players = self._players(head, 7, values[7], mode) if form == FORMAT_OF_MATCH else 1
         fields = (
             program,
             Mode(mode),
@@ -115,6 +119,7 @@ class Reader:
             digest,
             rules,
             physics,
+            players,
         )
         return fields
 
@@ -216,6 +221,11 @@ class Reader:
             expected = f"the name of rules, 1 to {NAME_LIMIT} printable characters that are not a mode"
             self.refuse(part.first + number, f"expected {expected}, got {_shown(value)}")
         return value
+
+    def _players(self, part: _Section, number: int, value: str, mode: str) -> int:
+        if mode != Mode.ARCADE:
+            self.refuse(part.first + number, f"expected one player in {mode} play, got {_shown(value)}")
+        return self._integer(part, number, value, 2, MAX_PLAYERS)
 
     def _play(self, part: _Section, ticks: int, rate: int) -> tuple[tuple[str, ...], str]:
         """The lines of the whole seconds, and the inputs after them."""

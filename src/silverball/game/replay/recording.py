@@ -6,8 +6,9 @@ A line begins with the digests of the state at the end of the second, two charac
 (see `digest`). The inputs of the second follow, if there are any. A letter is a change of a button, down and
 up in turn: lower case for the left button, upper case for the right one. The letter also gives the ticks
 since the previous input: a is 0, b is 1, … z is 25; a number in front of it adds 26 each. The first input
-counts from the beginning of the second. `+` before a lower-case letter is a new ball, `!` a shove, and `^` a
-change of the launch button, down and up in turn.
+counts from the beginning of the second. `+` before a lower-case letter is a new ball, `!` a shove (on a
+table with `nudge` one up), `(` and `)` a nudge to the left and to the right, and `^` a change of the launch
+button, down and up in turn.
 """
 
 from __future__ import annotations
@@ -19,15 +20,19 @@ from typing import NamedTuple
 FIRST = "silverball replay"  # the first line of a replay, with the format
 FORMAT = 1
 FORMAT_WITH_RULES = 2  # with the name of custom rules in its header
+FORMAT_OF_MATCH = 3  # with the number of players in its header
 MIN_TICK_RATE, MAX_TICK_RATE = 10, 1000  # [1/s] limits for games: a recording counts ticks within a second
 PLAY_LIMIT = 4_000_000  # characters of all lines: a day of lively play, or hours of a program
 SECONDS_LIMIT = 86_400  # longest game
 LETTERS = 26
 LEFT, RIGHT, BALL, SHOVE, LAUNCH = "L", "R", "+", "!", "^"  # the kinds of input
-PREFIXES = {LEFT: "", RIGHT: "", BALL: "+", SHOVE: "!", LAUNCH: "^"}
-LINE = re.compile(r"([A-Za-z0-9_-]{12})(?: ((?:[+!^]?\d{0,4}[A-Za-z])+))?", re.ASCII)
-TAIL = re.compile(r"=(?: ((?:[+!^]?\d{0,4}[A-Za-z])+))?", re.ASCII)
-_TOKEN = re.compile(r"([+!^]?)(\d{0,4})([A-Za-z])", re.ASCII)
+NUDGES = {"left": "(", "right": ")", "up": SHOVE}
+"""The kind of input of a nudge, by its direction."""
+
+PREFIXES = {LEFT: "", RIGHT: ""} | {kind: kind for kind in (BALL, LAUNCH, *NUDGES.values())}
+LINE = re.compile(r"([A-Za-z0-9_-]{12})(?: ((?:[+!^()]?\d{0,4}[A-Za-z])+))?", re.ASCII)
+TAIL = re.compile(r"=(?: ((?:[+!^()]?\d{0,4}[A-Za-z])+))?", re.ASCII)
+_TOKEN = re.compile(r"([+!^()]?)(\d{0,4})([A-Za-z])", re.ASCII)
 
 
 class Input(NamedTuple):
@@ -35,7 +40,8 @@ class Input(NamedTuple):
 
     Attributes:
         tick: The tick before which it comes, counted from the beginning of its second.
-        kind: `LEFT`, `RIGHT` or `LAUNCH` (a button goes down or up), `BALL` (a new ball) or `SHOVE`.
+        kind: `LEFT`, `RIGHT` or `LAUNCH` (a button goes down or up), `BALL` (a new ball), `SHOVE`
+            or another one of `NUDGES`.
     """
 
     tick: int

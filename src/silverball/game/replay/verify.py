@@ -22,6 +22,7 @@ from silverball.game.replay.digest import (
 )
 from silverball.game.replay.player import InputRefusedError, Playback, check_rules
 from silverball.table import table_digest
+from silverball.world.saved_world import world_bytes
 
 if TYPE_CHECKING:
     from silverball.game.core import GameCore
@@ -136,6 +137,7 @@ def compare(first: Replay, second: Replay) -> Verdict:
     heads = (
         ("mode", first.mode, second.mode),
         ("tick_rate", first.tick_rate, second.tick_rate),
+        ("players", first.players, second.players),
         ("seed", first.seed, second.seed),
         ("table", table_digest(first.table), table_digest(second.table)),
     )
@@ -177,7 +179,7 @@ def _advance(plays: tuple[Playback, Playback], ticks: int) -> list[str]:
 
 
 def _states(game: GameCore) -> tuple[bytes, str]:
-    return game.world.records[0].tobytes(), game.rules_text
+    return world_bytes(game.world.records[0]), game.rules_text
 
 
 def _first_difference(plays: tuple[Playback, Playback], tick: int, refused: list[str]) -> Verdict | None:

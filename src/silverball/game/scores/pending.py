@@ -19,6 +19,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from silverball.game.match import MAX_PLAYERS
 from silverball.game.scores.sqlite_file import INTEGER_LIMIT
 from silverball.wholefile import write_whole
 
@@ -46,6 +47,8 @@ class NewScore(BaseModel):
     seed: int = _INTEGER
     replay: str
     played: int = Field(ge=0, le=253_402_300_799)
+    player: int = Field(default=1, ge=1, le=MAX_PLAYERS)
+    rank: int = Field(default=0, ge=0, lt=INTEGER_LIMIT)
 
 
 class Pending(BaseModel):

@@ -48,13 +48,30 @@ _MIGRATIONS = (
         "CREATE TABLE taken_in (token TEXT PRIMARY KEY, score INTEGER NOT NULL)",  # see `pending`
         "DROP INDEX IF EXISTS replays",  # every score has one now
     ),
+    (
+        "ALTER TABLE score ADD COLUMN player INTEGER NOT NULL DEFAULT 1",  # whose it is, in a match
+        "ALTER TABLE score ADD COLUMN rank INTEGER NOT NULL DEFAULT 0",  # missions finished in the game
+        "CREATE INDEX daily ON score (list, seed)",
+    ),
 )
 SCHEMA = Schema(
     application=int.from_bytes(b"Silv", "big"),
     migrations=_MIGRATIONS,
     tables={
         "list": ("id", "mode", "table_digest", "table_name", "table_text"),
-        "score": ("id", "list", "initials", "score", "seed", "played", "verified", "why", "replay"),
+        "score": (
+            "id",
+            "list",
+            "initials",
+            "score",
+            "seed",
+            "played",
+            "verified",
+            "why",
+            "replay",
+            "player",
+            "rank",
+        ),
         "setting": ("name", "value"),
         "last_game": ("id", "replay"),
         "taken_in": ("token", "score"),
@@ -63,11 +80,12 @@ SCHEMA = Schema(
 
 COLUMNS = (
     "score.id, initials, score, mode, table_name, table_digest, seed, played, verified, why,"
-    " replay IS NOT NULL"
+    " replay IS NOT NULL, player, rank"
 )
 REJECTED = (
     "(verified IS 0 OR typeof(score) != 'integer' OR typeof(seed) != 'integer'"
-    " OR typeof(played) != 'integer' OR typeof(initials) != 'text')"
+    " OR typeof(played) != 'integer' OR typeof(initials) != 'text' OR typeof(player) != 'integer'"
+    " OR typeof(rank) != 'integer')"
 )
 """In SQL: whether a row ranks below all others, because it failed verification or is damaged."""
 
@@ -92,6 +110,8 @@ class Score(NamedTuple):
         why: The reason why it was not proven.
         has_replay: Whether the file holds its replay.
         damage: What is wrong with its record; empty if nothing is.
+        player: Which player of a match has it, from 1.
+        rank: The missions that were finished in the game; see `Store.rank`.
     """
 
     id: int
@@ -106,6 +126,8 @@ class Score(NamedTuple):
     why: str
     has_replay: bool
     damage: str = ""
+    player: int = 1
+    rank: int = 0
 
     @property
     def is_rejected(self) -> bool:
@@ -149,13 +171,16 @@ class ScoreList(NamedTuple):
 
 def score_of(row: tuple[Any, ...]) -> Score:
     """Make a score from a row of `COLUMNS`."""
-    id, initials, score, mode, table_name, table_digest, seed, played, verified, why, has_replay = row
+    id, initials, score, mode, table_name, table_digest, seed, played, verified, why, has_replay, *more = row
+    player, rank = more
     damage = [
         f"its {name} is {_TYPES[type(value)]}"
         for name, value, kind in (
             ("score", score, int),
             ("seed", seed, int),
             ("date", played, int),
+            ("place in the match", player, int),
+            ("rank", rank, int),
             ("player", initials, str),
             ("mode", mode, str),
             ("table's name", table_name, str),
@@ -184,6 +209,8 @@ def score_of(row: tuple[Any, ...]) -> Score:
         problem or text_of(why),
         bool(has_replay),
         problem,
+        player if type(player) is int else 1,
+        rank if type(rank) is int else 0,
     )
 
 
@@ -203,9 +230,19 @@ def add(connection: sqlite3.Connection, one: NewScore) -> int:
         (one.mode, one.table_digest, one.table_name, one.table_text),
     )
     cursor = connection.execute(
-        "INSERT INTO score (list, initials, score, seed, played, replay)"
-        " SELECT id, ?, ?, ?, ?, ? FROM list WHERE mode = ? AND table_digest = ? LIMIT 1",
-        (one.initials, one.score, one.seed, one.played, one.replay, one.mode, one.table_digest),
+        "INSERT INTO score (list, initials, score, seed, played, replay, player, rank)"
+        " SELECT id, ?, ?, ?, ?, ?, ?, ? FROM list WHERE mode = ? AND table_digest = ? LIMIT 1",
+        (
+            one.initials,
+            one.score,
+            one.seed,
+            one.played,
+            one.replay,
+            one.player,
+            one.rank,
+            one.mode,
+            one.table_digest,
+        ),
     )
     return int(cursor.lastrowid or 0)
 

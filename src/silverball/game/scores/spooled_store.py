@@ -224,7 +224,8 @@ class SpooledStore:
         return [
             Score(
                 self._temporary_ids[new.token], new.initials, new.score, new.mode, new.table_name,
-                new.table_digest, new.seed, datetime.fromtimestamp(new.played, UTC), None, "", True,
+                new.table_digest, new.seed, datetime.fromtimestamp(new.played, UTC), None, "", True, "",
+                new.player, new.rank,
             )
             for new in self._spool.pending.scores
         ]  # fmt: skip

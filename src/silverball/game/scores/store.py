@@ -71,6 +71,8 @@ class Store(SpooledStore):
         replay_text: str,
         when: datetime | None = None,
         table_text: str = "",
+        player: int = 1,
+        rank: int = 0,
     ) -> int:
         """Add a score with its replay; returns when it is on the disk.
 
@@ -88,6 +90,8 @@ class Store(SpooledStore):
             replay_text: The replay.
             when: The time at which the game ended; None: now.
             table_text: The table as a table file. Without it only scores on built-in tables can be proven.
+            player: Which player of a match has it, from 1.
+            rank: The missions that were finished in the game; see `rank`.
 
         Returns:
             Its number; a temporary one beyond 63 bits if the score is pending.
@@ -101,7 +105,7 @@ class Store(SpooledStore):
         name = table_name.encode("utf-8", "replace").decode("utf-8")  # a path may not be valid UTF-8
         new = NewScore.model_construct(
             initials=initials, score=score, mode=str(mode), table_name=name, table_digest=table_digest,
-            table_text=table_text, seed=seed, replay=replay_text, played=played,
+            table_text=table_text, seed=seed, replay=replay_text, played=played, player=player, rank=rank,
         )  # fmt: skip
         return self._write(
             lambda connection: score_records.add(connection, new), lambda: self._add_pending(new)
@@ -165,6 +169,7 @@ class Store(SpooledStore):
         table_name: str | None = None,
         limit: int = PLACES,
         list_id: int | None = None,
+        seed: int | None = None,
     ) -> list[Score]:
         """The best scores, best first; of equal ones the earlier ranks higher, rejected ones come last.
 
@@ -174,17 +179,20 @@ class Store(SpooledStore):
             table_name: Only scores on tables of this name, whatever they contain.
             limit: The most scores to return; -1: all.
             list_id: Only scores of the list with this number.
+            seed: Only scores of this seed; that of a day makes a daily list (`daily_seed`).
         """
         wanted = {"mode": mode, "table_digest": table_digest, "table_name": table_name}
         words = {column: str(value) for column, value in wanted.items() if value is not None}
-        which = " AND ".join([f"{column} = ?" for column in words] + ["list.id = ?"] * (list_id is not None))
+        numbers = {"list.id": list_id, "seed": seed}
+        exact = words | {column: value for column, value in numbers.items() if value is not None}
+        which = " AND ".join(f"{column} = ?" for column in exact)
         rows = self._read(
             f"{_SELECT} {which or 'true'} ORDER BY {REJECTED}, score DESC, score.id LIMIT ?",
-            (*words.values(), *([] if list_id is None else [list_id]), limit),
+            (*exact.values(), limit),
         )
         found = [self._with_pending_initials(score_of(row)) for row in rows]
         if list_id is None:
-            found += [one for one in self._pending_scores() if words.items() <= one._asdict().items()]
+            found += [one for one in self._pending_scores() if exact.items() <= one._asdict().items()]
         found.sort(key=lambda one: one.order)
         return found[:limit] if limit >= 0 else found
 
@@ -202,12 +210,30 @@ class Store(SpooledStore):
             raise no_such_score(id)
         return self._with_pending_initials(score_of(rows[0]))
 
-    def high_score_rank(self, score: int, mode: str, table_digest: str) -> int | None:
+    def rank(self, mode: str, table_digest: str) -> int:
+        """The player's rank on a table, kept for ever: the missions that all games of its list have finished.
+
+        It is the sum of what the scores claim, and each claim is proven by the replay of its score; rejected
+        scores do not count.
+        """
+        rows = self._read(
+            "SELECT total(rank) FROM score JOIN list ON list.id = score.list"
+            f" WHERE mode = ? AND table_digest = ? AND NOT {REJECTED} AND rank > 0",
+            (str(mode), table_digest),
+        )
+        pending = [
+            one for one in self._pending_scores() if (one.mode, one.table_digest) == (mode, table_digest)
+        ]
+        return int(rows[0][0] if rows else 0) + sum(one.rank for one in pending)
+
+    def high_score_rank(
+        self, score: int, mode: str, table_digest: str, seed: int | None = None
+    ) -> int | None:
         """The rank, from 1, that a score would have in the list that is shown; None if it is not in it.
 
-        Zero points are not a high score; rejected scores do not count.
+        Zero points are not a high score; rejected scores do not count. With a seed, the list of that seed.
         """
-        shown = self.scores(mode, table_digest)
+        shown = self.scores(mode, table_digest, seed=seed)
         better = sum(one.score >= score and not one.is_rejected for one in shown)
         return better + 1 if score > 0 and better < PLACES else None
 

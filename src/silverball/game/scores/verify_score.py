@@ -8,8 +8,10 @@ was proven before is of the same game. Every other score is *not proven*, with a
   board of a recipe is made again from the seed of the score;
 * the list has the name of a built-in table but is of another table;
 * the mode, seed, board or tick rate is not that of a score in a window, or the game has custom rules;
+* its rank, the missions finished in the game, or its place in a match is another one;
 * the game was not over, or ended by a fault;
-* the game was counted before, played further or less far, under other initials, or in another list.
+* the game was counted before, played further or less far, under other initials, or in another list. A match
+  counts once for each of its players.
 
 Verification cannot show who or what pressed the buttons, how fast the clock ran, or when the game was played.
 """
@@ -58,22 +60,25 @@ class CountedGames:
     """
 
     def __init__(self) -> None:
-        self._games: dict[tuple[str, int, str], list[tuple[int, array[int]]]] = {}
+        self._games: dict[tuple[str, int, str], list[tuple[int, int, array[int]]]] = {}
 
-    def duplicate_of(self, id: int, replay: Replay, contacts: array[int]) -> int | None:
+    def duplicate_of(self, id: int, replay: Replay, contacts: array[int], player: int = 1) -> int | None:
         """The number of the score with the same game, or None; in that case the game is counted.
 
         Args:
             id: The number of the score.
             replay: Its replay.
             contacts: The contacts of its balls.
+            player: Which player of a match has the score, from 1.
         """
         games = self._games.setdefault((table_digest(replay.table), replay.seed, str(replay.mode)), [])
-        for other, known in games:
+        for other, its_player, known in games:
             length = min(len(contacts), len(known))
+            if replay.players > 1 and player != its_player and contacts == known:
+                continue  # another player of the same match
             if contacts[:length] == known[:length] and (length or contacts == known):
                 return other
-        games.append((id, contacts))
+        games.append((id, player, contacts))
         return None
 
 
@@ -117,9 +122,12 @@ def _verify(score: Score, text: str | None, table_text: str, counted: CountedGam
     verdict = verify(replay, on_second=contacts.collect)
     if not verdict.ok:
         raise _NotProven(f"its replay differs: {verdict.message}")
-    if verdict.score != score.score:
-        raise _NotProven(f"its replay reaches {verdict.score:,}")
-    other = counted.duplicate_of(score.id, replay, contacts.digests)
+    points, rank = contacts.scores[score.player - 1], contacts.ranks[score.player - 1]
+    if points != score.score:
+        raise _NotProven(f"its replay reaches {points:,}")
+    if rank != score.rank:
+        raise _NotProven(f"its replay finishes {rank} missions, not {score.rank}")
+    other = counted.duplicate_of(score.id, replay, contacts.digests, score.player)
     if other is not None:
         raise _NotProven(f"it is the same game as score {other}, which is counted")
 
@@ -139,6 +147,8 @@ def _check_game(score: Score, replay: Replay) -> None:
         if claimed != found:
             expected = plain(str(claimed)[:NAME_LIMIT])
             raise _NotProven(f"its replay is of another game: the {what} is {found}, not {expected}")
+    if not 1 <= score.player <= replay.players:
+        raise _NotProven(f"its replay has {replay.players} players, the score is of player {score.player}")
     if replay.ended not in COMPLETE:
         raise _NotProven(f"its replay is of a game that was not over: {replay.ended}")
 
@@ -183,6 +193,15 @@ def _built_in_names() -> frozenset[str]:
     return frozenset(_as_read(name) for key in table_names() for name in (key, load_table(key).name))
 
 
+def table_of_list(digest: str, table_text: str) -> Table | None:
+    """The table of a list by its digest; None if it was not kept with the list, or another one was."""
+    try:
+        table = _parsed_table(table_text) if table_text else _built_in(digest)
+    except SilverballError:
+        return None
+    return table if table is not None and table_digest(table) == digest else None
+
+
 def _built_in(digest: str) -> Table | None:
     """The built-in table with a digest, or None."""
     key = _built_in_keys().get(digest)
@@ -219,14 +238,19 @@ class _Contacts:
 
     Attributes:
         digests: A hash of every contact, 64 bits; comparable within a run of the program only.
+        scores: The points of every player.
+        ranks: The missions that every player has finished.
     """
 
     def __init__(self) -> None:
         self.digests = array("q")
+        self.scores: tuple[int, ...] = ()
+        self.ranks: tuple[int, ...] = ()
         self._created = 0  # the tick in which the last ball was created
 
     def collect(self, game: GameCore) -> None:
-        """Add the contacts since the last call."""
+        """Add the contacts since the last call, and note what the game has come to."""
+        self.scores, self.ranks = game.scores, game.ranks
         for event in game.take_world_events():
             if event.kind == "created":
                 self._created = event.tick

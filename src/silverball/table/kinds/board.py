@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field, ValidationInfo, field_validator
 
 from silverball.physics.forms import Shape
-from silverball.table.model import Friction, HitSpeed, Model, Restitution, Thickness
+from silverball.table.model import SINCE_2, Friction, HitSpeed, Model, Restitution, Thickness
 from silverball.table.primitive import Finish, Point, Primitive, Surface
 from silverball.table.quantity import COORDINATE, Count, Quantity, refuse
 
@@ -52,6 +52,9 @@ class Board(Model):
     """[u/s] an impact above it is a hit, below it a touch."""
     jitter: Annotated[float, Quantity(0.0, 20.0, "u/s")] = 1.5
     """[u/s] speed that a shove by the player adds to a ball."""
+    nudge: Annotated[float, Quantity(0.0, 20.0, "u/s"), SINCE_2] = 0.0
+    """[u/s] speed that a nudge gives the cabinet, which swings back; all balls feel it, and a shove is then a
+    nudge. 5.5 moves the cabinet by 0.1 u. 0: there is no nudge, and a shove is the jitter."""
     gutter: Annotated[float, COORDINATE] = -9.0
     """[u] x of the gutter; a ball whose centre crosses it leaves the board."""
     wall_thickness: Thickness = 0.1
