@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from patience import PATIENCE
 from silverball.benchmarks.page_smoothness import browser_path
 from silverball.errors import SilverballError
 
@@ -20,7 +21,6 @@ try:
     CHROMIUM = browser_path()
 except SilverballError as error:
     MISSING = str(error)
-PATIENCE = 120  # [s], which only a fault takes
 
 
 class Browser:

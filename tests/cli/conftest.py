@@ -13,6 +13,7 @@ from collections.abc import Callable
 import pytest
 
 from commandline import ran
+from patience import PATIENCE
 
 Silverball = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -21,7 +22,9 @@ Silverball = Callable[..., subprocess.CompletedProcess[str]]
 def new_process() -> Silverball:
     def run(*arguments: str, **options: object) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-m", "silverball", *arguments]
-        return subprocess.run(command, capture_output=True, text=True, timeout=120, check=False, **options)  # type: ignore[call-overload,no-any-return]
+        return subprocess.run(
+            command, capture_output=True, text=True, timeout=PATIENCE, check=False, **options
+        )  # type: ignore[call-overload,no-any-return]
 
     return run
 

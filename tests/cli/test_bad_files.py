@@ -16,6 +16,7 @@ import pytest
 
 from holed import Holed, options_of
 from hostile_text import obeyed_in
+from patience import PATIENCE
 from silverball.cli.app import run
 from silverball.cli.shared_options import check_output
 from silverball.errors import OutputError
@@ -223,7 +224,8 @@ def test_an_endless_file_takes_neither_memory_nor_time():
         for path in ("/dev/zero", "huge.toml", "pipe.toml")
     ]
     result = subprocess.run(
-        [sys.executable, "-c", LIMITED, *commands], capture_output=True, text=True, timeout=100, check=False
+        [sys.executable, "-c", LIMITED, *commands],
+        capture_output=True, text=True, timeout=PATIENCE, check=False,
     )  # fmt: skip
     assert result.returncode == 0, result.stderr
     grown = int(result.stdout.split()[-1])  # [kB]

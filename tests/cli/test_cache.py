@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from patience import PATIENCE
 from silverball.cli import cache
 from silverball.physics import kernel
 
@@ -267,6 +268,6 @@ def test_a_program_that_runs_meanwhile_goes_on(silverball, folder):
         result = silverball("cache", "--clear")
         assert result.returncode == 0
         assert result.stdout.startswith("removed 2 files")
-        out, errors = process.communicate("go\n", timeout=120)
+        out, errors = process.communicate("go\n", timeout=PATIENCE)
     assert (out, errors) == ("9 0.25\n", "")
     assert len(files_in(folder)) == 2, "it does not keep what it compiles later"

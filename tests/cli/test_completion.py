@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from hostile_text import NAMES, NO_TEXT
+from patience import PATIENCE
 from silverball.cli import completion
 from silverball.drawing import THEMES
 from silverball.players import player_names
@@ -139,7 +140,7 @@ def test_bash_completes_a_table(new_process, tmp_path):
         f'_silverball_completion "{program}"; echo "${{COMPREPLY[@]}}"'
     )
     result = subprocess.run(
-        ["bash", "-c", press_tab], cwd=tmp_path, capture_output=True, text=True, timeout=100, check=False
+        ["bash", "-c", press_tab], cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=False
     )
     assert (result.stdout, result.stderr) == ("random rolling\n", "")
 
@@ -164,7 +165,7 @@ def test_completing_imports_no_large_package(line):
         env=environment,
         capture_output=True,
         text=True,
-        timeout=100,
+        timeout=PATIENCE,
         check=False,
     )
     assert result.stdout.splitlines()[-1] == "", result.stdout

@@ -11,6 +11,7 @@ import pytest
 from PIL import Image
 
 from commandline import started
+from patience import PATIENCE
 
 NO_DISPLAY = {
     **{key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")},
@@ -152,7 +153,7 @@ def test_an_interruption_leaves_no_half_file(tmp_path, ending, sent):
     assert list(tmp_path.iterdir()), "the film was never begun"
     time.sleep(0.2)
     process.send_signal(sent)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode not in (0, 2)
     assert "Traceback" not in errors
     assert not list(tmp_path.iterdir())

@@ -11,6 +11,7 @@ import pytest
 
 from commandline import started
 from holed import Holed
+from patience import PATIENCE
 from silverball.cli.app import run
 from silverball.soak import rounds as soak_module
 
@@ -74,7 +75,7 @@ def test_ctrl_c_costs_at_most_a_round(silverball, tmp_path):
     while not path.exists() and time.monotonic() < limit:
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
     assert "Traceback" not in errors
     assert str(path) in errors

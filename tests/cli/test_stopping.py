@@ -11,6 +11,7 @@ import time
 import pytest
 
 from commandline import started
+from patience import PATIENCE
 from silverball.cli.app import run
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals to send")
@@ -34,7 +35,7 @@ def stop(tmp_path, name: str, sent: signal.Signals, seconds: float) -> None:
     time.sleep(seconds)
     assert process.poll() is None, process.communicate()
     process.send_signal(sent)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 128 + sent
     lines = [line for line in errors.splitlines() if not line.startswith("progress is saved in")]
     assert lines == (["stopped"] if sent == signal.SIGINT else [])

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from patience import PATIENCE
+
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams are closed as a shell of Unix does it")
 
 PRINTING = ("--help", "check classic", "scores --json", "info", "info --json", "cache", "cache --clear")
@@ -32,7 +34,7 @@ def without(streams: str, arguments: str, **options) -> subprocess.CompletedProc
     """Run a command with some of the streams 0, 1, 2 closed."""
     command = [sys.executable, "-c", HARNESS, streams, *arguments.split()]
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | options
-    return subprocess.run(command, text=True, timeout=100, check=False, **options)
+    return subprocess.run(command, text=True, timeout=PATIENCE, check=False, **options)
 
 
 @pytest.mark.parametrize("arguments", PRINTING)
@@ -93,7 +95,7 @@ def test_output_that_is_longer_than_what_is_read_of_it_is_no_error():
     Path("many.toml").write_text("format = 1\n" + "".join(lines.format(x / 10) for x in range(200)), "utf-8")
     script = f'"{sys.executable}" -m silverball check many.toml 2>&1 | head -1; echo "${{PIPESTATUS[0]}}"'
     result = subprocess.run(
-        ["bash", "-c", script], capture_output=True, text=True, timeout=100, check=False
+        ["bash", "-c", script], capture_output=True, text=True, timeout=PATIENCE, check=False
     )  # fmt: skip
     head, code = result.stdout.splitlines()
     assert head.startswith("many.toml: ")
@@ -124,7 +126,7 @@ def test_what_an_encoding_has_no_letter_for_is_printed_all_the_same(encoding: st
     Path("mine.toml").write_text('format = 1\nname = "ピンボール × 🧙"\n', encoding="utf-8")
     environment = os.environ | {"PYTHONIOENCODING": encoding}
     command = [sys.executable, "-m", "silverball", "check", "mine.toml"]
-    result = subprocess.run(command, capture_output=True, timeout=100, check=False, env=environment)
+    result = subprocess.run(command, capture_output=True, timeout=PATIENCE, check=False, env=environment)
     assert result.returncode == 0, result.stderr
     assert b"mine.toml" in result.stdout.replace(b"\0", b"")
     assert result.stderr == b""

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from commandline import ran, started
+from patience import PATIENCE
 
 SMALL = ("--games", "20", "--seconds", "5", "--no-playable")
 
@@ -92,7 +93,7 @@ def test_ctrl_c_says_how_to_go_on(tmp_path: Path):
     said = process.stderr.readline()
     assert said.startswith("after 40 games: reflex:")
     process.send_signal(signal.SIGINT)
-    _, rest = process.communicate(timeout=120)
+    _, rest = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130
     assert "what is done is in study; the same command goes on from there" in rest
     assert (tmp_path / "study" / "chunks" / "000000.npz").is_file()

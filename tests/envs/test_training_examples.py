@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from patience import PATIENCE
 from silverball.benchmarks.agents.stored_policies import StoredPolicy
 from silverball.benchmarks.agents.trials import make_trial
 
@@ -60,7 +61,7 @@ def skip_without_packages(name):
 def test_an_example_runs(name, number, tmp_path):
     skip_without_packages(name)
     run = [sys.executable, str(EXAMPLES / name), *RUNS[name][number]]
-    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=500, check=False)
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=False)
     assert done.returncode == 0, done.stderr
     assert re.search("points|wrote|steps, in the target", done.stdout)
 

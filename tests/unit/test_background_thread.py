@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import silverball
+from patience import PATIENCE
 
 SOURCES = Path(silverball.__file__).parent
 OWN_THREADS = {"background_thread.py", "compile_thread.py"}  # the compiler's ends by itself at exit
@@ -18,7 +19,11 @@ stop = threading.Event()
 
 def run(program: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-c", BEGINS + program], capture_output=True, text=True, timeout=120, check=False
+        [sys.executable, "-c", BEGINS + program],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
     )
 
 

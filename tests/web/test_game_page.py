@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from browser import PHONE, wait_until
+from patience import PATIENCE
 from silverball.game.replay.format import Replay
 from silverball.game.replay.recording import BALL, LEFT, RIGHT, SHOVE, parse_inputs
 
@@ -82,7 +83,7 @@ def test_a_game_is_played_by_keys_and_saved_to_a_file(browser, game_file, tmp_pa
     assert saved.suffix == ".replay"
     assert {BALL, LEFT, RIGHT, SHOVE} <= inputs_of(Replay.load(saved))
     command = [sys.executable, "-m", "silverball", "replay", str(saved), "--verify"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
     assert done.returncode == 0, done.stderr
     assert "equal in all" in done.stdout
 

@@ -7,6 +7,7 @@ import time
 import pytest
 
 from browser import DESKTOP, PHONE
+from patience import PATIENCE
 from silverball.game.replay.format import Replay
 from silverball.game.replay.recording import BALL, LEFT, RIGHT
 from web.conftest import write_game_page
@@ -68,7 +69,7 @@ def test_a_whole_arcade_game(browser, tmp_path, device):
             hands.paddle(beat % 2)
             page.wait_for_timeout(LONG)
             beat += 1
-        page.wait_for_selector("#menu:not([hidden])", timeout=120_000)
+        page.wait_for_selector("#menu:not([hidden])", timeout=1000 * PATIENCE)
         replay = Replay.from_text(page.evaluate("silverball.page.game.toReplay()"))
         lines = page.locator(".lines p").all_inner_texts()
     assert replay.ended == "over"

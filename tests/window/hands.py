@@ -18,12 +18,12 @@ import pytest
 from comet_games import inputs_of, skip
 from xserver import x_server
 
+from patience import PATIENCE
 from silverball.app.window import Window
 from silverball.game.replay.format import Replay
 from silverball.game.replay.recording import BALL, LAUNCH, LEFT, NUDGES, RIGHT
 from silverball.game.view import Phase
 
-PATIENCE = 120.0  # [s] for an event to come, which only a fault takes
 TICK = 1.0 / 240.0  # [s]
 KEYS = {LEFT: "a", RIGHT: "d", LAUNCH: "space", NUDGES["left"]: "z", NUDGES["right"]: "x", NUDGES["up"]: "Up"}
 """The key of each input of a replay."""

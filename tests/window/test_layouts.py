@@ -17,6 +17,7 @@ import pygame
 import pytest
 from xserver import all_layouts, choose_layout, signs, x_server
 
+from patience import PATIENCE
 from silverball.app import sdl
 from silverball.app.bindings import ACTIONS
 from silverball.app.controls import Action
@@ -63,7 +64,7 @@ class Typist:
     def do(self, *words: str | int) -> None:
         """Work the real keys as xdotool understands it."""
         environment = os.environ | {"DISPLAY": self.display}
-        subprocess.run(["xdotool", *map(str, words)], env=environment, timeout=120, check=True)
+        subprocess.run(["xdotool", *map(str, words)], env=environment, timeout=PATIENCE, check=True)
         self.until(lambda: True)
 
     def until(self, is_reached: Callable[[], bool], seconds: float = 120.0) -> None:

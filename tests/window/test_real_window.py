@@ -18,6 +18,7 @@ import pytest
 from machines import leaky
 from xserver import x_server
 
+from patience import PATIENCE
 from silverball.app.player_games import GAME_OVER_SECONDS
 from silverball.game.replay.format import Replay
 from silverball.game.replay.verify import verify
@@ -29,7 +30,6 @@ pytestmark = pytest.mark.skipif(
     shutil.which("Xvfb") is None or shutil.which("xdotool") is None,
     reason="needs the programs Xvfb and xdotool",
 )
-PATIENCE = 120.0  # [s] for anything to happen, on a busy machine that compiles for the first time
 
 
 class Machine:

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from patience import PATIENCE
+
 
 @contextmanager
 def x_server(width: int, height: int) -> Iterator[str]:
@@ -52,7 +54,7 @@ def signs(display: str) -> dict[int, str]:
 def choose_layout(display: str, layout: str, variant: str = "") -> None:
     """Give the server another keyboard."""
     command = ["setxkbmap", "-display", display, "-layout", layout, "-variant", variant]
-    subprocess.run(command, check=True, timeout=120)
+    subprocess.run(command, check=True, timeout=PATIENCE)
 
 
 def all_layouts() -> list[str]:

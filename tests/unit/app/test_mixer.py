@@ -13,10 +13,9 @@ import numpy as np
 import pygame
 import pytest
 
+from patience import PATIENCE
 from silverball.app.sound.mixer import Mixer
 from silverball.app.sound.synth import RATE
-
-PATIENCE = 120.0  # [s], which only a fault takes
 
 
 @pytest.fixture
@@ -97,6 +96,9 @@ def test_music_that_begins_anew_while_a_bar_waits_frees_no_sound_that_plays(way)
     """
     environment = {**os.environ, "SDL_AUDIODRIVER": "dummy", "SDL_VIDEODRIVER": "dummy"}
     done = subprocess.run(
-        [sys.executable, "-c", textwrap.dedent(script)], env=environment, capture_output=True, timeout=120
+        [sys.executable, "-c", textwrap.dedent(script)],
+        env=environment,
+        capture_output=True,
+        timeout=PATIENCE,
     )
     assert done.returncode == 0, done.stderr

@@ -9,6 +9,7 @@ import time
 
 import pytest
 
+from patience import PATIENCE
 from silverball.app import player_warmup as warmup_module
 from silverball.app.demo_players import BEST_PLAYER, DEMO_PLAYERS, FALLBACK_PLAYER, DemoPlayerSelector
 from silverball.app.player_warmup import PlayerWarmup
@@ -17,7 +18,6 @@ from silverball.players import make_player
 from silverball.table import load_table
 
 TABLE = load_table("classic")
-PATIENCE = 300.0  # [s], which only a fault takes
 
 
 @pytest.fixture(autouse=True)
@@ -61,7 +61,12 @@ print(is_compiled_on_disk(BEST_PLAYER))
 """
     environment = os.environ | {"SILVERBALL_CACHE": str(tmp_path)}
     done = subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=900, check=True
+        [sys.executable, "-c", code],
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        check=True,
     )
     assert done.stdout.split() == ["False", "False", "True"]
 

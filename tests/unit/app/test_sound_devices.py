@@ -15,6 +15,7 @@ import numpy as np
 import pygame
 import pytest
 
+from patience import PATIENCE
 from silverball.app.settings import Settings
 from silverball.app.sound import Sounds
 from silverball.app.sound.bank import Key, make_bank
@@ -452,7 +453,7 @@ def test_a_program_that_ends_without_closing_ends_well():
         env={**os.environ, "SDL_AUDIODRIVER": "dummy"},
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=PATIENCE,
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
@@ -462,7 +463,7 @@ def test_a_program_that_ends_without_closing_ends_well():
 def test_sounds_do_not_wait_for_the_physics():
     script = "import sys, silverball.app.sound; print('numba' in sys.modules)"
     done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=PATIENCE, check=True
     )
     assert done.stdout.strip() == "False"
 

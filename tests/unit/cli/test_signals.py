@@ -11,6 +11,7 @@ import weakref
 import pytest
 
 from commandline import hear_ctrl_c
+from patience import PATIENCE
 from silverball.cli import signals
 
 SCRIPT = """
@@ -33,7 +34,7 @@ def ended(command: str, before: str = "") -> tuple[int, str, str]:
     body = "\n".join(f"    {line}" for line in command.strip().splitlines())
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT.format(before=before, command=body)],
-        capture_output=True, text=True, timeout=120, check=False,
+        capture_output=True, text=True, timeout=PATIENCE, check=False,
         preexec_fn=hear_ctrl_c if sys.platform != "win32" else None,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr

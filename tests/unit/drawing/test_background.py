@@ -9,6 +9,7 @@ import time
 import numpy as np
 import pytest
 
+from patience import PATIENCE
 from silverball.drawing import Moment, Renderer, background as background_module, warm_up
 from silverball.drawing.picture_cache import PictureCache
 from silverball.table import load_table
@@ -16,7 +17,6 @@ from silverball.table import load_table
 TABLE = load_table("classic")
 SIZE = (90, 144)
 START = Moment.before(TABLE)
-PATIENCE = 120.0  # [s], which only a fault takes
 
 
 @pytest.fixture(scope="module", autouse=True)

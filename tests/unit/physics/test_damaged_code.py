@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from patience import PATIENCE
 from silverball.physics import code_cache as codecache, kernel
 
 
@@ -196,7 +197,7 @@ def test_processes_that_start_together_keep_one_whole_cache(tmp_path, said):
         for _ in range(4)
     ]  # fmt: skip
     for process in started:
-        assert process.communicate(timeout=120) == ("7 7.0 5.0\n", "")
+        assert process.communicate(timeout=PATIENCE) == ("7 7.0 5.0\n", "")
     assert codecache.sweep(tmp_path)
     assert not list(tmp_path.rglob("*.tmp"))
     last = compiled(tripled_and, tmp_path)

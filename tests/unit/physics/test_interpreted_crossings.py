@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from flights import disc, random_flight, segment
+from patience import PATIENCE
 from silverball.physics import crossing, holes, one_way, portable_math, spinner
 
 TESTS = Path(__file__).parents[2]
@@ -52,7 +53,7 @@ def test_the_interpreted_run_gives_the_bits_of_the_compiled_one() -> None:
     run = subprocess.run(
         [sys.executable, "-W", "error", str(Path(__file__))],
         env=os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(TESTS)},
-        capture_output=True, text=True, check=False, timeout=120,
+        capture_output=True, text=True, check=False, timeout=PATIENCE,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
     assert json.loads(run.stdout) == results()

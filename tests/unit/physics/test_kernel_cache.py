@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import silverball
+from patience import PATIENCE
 from silverball.physics import code_cache as codecache, kernel
 
 PACKAGE = Path(silverball.__file__).parent
@@ -62,7 +63,7 @@ def test_cached_code_never_uses_a_stale_callee_or_constant_of_another_file(tmp_p
         callee.write_text(source, encoding="utf-8")
         printed = subprocess.run(
             [sys.executable, "-c", "import silverball.world.caller"],
-            env=environment, capture_output=True, text=True, check=True, timeout=120,
+            env=environment, capture_output=True, text=True, check=True, timeout=PATIENCE,
         ).stdout  # fmt: skip
         result, hits = printed.split()
         return int(result), int(hits)
@@ -78,7 +79,7 @@ def test_cached_code_never_uses_a_stale_callee_or_constant_of_another_file(tmp_p
 def test_importing_the_package_alone_loads_nothing_heavy():
     script = "import sys, silverball; print(sorted({name.split('.')[0] for name in sys.modules}))"
     printed = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=120
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=PATIENCE
     ).stdout
     loaded = set(ast.literal_eval(printed))
     assert "silverball" in loaded

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import shape_flights
+from patience import PATIENCE
 from silverball.physics import records as layouts
 
 
@@ -19,7 +20,7 @@ def test_the_interpreted_flights_give_the_bits_of_the_compiled_ones() -> None:
     run = subprocess.run(
         [sys.executable, "-W", "ignore", str(Path(shape_flights.__file__))],
         env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
-        capture_output=True, text=True, check=False, timeout=300,
+        capture_output=True, text=True, check=False, timeout=PATIENCE,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
     assert json.loads(run.stdout) == shape_flights.flights()

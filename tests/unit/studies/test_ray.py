@@ -12,6 +12,7 @@ import pytest
 import spread_tasks
 
 from commandline import started
+from patience import PATIENCE
 from silverball import load_table
 from silverball.errors import SilverballError
 from silverball.players import register, unregister
@@ -168,14 +169,14 @@ def test_a_study_that_is_stopped_goes_on_without_a_cluster(nodes, tmp_path):
     while time.monotonic() < deadline and len(list(chunks.glob("*.npz"))) < 3:
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=120)
+    _, said = process.communicate(timeout=PATIENCE)
     assert process.returncode == 130, said
     assert "the same command goes on from there" in said
     done = len(list(chunks.glob("*.npz")))
     assert done >= 3
     for folder in ("a", "b"):
         process = started(*command, "--out", str(tmp_path / folder))
-        _, said = process.communicate(timeout=300)
+        _, said = process.communicate(timeout=PATIENCE)
         assert process.returncode == 0, said
     assert bits(chunks) == bits(tmp_path / "b" / "chunks")
     assert len(bits(chunks)) > done

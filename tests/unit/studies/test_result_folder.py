@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from patience import PATIENCE
 from silverball.errors import OutputError, StateError
 from silverball.studies.result_folder import ResultFolder
 from silverball.studies.study import Study
@@ -24,7 +25,7 @@ PLAN = Plan(arms_of([("classic", load_table("classic"))], ["idle"]), games=20, c
 def stop(folder: Path, moments: int, seed: int) -> str:
     """What `stopped_study.py` says."""
     script = [sys.executable, str(TESTS / "stopped_study.py"), str(folder), str(moments), str(seed)]
-    return subprocess.run(script, capture_output=True, text=True, check=True, timeout=250).stdout
+    return subprocess.run(script, capture_output=True, text=True, check=True, timeout=PATIENCE).stdout
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks a process for each interruption")

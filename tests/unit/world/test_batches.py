@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from boards import full_table
+from patience import PATIENCE
 from silverball.table import generate_table
 from silverball.world import World, WorldBatch
 from silverball.world.saved_world import digest
@@ -119,7 +120,7 @@ def test_the_same_seed_gives_the_same_digest_in_a_new_process(capsys) -> None:
     path = os.pathsep.join([tests, *filter(None, [os.environ.get("PYTHONPATH")])])
     run = subprocess.run(
         [sys.executable, "-c", PROGRAM],
-        capture_output=True, text=True, check=True, timeout=120,
+        capture_output=True, text=True, check=True, timeout=PATIENCE,
         env=os.environ | {"PYTHONPATH": path, "PYTHONHASHSEED": "123"},
     )  # fmt: skip
     assert len(here) == 2
@@ -189,4 +190,4 @@ if child == 0:
     os._exit(7)
 sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 """
-    assert subprocess.run([sys.executable, "-c", script], timeout=120, check=False).returncode == 7
+    assert subprocess.run([sys.executable, "-c", script], timeout=PATIENCE, check=False).returncode == 7

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 import scenes
+from patience import PATIENCE
 from scenes import BEAT, SHORT, batch_of, buttons_of, create, digests_in_a_batch, played
 from silverball.world import World
 
@@ -114,7 +115,7 @@ def elsewhere(**environment: str) -> list[str]:
     """The digests that a new process finds."""
     run = subprocess.run(
         [sys.executable, "-W", "ignore", str(Path(scenes.__file__))],
-        env=os.environ | environment, capture_output=True, text=True, check=False, timeout=300,
+        env=os.environ | environment, capture_output=True, text=True, check=False, timeout=PATIENCE,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
     return json.loads(run.stdout)
