@@ -2,6 +2,7 @@
 
 pip install '.[rl]' torch
 python examples/train_missions.py --minutes 45 --out missions.npz --curve missions.csv
+python examples/train_missions.py --policy missions.npz --rate 3e-4 --out new.npz    # the table has changed
 
 Half of the games are those of PinballMissions-v1, half are played as in a window, without sticky actions
 and power supply. A step is rewarded by the root of its points: single shots pay from a hundred to a million.
@@ -22,6 +23,7 @@ from torch import nn
 from torch.distributions import Categorical
 
 import silverball.envs  # noqa: F401  (registers the environments)
+from silverball.players.exact_layers import SCALE
 from silverball.players.mission_features import feature_count, mission_features
 from silverball.players.mission_policy import ACTIONS, NAMED, MissionPolicy
 
@@ -34,6 +36,7 @@ parser.add_argument("--length", type=int, default=96, help="steps between two up
 parser.add_argument("--width", type=int, default=192, help="of the hidden layers")
 parser.add_argument("--rate", type=float, default=6e-4, help="learning rate at the start")
 parser.add_argument("--power", type=float, default=0.5, help="rewards are points to this power")
+parser.add_argument("--policy", default="", help="begin with this policy, .npz")
 parser.add_argument("--init", default="", help="go on from this state, .pt")
 parser.add_argument("--state", default="", help="file for the state of the training, .pt")
 parser.add_argument("--out", default="", help="file for the policy, .npz")
@@ -42,6 +45,7 @@ chosen = parser.parse_args()
 EPOCHS, PART, GAMMA, LAMBDA, CLIP, ENTROPY = 3, 4096, 0.997, 0.95, 0.2, 0.01
 NORMALISED, SCALED = 15, 60  # updates after which the scales of features and of rewards are kept
 LEAST_SPREAD = 0.1  # of a feature
+WATCHED, LEARNS_WORTH = 400, 10  # steps in which a given policy is watched; updates before it is changed
 
 torch.manual_seed(chosen.seed)
 torch.set_num_threads(1)  # the layers are small
@@ -113,6 +117,26 @@ def store(path: str) -> None:
     policy.save(path)
 
 
+def begin_with(path: str) -> tuple[torch.Tensor, torch.Tensor]:
+    """Begin with a policy, and return the scales of the features that are seen while it plays."""
+    own = (net.first, net.second, net.last)
+    for layer, (weights, biases) in zip(own, MissionPolicy.load(path).layers, strict=True):
+        layer.weight.data = torch.from_numpy(weights.T / SCALE).float().contiguous()
+        layer.bias.data = torch.from_numpy(biases / SCALE).float()
+    total, squares = torch.zeros(inputs, dtype=torch.float64), torch.zeros(inputs, dtype=torch.float64)
+    for _ in range(WATCHED):
+        features = look()
+        with torch.no_grad():
+            step(net(features)[0].sample().numpy())
+        total += features.mean(0)
+        squares += features.double().square().mean(0)
+    middle = total / WATCHED
+    spread = (squares / WATCHED - middle.square()).clamp(min=0.0).sqrt().clamp(min=LEAST_SPREAD)
+    net.first.bias.data += net.first.weight.data @ middle.float()
+    net.first.weight.data *= spread.float()
+    return middle.float(), spread.float()
+
+
 net = Net()
 optimizer = torch.optim.Adam(net.parameters(), chosen.rate, eps=1e-5)
 middle, spread = torch.zeros(inputs), torch.ones(inputs)
@@ -124,6 +148,8 @@ if chosen.init:
     middle, spread, variance, before = (state[name] for name in ("middle", "spread", "variance", "steps"))
 for number, envs in enumerate(vectors):
     envs.reset(seed=1000 * chosen.seed + 100_000 * number + 1)
+if chosen.policy:
+    middle, spread = begin_with(chosen.policy)
 seen, score, rows = look(), np.zeros(chosen.envs, np.int64), []
 gathered, returns = np.zeros(chosen.envs), np.zeros(0)
 ends: tuple[list[int], list[int]] = ([], [])
@@ -160,7 +186,7 @@ for update in range(updates):
             gain_of = gains[number] = error + GAMMA * LAMBDA * goes_on * gain_of
             later = values[number]
     features = kept.reshape(batch, inputs)
-    if update < NORMALISED and not chosen.init:
+    if update < NORMALISED and not (chosen.init or chosen.policy):
         share = 1.0 / (update + 1)
         middle = middle + share * (features.mean(0) - middle)
         spread = spread + share * (features.std(0).clamp(min=LEAST_SPREAD) - spread)
@@ -176,6 +202,9 @@ for update in range(updates):
             loss = policy + 0.5 * miss - ENTROPY * left * choice.entropy().mean()
             optimizer.zero_grad()
             loss.backward()
+            if chosen.policy and update < LEARNS_WORTH:
+                for layer in (net.first, net.second, net.last):
+                    layer.weight.grad = layer.bias.grad = None
             nn.utils.clip_grad_norm_(net.parameters(), 0.5)
             optimizer.step()
     steps, seconds = before + (update + 1) * batch, time.perf_counter() - started
