@@ -99,7 +99,7 @@ def test_a_vector_is_its_single_environments_bit_for_bit(mode):
 
 
 def test_a_saved_game_goes_on_bit_for_bit_here_and_in_a_copy(env):
-    play(env, 600)
+    play(env, 400)
     assert env.observe()["lamps"].any()
     state, branch, sent = env.save_state(), copy.deepcopy(env), pickle.loads(pickle.dumps(env))
     first = play(env, 200, seed=8)
