@@ -26,9 +26,9 @@ from silverball.physics.forms import Shape
 from silverball.table.outlines import path
 from silverball.table.primitive import Point, Primitive
 
-OPACITY = 0.45  # of what stands on an upper level
-OUTLINE = 0.8  # of its outline
-FLOOR_OPACITY = 0.3
+OPACITY = 0.7  # of what stands on an upper level
+OUTLINE = 0.95  # of its outline
+FLOOR_OPACITY = 0.45
 FLOOR_CELL = 0.1  # [u]
 EDGE = 0.05  # [u] around a solid within which it is smoothed
 MARGIN = 0.35  # [u] around what stands on a level
