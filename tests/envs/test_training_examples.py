@@ -101,3 +101,19 @@ def test_a_stored_policy_has_the_outputs_of_the_trained_network(name, number, tm
     np.testing.assert_allclose(outputs, expected, atol=1e-3 * np.abs(expected).max())
     with (tmp_path / "curve.csv").open(encoding="utf-8") as file:
         assert next(csv.reader(file)) == ["steps", "seconds", "points_a_ball", "balls"]
+
+
+def test_a_training_that_goes_on_from_a_policy_begins_with_its_outputs(tmp_path, monkeypatch):
+    """The network sees features on a scale, and the policy takes them as they are."""
+    skip_without_packages("train_missions.py")
+    from silverball.players.mission_policy import mission_policy
+
+    own = mission_policy()
+    own.save(tmp_path / "own.npz")
+    arguments = ("--steps", "1", "--envs", "64", "--length", "2", "--policy", str(tmp_path / "own.npz"))
+    monkeypatch.setattr(sys, "argv", ["train_missions.py", *arguments, "--out", str(tmp_path / "next.npz")])
+    example = runpy.run_path(str(EXAMPLES / "train_missions.py"))
+    later = type(own).load(tmp_path / "next.npz")  # one update, in which only the other head has learnt
+    features = example["look"]().numpy().astype(float)
+    before, after = own._network.outputs(features), later._network.outputs(features)
+    np.testing.assert_allclose(after, before, atol=0.02 * np.abs(before).max())

@@ -118,7 +118,9 @@ class Scout:
         steps = round(goal.seconds * STEPS_A_SECOND)
         plans = self._plans(steps)
         if batch.state["tick"][0] > STEP:
-            plans[:, :, 3] = False  # only the first ball is launched by hand; keys do nothing while others play
+            plans[:, :, 3] = (
+                False  # only the first ball is launched by hand; keys do nothing while others play
+            )
         found: list[Found] = []
         places: set[bytes] = set()  # of the balls of those found
         running = np.ones(batch.count, np.bool_)
