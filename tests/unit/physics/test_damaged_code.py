@@ -188,7 +188,8 @@ print(one(2, 1), one(2.0, 1), one(1, 2.0))
 
 
 def test_processes_that_start_together_keep_one_whole_cache(tmp_path, said):
-    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
+    here = Path(__file__).parent
+    environment = os.environ | {"PYTHONPATH": f"{here}{os.pathsep}{here.parents[1]}"}
     started = [
         subprocess.Popen(
             [sys.executable, "-c", WRITER, str(tmp_path)],
