@@ -46,6 +46,9 @@ def site(tmp_path, monkeypatch, unregistered):
 
 
 SLOW_FILES = (  # those that take longest; they come first, or one of them would run alone at the end
+    "unit/table/test_table_mutations.py",
+    "unit/world/test_determinism.py",
+    "unit/game/test_forged_rules.py",
     "window/test_real_window.py",
     "property/test_forged_states.py",
     "cli/test_play_demo_show.py",
