@@ -23,6 +23,7 @@ from torch import nn
 from torch.distributions import Categorical
 
 import silverball.envs  # noqa: F401  (registers the environments)
+from silverball.errors import SilverballError
 from silverball.players.exact_layers import SCALE
 from silverball.players.mission_features import feature_count, mission_features
 from silverball.players.mission_policy import ACTIONS, NAMED, MissionPolicy
@@ -36,8 +37,9 @@ parser.add_argument("--length", type=int, default=96, help="steps between two up
 parser.add_argument("--width", type=int, default=192, help="of the hidden layers")
 parser.add_argument("--rate", type=float, default=6e-4, help="learning rate at the start")
 parser.add_argument("--power", type=float, default=0.5, help="rewards are points to this power")
-parser.add_argument("--policy", default="", help="begin with this policy, .npz")
-parser.add_argument("--init", default="", help="go on from this state, .pt")
+begins = parser.add_mutually_exclusive_group()
+begins.add_argument("--policy", default="", help="begin with this policy, .npz")
+begins.add_argument("--init", default="", help="go on from this state, .pt")
 parser.add_argument("--state", default="", help="file for the state of the training, .pt")
 parser.add_argument("--out", default="", help="file for the policy, .npz")
 parser.add_argument("--curve", default="", help="file for the learning curve, .csv")
@@ -119,8 +121,19 @@ def store(path: str) -> None:
 
 def begin_with(path: str) -> tuple[torch.Tensor, torch.Tensor]:
     """Begin with a policy, and return the scales of the features that are seen while it plays."""
+    try:
+        policy = MissionPolicy.load(path)
+        policy.check(vectors[0].games.books, vectors[0].batch.boards.board)
+    except SilverballError as error:
+        parser.error(f"--policy: {error}")
+    widths = [biases.size for _, biases in policy.layers]
+    if widths != [chosen.width, chosen.width, ACTIONS]:
+        parser.error(
+            f"--policy {path}: its layers have {widths} outputs, expected {[chosen.width] * 2 + [ACTIONS]}: "
+            f"add --width {widths[0]}, or give a policy of two equal hidden layers"
+        )
     own = (net.first, net.second, net.last)
-    for layer, (weights, biases) in zip(own, MissionPolicy.load(path).layers, strict=True):
+    for layer, (weights, biases) in zip(own, policy.layers, strict=True):
         layer.weight.data = torch.from_numpy(weights.T / SCALE).float().contiguous()
         layer.bias.data = torch.from_numpy(biases / SCALE).float()
     total, squares = torch.zeros(inputs, dtype=torch.float64), torch.zeros(inputs, dtype=torch.float64)

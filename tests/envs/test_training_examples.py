@@ -117,3 +117,28 @@ def test_a_training_that_goes_on_from_a_policy_begins_with_its_outputs(tmp_path,
     features = example["look"]().numpy().astype(float)
     before, after = own._network.outputs(features), later._network.outputs(features)
     np.testing.assert_allclose(after, before, atol=0.02 * np.abs(before).max())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--policy", "missing.npz"), "missing.npz"),
+        (("--policy", "empty.npz"), "empty.npz is not a policy"),
+        (("--policy", "own.npz", "--width", "64"), "add --width 192"),
+        (("--policy", "own.npz", "--init", "state.pt"), "not allowed with"),
+    ],
+)
+def test_a_policy_that_a_training_cannot_begin_with_is_refused_in_a_sentence(
+    arguments, words, tmp_path, monkeypatch, capsys
+):
+    skip_without_packages("train_missions.py")
+    from silverball.players.mission_policy import mission_policy
+
+    mission_policy().save(tmp_path / "own.npz")
+    (tmp_path / "empty.npz").write_bytes(b"")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["train_missions.py", "--envs", "4", *arguments])
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_path(str(EXAMPLES / "train_missions.py"))
+    assert ended.value.code == 2
+    assert words in capsys.readouterr().err

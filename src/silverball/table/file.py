@@ -50,7 +50,7 @@ def table_names() -> tuple[str, ...]:
 
 
 def load_table(name_or_path: str | os.PathLike[str]) -> Table:
-    """Load a table and check it.
+    """Load a table; a file is checked.
 
     Args:
         name_or_path: A built-in name (see `table_names`) or the path of a ``.toml`` file.
